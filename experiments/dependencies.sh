@@ -1,5 +1,5 @@
-# Sourced by tests/run and experiments/reproduce: installs what is missing, once, and says what it does.
-# Package names: Debian 12, tried; Ubuntu 24.04 has the same names, untried.
+# Functions for tests/run and experiments/reproduce that install missing packages and build. The names of packages were
+# tested on Debian 12; Ubuntu 24.04 has the same names but was not tested.
 
 packages=(
   build-essential cmake ninja-build git ca-certificates
@@ -10,8 +10,8 @@ packages=(
   libexpat1-dev libminizip-dev
   libegl1 libgl1 libgl1-mesa-dri libxrender1
 )
-# Only where the Python package index can't be reached: pictures of meshes are left out then, curves are drawn with
-# these.
+# Used only if the Python package index can't be reached: curves are drawn with these packages, pictures of meshes are
+# left out.
 fallback_packages=(python3-matplotlib python3-numpy python3-h5py python3-jsonschema)
 
 say() { printf '%s\n' "$*" >&2; }
@@ -43,7 +43,7 @@ install_packages() {
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
 }
 
-# Sets $python, and OGC_PYTHON for the build, to an interpreter with what plots need, as far as it can be had.
+# Sets $python, and OGC_PYTHON for the build, to an interpreter with as many of the plots' packages as possible.
 prepare_python() {
   find_python "$1" || return 1
   export OGC_PYTHON=$python
@@ -72,22 +72,22 @@ find_python() {
   python=/usr/bin/python3
 }
 
-seconds_between_lines=30  # of a build that nobody watches
+seconds_between_lines=30  # of a build without a terminal
 
-# Whether a build folder was configured with CUDA, or without, as OGC_CUDA says; true where that is empty.
+# Returns whether a build folder was configured with or without CUDA, as OGC_CUDA requires; true if OGC_CUDA is empty.
 has_cuda_as_asked() {
   [ -z "${OGC_CUDA:-}" ] || grep -q "^OGC_CUDA:[A-Z]*=$OGC_CUDA\$" "$1/CMakeCache.txt"
 }
 
-# Says how far a build is until it is killed or the shell that began it ends: watch_build <log>. On a terminal one
-# line that is redrawn, else lines.
+# watch_build LOG: shows the progress of a build until the watcher is killed or its parent shell ends. A terminal gets
+# one line that is redrawn, a file gets several lines.
 watch_build() {
   local log=$1 begun=$SECONDS said=$SECONDS line count left
   while sleep 1 && kill -0 $$ 2>/dev/null; do
     count=$(tail -c 4000 "$log" 2>/dev/null | grep -oE '^\[[0-9]+/[0-9]+\]' | tail -n 1 | tr -d '[]' || true)
     [ -n "$count" ] || continue
     line="building ${count%/*} of ${count#*/}"
-    # Half a minute tells how fast it goes; what was compiled before is there at once.
+    # The first half minute is not extrapolated, because objects that were compiled before finish at once.
     if [ $((SECONDS - begun)) -ge "$seconds_between_lines" ] && [ "${count%/*}" -gt 0 ]; then
       left=$(((SECONDS - begun) * (${count#*/} - ${count%/*}) / ${count%/*}))
       if [ $left -lt 90 ]; then line+=", about $left s left"; else line+=", about $(((left + 30) / 60)) min left"; fi
@@ -101,7 +101,7 @@ watch_build() {
   done
 }
 
-# Configures and builds: build <root> <preset> [targets…]; says how far it is, and what failed.
+# build ROOT PRESET [TARGETS…]: configures and builds; shows the progress, and the errors if it fails.
 build() {
   local root=$1 preset=$2 log watcher status=0
   shift 2

@@ -1,6 +1,6 @@
-"""Draws the results of `ogc ablate`: a panel for each metric, a row for each setting with the median of its runs and
-their range. Usage: python3 -m plots.ablation FOLDER [OUT.png]; the folder holds ablation_medians.csv, the picture is
-written there."""
+"""Draws the results of `ogc ablate`: a panel for each metric, and in it a row for each setting with the median and the
+range of its runs. Usage: python3 -m plots.ablation FOLDER [OUT.png]. The folder contains ablation_medians.csv; by
+default the picture is written there."""
 
 import csv
 import math
@@ -10,7 +10,7 @@ from pathlib import Path
 from plots import style
 
 TABLE = "ablation_medians.csv"
-AFTER_AXES = "unit"  # columns before it: the metric, and the varied settings
+AFTER_AXES = "unit"  # columns before this one: the metric, and the varied settings
 COLUMNS = 3
 
 
@@ -39,13 +39,13 @@ def read(folder):
 
 
 def differing(metrics):
-    """Returns the metrics without those that have one value in every run."""
+    """Returns the metrics whose values differ between runs."""
     return {name: (unit, settings) for name, (unit, settings) in metrics.items()
             if len({number for numbers in settings.values() for number in numbers}) > 1}
 
 
 def draw_metric(axes, name, unit, settings, has_names):
-    """Draws the settings from top to bottom, with the first one's range shaded: a range that overlaps it shows no
+    """Draws the settings from top to bottom and shades the first one's range: a range that overlaps it shows no
     difference."""
     for place, (median, smallest, largest) in enumerate(settings.values()):
         colour = style.COLOURS[place % len(style.COLOURS)]

@@ -5,7 +5,7 @@ FORMER_COLUMNS = {"vertices_at_bound": "vertices_cut", "share_at_bound": "share_
 
 
 def column_and_unit(title):
-    """Returns ("wall", "ms") for the title "wall [ms]"; a column of run format 1 gets its current name."""
+    """Returns ("wall", "ms") for the title "wall [ms]". A column of run format 1 gets its current name."""
     name, _, unit = title.partition("[")
     name = name.strip()
     return FORMER_COLUMNS.get(name, name), unit.rstrip("] ").strip()

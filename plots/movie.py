@@ -15,7 +15,7 @@ from plots.run_folder import Run, RunError
 from plots.scene_figure import bodies_of, draw_movie, is_cloth
 
 UP, TOWARDS_EYE = (0, 1, 0), np.array([0.55, 0.35, 1.0])
-DISTANCE = 2.2  # distance of the eye, in diagonals of the box around the moving bodies
+DISTANCE = 2.2  # distance of the eye in diagonals of the box around the moving bodies
 
 
 def camera_of(run):
@@ -44,7 +44,7 @@ def main():
         camera, out = camera_of(run), options.out or run.folder / "movie.mp4"
         draw_movie(run, camera, out)
         if options.picture:
-            from PIL import Image  # comes with the renderer
+            from PIL import Image  # a dependency of the renderer
             Image.fromarray(render.picture(bodies_of(run, run.frame(run.frames[-1])), camera)).save(options.picture)
     except RunError as error:
         sys.exit(f"movie: {error}")

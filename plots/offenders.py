@@ -1,5 +1,5 @@
 """Draws what intersects, from a file that `ogc audit --show` wrote: inside the whole mesh where that is named, and from
-near. Triangles are vermilion, edges that meet one blue, the rest grey.
+near. Triangles are vermilion, edges that intersect one are blue, and the rest is grey.
 
 Usage: python3 -m plots.offenders crossings/frame_3.vtp [--mesh frame_3.obj] [--out PNG]
 """
@@ -10,16 +10,15 @@ from pathlib import Path
 
 from plots import render
 
-FROM = (1, 0.7, 1)  # the direction of view
+FROM = (1, 0.7, 1)  # direction of view
 
 
 def draw(part, whole, out):
-    """Draws the intersections. `part`: the file of `ogc audit --show`; `whole`: the file of the mesh, or None; `out`:
-    the PNG."""
+    """Draws the intersections. `part`: file of `ogc audit --show`; `whole`: file of the mesh, or None; `out`: PNG."""
     import pyvista as pv
     from vtkmodules.vtkCommonCore import vtkLogger
 
-    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # hides the message that there is no display
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # hides VTK's message that there is no display
     offenders = pv.read(part)
     around = [] if whole is None else [pv.read(whole).extract_surface(algorithm=None)]
     plotter = pv.Plotter(off_screen=True, shape=(1, 1 + len(around)), window_size=(640 * (1 + len(around)), 480))

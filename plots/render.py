@@ -14,10 +14,10 @@ def available():
 
 def picture(bodies, camera, size=(640, 480)):
     """Returns an RGB image of `bodies`, each (points [n, 3], triangles [m, 3], front colour, back colour), seen from
-    camera = (eye, target, up). In place of the front colour a body may have the RGB of each point [n, 3]: a closed
-    surface, whose back is never visible.
+    camera = (eye, target, up). The front colour may be an array with the RGB of each point [n, 3] if the body is a
+    closed surface, whose back is never visible.
 
-    Front and back of a sheet have different colours, so that folds are visible; ambient occlusion makes contacts
+    Front and back of sheets have different colours, so that folds are visible; ambient occlusion makes contacts
     readable.
     """
     import pyvista as pv
@@ -35,7 +35,7 @@ def picture(bodies, camera, size=(640, 480)):
                   else {"scalars": front, "rgb": True})
         plotter.add_mesh(mesh, smooth_shading=True, ambient=0.25, diffuse=0.85, specular=0.1, **colour)
     extent = np.linalg.norm(np.ptp(np.concatenate([points for points, *_ in bodies]), axis=0))
-    # a near camera sees a part of the scene; the scale of ambient occlusion is limited to that part
+    # a close camera sees only a part of the scene, which limits the scale of ambient occlusion
     extent = min(extent, 2 * np.linalg.norm(np.subtract(camera[0], camera[1])))
     plotter.enable_ssao(radius=0.05 * extent, bias=0.001 * extent, kernel_size=64, blur=True)
     plotter.enable_anti_aliasing("ssaa")
@@ -46,7 +46,7 @@ def picture(bodies, camera, size=(640, 480)):
 
 
 def write_movie(scenes, camera, out, frames_per_second, size=(640, 480)):
-    """Writes an MP4 (H.264) with a picture of each element of `scenes`, which has the form of `bodies` of `picture`.
+    """Writes an MP4 (H.264) with a picture of each element of `scenes`; elements are like `bodies` of `picture`.
     Returns the result of `available`."""
     usable, reason = available()
     try:

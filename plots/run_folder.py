@@ -1,5 +1,4 @@
-"""Reads run folders (format of the data: experiments/README.md, "Read a run"). Reports in words what is missing,
-instead of drawing nonsense."""
+"""Reads run folders (format of the data: experiments/README.md, "Read a run"). Missing data are reported in words."""
 
 import csv
 import json
@@ -15,13 +14,13 @@ from plots.columns import column_and_unit
 
 
 class RunError(Exception):
-    """Raised if a run folder can't be drawn; the message says what, where and what to do."""
+    """Raised if a run folder can't be drawn; the message names the problem, its place and the remedy."""
 
 
 @dataclass
 class Frame:
-    """Holds one stored state; positions [m], velocities [m/s], bounds [m], orientations [segments of rods, 4] as x, y,
-    z, w."""
+    """Holds one stored state: positions [m], velocities [m/s], bounds [m], orientations of rods' segments [n, 4] as x,
+    y, z, w."""
 
     step: int
     time: float
@@ -47,7 +46,7 @@ class Run:
         self.frames = sorted((self.folder / "frames").glob("frame_*.h5"))
 
     def _take_audit(self, path):
-        """Takes the result of an audit after the run as if it had been made beside the run."""
+        """Applies the result of an audit after the run as if it had been made during the run."""
         found = json.loads(path.read_text()) if path.is_file() else {"states": 0}
         if found["states"]:
             kept = self.manifest.get("guarantee_kept") is not False and found["clean"]
@@ -72,9 +71,9 @@ class Run:
         return self.manifest["settings"][name]["value"]
 
     def bodies(self):
-        """Returns the scene's bodies as in run.json, each with its own `triangles` [n, 3], numbered from the body's
-        first vertex. A rod also has `segments` [n, 2], numbered in the same way, and `first_segment`, the place of its
-        first orientation."""
+        """Returns the scene's bodies as in run.json, each with `triangles` [n, 3] numbered from the body's first
+        vertex. A rod also has `segments` [n, 2], numbered in the same way, and `first_segment`, the index of its first
+        orientation."""
         path = self.folder / "trajectory.vtkhdf"
         if not path.is_file():
             raise RunError(f"{path} is missing: the run is not finished; assemble it with: ogc export {self.folder}")
@@ -123,8 +122,8 @@ class Run:
 
 
 def commits_in_words(runs):
-    """Returns the commit of the program that made `runs`. If there are several, it names the run of each, because the
-    picture then compares programs, too."""
+    """Returns the commit of the program that made `runs`. If there are several, the text names the run of each, because
+    the picture then also compares programs."""
     commits = [run.manifest["commit"][:10] + (" (dirty)" if run.manifest.get("dirty") else "") for run in runs]
     if len(set(commits)) == 1:
         return f"commit {commits[0]}"
@@ -134,7 +133,7 @@ def commits_in_words(runs):
 
 def _checksum(frame):
     """Returns the CRC-32 of the bytes of positions, velocities, bounds, step, time and orientations, in the order of
-    the file's writer."""
+    the writer."""
     step, time = np.array(frame.step, "<i8"), np.array(frame.time, "<f8")
     result = 0
     for part in (frame.positions, frame.velocities, frame.bounds, step, time, frame.orientations):

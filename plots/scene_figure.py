@@ -4,20 +4,20 @@ movie."""
 import json
 from pathlib import Path
 
-import h5py  # noqa: F401  (a missing reader should be reported before anything is drawn)
+import h5py  # imported first, so that a missing reader is reported before anything is drawn
 import numpy as np
 
 from plots import render, style, yarn
 from plots.run_folder import RunError, commits_in_words
 
-UNEVEN = 100  # ratio of the longest step to the median one above which times are drawn on a logarithmic axis
+UNEVEN = 100  # longest step over median step above which times have a logarithmic axis
 NEAR = (1280, 560)  # pixels of a picture as wide as the figure
 BOUNDS = {"planes": "bounds by planes", "dat": "bounds by planes of Divide and Truncate", "off": "without bounds"}
 YARNS = ("#0072B2", "#D55E00", "#009E73")
 
 
 def load_claims(path, backend):
-    """Returns what the paper claims about a scene on a backend: {quantity: (value, machine)}; empty if nothing."""
+    """Returns the paper's claims about a scene on a backend: {quantity: (value, machine)}; empty if there are none."""
     path = Path(path)
     if not path.is_file():
         return {}
@@ -26,13 +26,13 @@ def load_claims(path, backend):
 
 
 def is_cloth(body):
-    """Returns whether a body of the manifest is simulated: neither fixed nor wholly prescribed."""
+    """Returns whether a body is simulated, that is neither fixed nor wholly prescribed."""
     return not body["fixed"] and body.get("prescribed_vertices") != body["vertex_count"]
 
 
 def bodies_of(run, frame):
-    """Returns the bodies in the form of `render.picture`, with the frame's positions; fixed and wholly prescribed
-    bodies are grey, rods are tubes with plies."""
+    """Returns the bodies as `render.picture` takes them, at the frame's positions. Fixed and wholly prescribed bodies
+    are grey; rods are tubes with plies."""
     fronts, backs = ["#56B4E9", "#009E73", "#CC79A7"], ["#E69F00", "#D55E00", "#F0E442"]
     result, cloth = [], 0
     for body in run.bodies():
@@ -51,7 +51,7 @@ def bodies_of(run, frame):
 
 
 def yarn_of(run, body, frame):
-    """Returns a rod in the form of `render.picture`; each of its chains has a colour."""
+    """Returns a rod as `render.picture` takes it, with a colour for each of its chains."""
     first, count, segments = body["first_vertex"], body["vertex_count"], body["segments"]
     start = run.start_positions[first:first + count].astype(float)
     lengths = np.linalg.norm(start[segments[:, 1]] - start[segments[:, 0]], axis=1)
@@ -63,14 +63,14 @@ def yarn_of(run, body, frame):
     angles = yarn.angles_of(chains, lengths, yarn.PITCH * diameter)
     points = frame.positions[first:first + count]
     orientations = frame.orientations[body["first_segment"]:body["first_segment"] + len(segments)].astype(float)
-    if not len(orientations):  # the start of a scene without orientations: frames follow from its rest shape
+    if not len(orientations):  # the start of a scene without orientations; frames follow from its rest shape
         orientations = yarn.untwisted(chains, points.astype(float), segments)
     return (*yarn.tubes(points, segments, orientations, angles, diameter, colours), None)
 
 
 def draw_time(axes, run, claims, profiled):
-    """Draws the time of each step of `run`. Behind it, if `profiled` was profiled, it draws the times by stage of that
-    run, whose sum is larger because of a synchronisation after each stage."""
+    """Draws the time of each step of `run`. Behind it, if `profiled` has times by stage, draws these; their sum is
+    larger, because profiling synchronises after each stage."""
     stages = profiled.stage_columns()
     if stages:
         axes.stackplot(profiled.column("step"), list(stages.values()),
@@ -88,7 +88,7 @@ def draw_time(axes, run, claims, profiled):
         axes.legend(fontsize=6.5, ncols=2, loc="upper left")
     elif stages:
         axes.legend(fontsize=6.5, ncols=2)
-    else:  # above the run's line: the paper's lines lie at the bottom where we are slow, and would be drawn over
+    else:  # above the run's line: where we are slow, the paper's lines lie at the bottom and would cover the legend
         axes.set_ylim(0, 1.25 * axes.get_ylim()[1])
         axes.legend(fontsize=6.5, ncols=2, loc="upper left")
 
@@ -103,7 +103,7 @@ def draw_detections(axes, run):
 
 
 def draw_lag(axes, run):
-    """Draws the lag; of a run that never lagged only the axis."""
+    """Draws the lag; if the run never lagged, only the axis."""
     axes.plot(run.column("step"), 1e3 * run.column("largest_lag"), label="of the prescribed vertex that lags most")
     axes.axhline(1e3 * run.setting("contact_radius"), color="black", linestyle="--", linewidth=0.8,
                  label=f"contact radius r = {1e3 * run.setting('contact_radius'):g} mm")
@@ -127,7 +127,7 @@ def draw_distance(axes, run):
                  label=f"contact radius r = {1e3 * radius:g} mm")
     axes.axhline(5e2 * radius, color="black", linestyle=":", linewidth=0.8, label="τ = r/2")
     axes.set(xlabel="step", ylabel="distance [mm]", title="Smallest distance of non-adjacent primitives")
-    if 0 < distance.min() < radius / 100:  # on a linear axis it would look like an intersection
+    if 0 < distance.min() < radius / 100:  # a linear axis would make it look like an intersection
         axes.set_yscale("log")
     else:
         axes.set_ylim(0, None)
@@ -148,7 +148,7 @@ def draw_frames(figure, grid, run, steps, camera):
 
 
 def draw_near(axes, run, frame, camera):
-    """Draws the frame from near, as wide as the figure."""
+    """Draws a close view of the frame, as wide as the figure."""
     axes.axis("off")
     axes.set_title(f"step {frame.step}, from near")
     usable, reason = render.available()
@@ -159,8 +159,8 @@ def draw_near(axes, run, frame, camera):
 
 
 def draw_movie(run, camera, out, most=160, frames_per_second=24, shortest=5):
-    """Writes an MP4 of a finished run's stored frames; of every second, third … if there are more than `most`. It runs
-    so slowly that a few frames last `shortest` seconds. Throws RunError like `draw`."""
+    """Writes an MP4 of a finished run's stored frames. If there are more than `most`, takes only every second, third …
+    of them. The movie lasts at least `shortest` seconds, even with few frames. Throws RunError like `draw`."""
     run.require_finished()
     chosen = run.frames[::-(-len(run.frames) // most)]
     frames = (bodies_of(run, run.frame(path)) for path in chosen)
@@ -181,11 +181,11 @@ def headline(run):
 
 
 def draw(run, frames, camera, claims, out, profiled=None, driven=False, near=None):
-    """Draws the whole figure into `out` (PNG, and PDF beside it). Throws RunError for a run that is unfinished or
+    """Draws the whole figure into `out` (PNG, and a PDF beside it). Throws RunError for a run that is unfinished or
     failed its audit.
 
-    `profiled`: the same scene run with --profile, for the times by stage; None: `run` itself. `driven`: shows lag in
-    place of detections. `near`: a camera for the last of the `frames`, as a function of its positions.
+    `profiled`: a run of the same scene with --profile, for the times by stage; None: `run` itself. `driven`: shows lag
+    instead of detections. `near`: a function from positions to a camera for a close view of the last of the `frames`.
     """
     run.require_finished()
     plt = style.use()

@@ -11,12 +11,13 @@ import numpy as np
 
 from plots.run_folder import RunError, Run
 
-COLLAPSED = 1e-3  # share of the area in the run's first frame
+COLLAPSED = 1e-3  # share of the triangle's area in the run's first frame
 
 
 def standing(positions, bounds):
-    """Returns whether a vertex's bound is below the spacing at its smallest coordinate (it can't move at all), and
-    whether it is below that at its largest one (it can't move along that one)."""
+    """Returns for each vertex whether its bound is below the spacing of numbers at its smallest coordinate, so that it
+    can't move at all, and whether it is below the spacing at its largest coordinate, so that it can't move along that
+    one."""
     spacing = np.spacing(np.abs(np.asarray(positions, dtype=np.float32)))
     return bounds < spacing.min(axis=1), bounds < spacing.max(axis=1)
 
@@ -27,7 +28,7 @@ def areas(positions, triangles):
 
 
 def beside(triangles, collapsed, vertices):
-    """Returns for each vertex whether it is a corner of a collapsed triangle, or the neighbour of one."""
+    """Returns for each vertex whether it, or one of its neighbours, is a corner of a collapsed triangle."""
     corner = np.zeros(vertices, dtype=bool)
     corner[triangles[collapsed]] = True
     near = corner.copy()
@@ -36,9 +37,9 @@ def beside(triangles, collapsed, vertices):
 
 
 def rows(run):
-    """Returns a row for each frame after a detection, for the bodies that move: step; shares of vertices that can't
-    move and that can't move along their largest coordinate; of triangles that have collapsed; and of vertices beside
-    one, among the second kind and among all."""
+    """Yields a row for each frame after a detection, over the bodies that move: step, share of vertices that can't
+    move, share that can't move along their largest coordinate, share of collapsed triangles, and the share of vertices
+    beside one, among the second kind of vertices and among all."""
     bodies = run.bodies()
     moves = np.concatenate([np.full(body["vertex_count"], not body["fixed"]) for body in bodies])
     triangles = np.concatenate([body["triangles"] + body["first_vertex"] for body in bodies if not body["fixed"]])

@@ -1,4 +1,4 @@
-"""Defines the style of all figures: colours that are distinct in colour-blindness and grey print, units on all axes,
+"""Defines the style of all figures: colours that differ in colour-blindness and in grey print, units on all axes,
 vector text."""
 
 from pathlib import Path
@@ -6,7 +6,7 @@ from pathlib import Path
 import matplotlib
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # the backend is chosen first, so that no display is needed
+import matplotlib.pyplot as plt  # the backend is chosen before this import, so that no display is needed
 
 # Okabe and Ito's palette, ordered so that the lightness differs from neighbour to neighbour.
 COLOURS = ["#0072B2", "#E69F00", "#009E73", "#D55E00", "#56B4E9", "#CC79A7", "#000000"]

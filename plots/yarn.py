@@ -1,5 +1,5 @@
-"""Builds the shape in which yarn is drawn: tubes around the segments of rods with two plies, which lie on a helix fixed
-in the material. It turns with the segments' orientations, so that twist is visible.
+"""Builds the drawn shape of yarn: tubes around the segments of rods, with two plies on a helix that is fixed in the
+material. The helix turns with the segments' orientations, so that twist is visible.
 """
 
 from itertools import chain
@@ -7,16 +7,17 @@ from itertools import chain
 import numpy as np
 
 PLIES = 2
-PITCH = 5  # length of a ply's turn in diameters
-PIECES_A_TURN = 8  # pieces of a long segment, so that its helix stays visible
+PITCH = 5  # length of a turn of a ply in diameters
+PIECES_A_TURN = 8  # pieces of a long segment in each turn, so that its helix stays visible
 GROOVE = 0.3  # depth of the groove between the plies, in radii
-OVERLAP = 0.2  # overlap of the tubes of neighbours, in radii, so that no gap shows
-SIDES, MANY, SIDES_OF_MANY = 24, 20_000, 10  # sides of a tube; fewer if there are more segments than MANY
+OVERLAP = 0.2  # overlap of neighbouring tubes in radii, so that no gap shows
+SIDES, MANY, SIDES_OF_MANY = 24, 20_000, 10  # sides of a tube; fewer if there are more than MANY segments
 
 
 def chains(segments, count):
-    """Returns the segments [n, 2] of `count` vertices in chains of (segment, 1, or -1 if it is traversed against its
-    direction). A chain ends where not exactly two segments meet; a ring begins anywhere."""
+    """Returns the segments [n, 2] of `count` vertices as chains of (segment, direction); the direction is 1, or −1 if
+    the chain traverses the segment backwards. A chain ends where not exactly two segments meet. A ring begins
+    anywhere."""
     at_vertex = [[] for _ in range(count)]
     for e, ends in enumerate(segments.tolist()):
         for vertex in ends:
@@ -40,14 +41,14 @@ def chains(segments, count):
 
 
 def angles_of(chains_of, lengths, pitch):
-    """Returns the angle of the first ply's helix at both ends of each segment [n, 2], about its own direction;
-    `lengths` [n]."""
+    """Returns the angles of the first ply's helix at both ends of each segment [n, 2], about the segment's direction.
+    `lengths`: [n]."""
     result = np.zeros((len(lengths), 2))
     for links in chains_of:
         numbers, along = (np.array(part) for part in zip(*links))
         ways = np.concatenate([[0], np.cumsum(lengths[numbers])]) / pitch * 2 * np.pi
         first, last = ways[:-1], ways[1:]
-        # Traversed backwards, the same helix has the same hand, so the arc length counts backwards.
+        # A helix has the same hand in both directions, so the arc length of a backward segment counts backwards.
         result[numbers] = np.where(along[:, None] > 0, np.stack([first, last], 1), -np.stack([last, first], 1))
     return result
 
@@ -60,8 +61,8 @@ def rotated(quaternions, axis):
 
 
 def untwisted(chains_of, positions, segments):
-    """Returns orientations without twist [n, 4]: along each chain a frame is turned by the smallest rotation, like a
-    rod's frames at rest (compare/rods.md, "Rest data"); the first one starts from the axes."""
+    """Returns orientations without twist [n, 4]. Along each chain the smallest rotation turns the frame of a segment
+    into the next, like a rod's frames at rest (compare/rods.md, "Rest data"); the first frame starts from the axes."""
     directions = _unit(positions[segments[:, 1]] - positions[segments[:, 0]])
     result = np.empty((len(segments), 4))
     for links in chains_of:
@@ -73,7 +74,7 @@ def untwisted(chains_of, positions, segments):
 
 
 def _smallest_rotation(a, b):
-    """Returns the quaternion [1, 4] that rotates the unit vector a to b; half a turn if they are opposite."""
+    """Returns the quaternion [1, 4] that rotates the unit vector a to b, by half a turn if they are opposite."""
     w = 1 + a @ b
     axis = np.cross(a, b) if w > 1e-12 else np.cross(a, np.eye(3)[np.argmin(np.abs(a))])
     q = np.append(axis, max(w, 0) if w > 1e-12 else 0)
@@ -93,7 +94,7 @@ def _unit(vectors):
 
 def _mitres(segments, directions, count):
     """Returns the normals of the planes in which tubes end [n, 2, 3]: the mean of both directions where two segments
-    meet, the segment's own direction elsewhere."""
+    meet, elsewhere the segment's own direction."""
     normals = np.repeat(directions[:, None], 2, axis=1)
     meeting = np.bincount(segments.ravel(), minlength=count)
     ordered = np.argsort(segments.ravel(), kind="stable")
@@ -102,7 +103,7 @@ def _mitres(segments, directions, count):
     away = lambda at: directions[at // 2] * np.where(at % 2 == 0, 1, -1)[:, None]  # noqa: E731
     middle = away(a) - away(b)
     flat = normals.reshape(-1, 3)
-    usable = np.linalg.norm(middle, axis=1) >= 1  # beyond a turn of 120° a mitre would be long
+    usable = np.linalg.norm(middle, axis=1) >= 1  # for a turn of more than 120° a mitre would be long
     for at in (a, b):
         own = np.where(at % 2 == 0, 1, -1)[:, None]
         toward = _unit(middle) * np.where(np.sum(middle * away(at), axis=1) < 0, -1, 1)[:, None] * own
@@ -111,8 +112,8 @@ def _mitres(segments, directions, count):
 
 
 def tubes(positions, segments, orientations, angles, diameter, colours):
-    """Returns (points, triangles, RGB of each point) of the tubes. `angles` [n, 2]: of the helix at both ends
-    (angles_of); `colours` [n, PLIES, 3]: of each segment's plies."""
+    """Returns (points, triangles, RGB of each point) of the tubes. `angles` [n, 2]: angles of the helix at both ends
+    (angles_of). `colours` [n, PLIES, 3]: colours of each segment's plies."""
     radius, count = diameter / 2, len(segments)
     ends = positions[segments].astype(float)
     directions = _unit(ends[:, 1] - ends[:, 0])
@@ -139,7 +140,7 @@ def tubes(positions, segments, orientations, angles, diameter, colours):
 
 
 def _triangles(count, pieces, sides):
-    """Returns the triangles of `count` tubes of so many pieces, whose rings of points are consecutive."""
+    """Returns the triangles of `count` tubes with this number of pieces, whose rings of points are consecutive."""
     ring, side = np.meshgrid(np.arange(pieces), np.arange(sides), indexing="ij")
     a, b = ring * sides + side, ring * sides + (side + 1) % sides
     one = np.stack([a, b, a + sides, b, b + sides, a + sides], axis=-1).reshape(-1, 3)
@@ -147,6 +148,6 @@ def _triangles(count, pieces, sides):
 
 
 def plies_of(colour):
-    """Returns the RGB of a yarn's two plies [2, 3]: the colour and a lighter one of its hue."""
+    """Returns the RGB of a yarn's two plies [2, 3]: the given colour and a lighter one of the same hue."""
     dark = np.array([int(colour[i:i + 2], 16) for i in (1, 3, 5)])
     return np.stack([dark, 255 - (255 - dark) * 0.3])

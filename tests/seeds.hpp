@@ -1,5 +1,5 @@
-// Holds the seeds of random tests. One never changes, so that a failure can be repeated; one is new each day, so that
-// more cases are tried over time.
+// Provides the seeds of random tests. A fixed seed makes failures reproducible; a daily seed covers more cases over
+// time.
 #pragma once
 
 #include <chrono>
@@ -8,7 +8,7 @@
 
 namespace ogc::tests {
 
-/// Returns the day as yyyymmdd, in UTC, and prints it beside the name of the test that takes it.
+/// Returns the UTC date as yyyymmdd and prints it beside the name of the test.
 inline std::uint64_t daily_seed(const char* what) {
   const auto now = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
   const std::chrono::year_month_day day(now);

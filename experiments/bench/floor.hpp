@@ -1,5 +1,5 @@
-// Computes the least time that a machine needs for counted work: no order of work is faster. Only machines whose limits
-// were measured have one.
+// Computes the least time that a machine needs for counted work; no order of the work is faster. Only machines whose
+// limits were measured have a floor.
 #pragma once
 
 #include <algorithm>
@@ -10,12 +10,12 @@
 
 namespace ogc::experiments {
 
-/// Limits of a device, for the floors of a step.
+/// Holds the limits of a device, from which the floors of a step are computed.
 struct MachineLimits {
   double flop_per_second = 0;  ///< in single precision
-  /// `cache_bytes`: most bytes that stay in the cache of the device
+  /// `cache_bytes`: largest amount of data that stays in the device's cache
   double cache_bytes = 0, cache_bytes_per_second = 0, memory_bytes_per_second = 0;
-  double seconds_between_colours = 0;  ///< from the end of a kernel in a graph to the start of the next
+  double seconds_between_colours = 0;  ///< from the end of one kernel of a graph to the start of the next
 };
 
 /// Returns the limits of an H200: 132 multiprocessors × 128 fused multiply-adds × 1.98 GHz; bandwidths and the shortest
@@ -25,15 +25,15 @@ inline std::optional<MachineLimits> limits_of(const std::string& device) {
   return MachineLimits{132 * 128 * 2 * 1.98e9, 40e6, 7.1e12, 4.4e12, 0.43e-6};
 }
 
-/// Returns the floor of one iteration of the sweep [s]: the time of its arithmetic or of its bytes, whichever is
-/// larger, and an edge of the graph for each colour.
+/// Returns the floor of one iteration of the sweep [s]: the larger of the times for its arithmetic and its bytes, plus
+/// the gap between two kernels of a graph for each colour.
 inline double sweep_floor(const MachineLimits& machine, const fast::SweepWork& work, double flop, double bytes) {
   const double rate = bytes <= machine.cache_bytes ? machine.cache_bytes_per_second : machine.memory_bytes_per_second;
   return std::max(flop / machine.flop_per_second, bytes / rate) + work.colours * machine.seconds_between_colours;
 }
 
-/// Returns the floor of the searches of one detection [s]: the time of their arithmetic or of their bytes, all from the
-/// cache, whichever is larger. Double precision, which takes twice as long, counts as single.
+/// Returns the floor of the searches of one detection [s]: the larger of the times for their arithmetic and their
+/// bytes, if the cache holds all bytes. Double precision takes twice as long but counts as single precision.
 inline double search_floor(const MachineLimits& machine, const fast::SearchWork& work) {
   return std::max(work.flop / machine.flop_per_second, work.bytes / machine.cache_bytes_per_second);
 }

@@ -11,19 +11,19 @@
 
 namespace ogc::experiments {
 
-/// Says what `ogc bench` measures.
+/// Selects what `ogc bench` measures.
 struct BenchOptions {
-  std::vector<fast::Backend> backends;  ///< backends whose parts are measured
-  std::string scale = "small";          ///< scale of the scenes
-  std::int64_t steps = 16;              ///< steps of a window
-  int repetitions = 4;                  ///< repetitions of each benchmark in a process
-  std::vector<std::string> states;      ///< frames of runs
+  std::vector<fast::Backend> backends;
+  std::string scale = "small";
+  std::int64_t steps = 16;          ///< steps of one repetition
+  int repetitions = 4;              ///< repetitions of each benchmark in each process
+  std::vector<std::string> states;  ///< frames of runs from which repetitions begin
 };
 
-/// A scene and the state in which its window begins.
+/// Holds a scene and the state from which its repetitions begin.
 struct BenchScene {
-  compare::Scene scene;                    ///< rounded
-  std::optional<compare::Snapshot> start;  ///< none: the scene's own start
+  compare::Scene scene;                    ///< rounded to single precision
+  std::optional<compare::Snapshot> start;  ///< empty: the scene's own start
 };
 
 /// Returns "cpu" or "cuda".

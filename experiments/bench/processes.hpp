@@ -1,6 +1,6 @@
-// Repeats a measurement in several processes. Repetitions inside one process share the placement of its memory and
-// whatever else a start decides: measured on 2 cores, a part of 16 us differed by 16 % between two starts of one
-// program, whose own repetitions agreed to 5 %. Only processes are samples of that noise.
+// Repeats a measurement in several processes, because only processes are independent samples of the noise. All
+// repetitions inside one process share its memory layout and whatever else its start decides. Measured on 2 cores: a
+// part of 16 us differed by 16 % between two starts of one program, while repetitions within each start agreed to 5 %.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,9 @@
 
 namespace ogc::experiments {
 
-/// Runs this program `count` times with `arguments` and `--json PART`, one after the other, and writes all results to
-/// `file`, each with its "process", in Google Benchmark's format. Throws std::runtime_error if one fails,
-/// compare::ResourceError if the file can't be written.
+/// Runs this program `count` times with `arguments` and `--json PART`, one run after the other. Writes all results to
+/// `file` in Google Benchmark's format, each with the number of its "process". Throws std::runtime_error if a run
+/// fails, and compare::ResourceError if the file can't be written.
 void bench_in_processes(const std::vector<std::string>& arguments, int count, const std::filesystem::path& file);
 
 }  // namespace ogc::experiments

@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 4> verdict_names{"faster", "slower", "no 
 
 std::string name_of(Verdict verdict) { return std::string(verdict_names[static_cast<std::size_t>(verdict)]); }
 
-/// Returns the name without the parts that tell how often it was measured.
+/// Removes the parts of a benchmark's name that describe how it was measured.
 std::string plain_name(const std::string& name) {
   std::string plain;
   for (std::size_t begin = 0; begin < name.size();) {
@@ -35,7 +35,7 @@ std::string plain_name(const std::string& name) {
   return plain;
 }
 
-/// Replaces NaN, which Google Benchmark prints as a spread of zeros and which is no JSON.
+/// Replaces NaN by null, because JSON has no NaN; Google Benchmark prints it as the spread of zeros.
 std::string without_nan(std::string text) {
   for (std::size_t at = 0; (at = text.find(": NaN", at)) != std::string::npos;) text.replace(at, 5, ": null");
   return text;

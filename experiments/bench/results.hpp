@@ -1,4 +1,4 @@
-// Reads result files of Google Benchmark (its own JSON), and compares two of them.
+// Reads Google Benchmark's result files (JSON) and compares two of them.
 #pragma once
 
 #include <filesystem>
@@ -12,25 +12,25 @@ namespace ogc::experiments {
 
 /// Holds the times of one result file.
 struct BenchResults {
-  /// by name [ns]: each process' median; for a single process each repetition
+  /// times by benchmark [ns]: the median of each process; for a single process, the time of each repetition
   std::map<std::string, std::vector<double>> times;
   int processes = 1;
   std::map<std::string, std::string> context;  ///< "device_cpu", "commit", …
 };
 
-/// Reads a result file. Throws compare::InputError that names the file if it is missing, no JSON, or no result of a
-/// benchmark.
+/// Reads a result file. Throws compare::InputError that names the file if it is missing, is no JSON, or is no result of
+/// a benchmark.
 BenchResults read_results(const std::filesystem::path& file);
-/// Returns the file's JSON as it stands. Throws compare::InputError as read_results does.
+/// Returns the file's JSON unchanged. Throws compare::InputError like read_results.
 Json parse_results(const std::filesystem::path& file);
 
-/// The change of one benchmark that both files have.
+/// Holds the change of one benchmark that both files have.
 struct BenchChange {
-  std::string name;                                   ///< of the benchmark
+  std::string name;                                   ///< name of the benchmark
   std::size_t samples_before = 0, samples_after = 0;  ///< times in each file
   double before_ns = 0, after_ns = 0;                 ///< medians
   double ratio = 1;                                   ///< after / before (typical_ratio)
-  double probability = 1;  ///< p of Mann–Whitney, corrected by Holm over all benchmarks of the comparison
+  double probability = 1;  ///< p of Mann–Whitney, corrected by Holm over all compared benchmarks
   enum class Verdict { faster, slower, none_found, too_few } verdict = Verdict::none_found;  ///< see compare_results
 };
 
@@ -39,7 +39,7 @@ struct BenchComparison {
   std::vector<BenchChange> changes;                  ///< by name
   std::vector<std::string> only_before, only_after;  ///< benchmarks that only one file has
   std::vector<std::string> differing_context;        ///< "device_cpu: 2 threads, then 16 threads"
-  /// false: one of the files is of a single process, and p does not cover what differs between starts
+  /// false: a file has only one process, so that p does not cover differences between starts
   bool is_of_processes = true;
   /// Returns whether any benchmark has become slower.
   bool has_slower() const;
@@ -48,8 +48,8 @@ struct BenchComparison {
 /// A benchmark changed if its corrected probability is below this.
 inline constexpr double significance = 0.01;
 
-/// Compares two result files; experiments/bench/rank_test.hpp judges the noise. `too_few`: no order of so many
-/// repetitions could be significant.
+/// Compares two result files by the rank test (experiments/bench/rank_test.hpp). `too_few`: with so few times no order
+/// could be significant.
 BenchComparison compare_results(const BenchResults& before, const BenchResults& after);
 
 /// Returns the comparison as text for people.

@@ -18,7 +18,7 @@ namespace {
 using compare::StepMetrics;
 using Rows = std::vector<StepMetrics>;
 
-/// Holds windows of one scene on one backend, one a repetition, and its counted work.
+/// Holds the repetitions of one scene on one backend, each a window of steps, and the counted work of the scene.
 class Windows {
  public:
   Windows(const BenchScene& from, fast::Backend backend, bool profile, std::int64_t steps)
@@ -27,7 +27,7 @@ class Windows {
     if (from.start) simulation_->restore(*from.start);
     start_ = simulation_->snapshot();
     start_.capacities.clear();
-    // Not measured: lists grow here, to a size that they keep, and a device records its graph.
+    // This first run is not measured: lists grow to their final size, and a device records its graph.
     simulation_->advance(steps_);
   }
 
@@ -41,7 +41,7 @@ class Windows {
   std::vector<std::string> stage_names() const { return simulation_->stage_names(); }
   std::string device() const { return simulation_->device(); }
   const fast::SweepWork& work() const { return work_; }
-  /// Returns the work of one detection at the state in which the windows end.
+  /// Returns the work of one detection at the end of the windows.
   const fast::SearchWork& searches() {
     if (!searches_) {
       const compare::Snapshot end = simulation_->snapshot();
@@ -60,8 +60,8 @@ class Windows {
   std::optional<fast::SearchWork> searches_;
 };
 
-/// Returns the windows of this key; keeps only the last ones, as scenes are large, and benchmarks of one scene follow
-/// each other.
+/// Returns the windows for this key. Keeps only the windows of the last key, because scenes are large and all
+/// benchmarks of a scene follow each other.
 Windows& windows_of(const std::string& key, const std::function<std::unique_ptr<Windows>()>& make) {
   static std::string last;
   static std::unique_ptr<Windows> windows;
@@ -79,7 +79,7 @@ double mean(const Rows& rows, const std::function<double(const StepMetrics&)>& o
   return rows.empty() ? 0 : sum / static_cast<double>(rows.size());
 }
 
-/// The counted work of a step, or of a part of one.
+/// Selects the counted work that belongs to a step or to a part of one.
 enum class Counted { nothing, sweep, searches, both };
 
 Counted counted_of(std::string_view stage) {
@@ -89,7 +89,7 @@ Counted counted_of(std::string_view stage) {
 
 double detections(const StepMetrics& row) { return static_cast<double>(row.discrete_detections); }
 
-/// Work of the mean step, and the floor under its time [s] if the machine's limits are known.
+/// Holds the work of the mean step, and its floor [s] if the machine's limits are known.
 struct Work {
   double flop = 0, bytes = 0, floor = 0;
 };
@@ -138,7 +138,7 @@ void count_steps(benchmark::State& state, const Rows& rows) {
   state.counters["repeats"] = mean(rows, [](const StepMetrics& row) { return static_cast<double>(row.repeats); });
 }
 
-/// Measures a repetition. `stage`: its index among the times of a row; none for the whole step.
+/// Reports the times of one repetition. `stage`: index of a part among the times of a row; empty for the whole step.
 void measure(benchmark::State& state, Windows& windows, std::size_t repetition, std::optional<std::size_t> stage,
              Counted counted) {
   const Rows& rows = windows.repetition(repetition);
@@ -166,7 +166,7 @@ class Registrar {
   }
 
  private:
-  /// Names and order of the fast path; checked when they are measured.
+  /// Names of the fast path's parts, in its order; checked when they are measured.
   static constexpr std::array<std::string_view, 5> stages{"begin", "detection", "initial_guess", "sweep", "metrics"};
 
   void add_one(const std::string& name, const std::function<BenchScene()>& make, fast::Backend backend,

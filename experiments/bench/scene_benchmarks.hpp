@@ -1,7 +1,7 @@
-// Measures steps of whole scenes, and their parts, on the resident simulation: no transfer and no start is inside the
-// times. One repetition is a window of steps from the same state, and times are those of steps.csv (CPU: steady clock,
-// CUDA: device events). Parts are measured with a synchronisation around each (`--profile`), so they are upper bounds
-// and add up to more than a step on a device.
+// Measures steps of whole scenes and their parts on the resident simulation, so that times include no transfer and no
+// start. One repetition is a window of steps from a fixed state. Times are those of steps.csv (CPU: steady clock, CUDA:
+// device events). Parts are measured with a synchronisation around each (`--profile`). On a device these times are
+// therefore upper bounds, and their sum exceeds the time of a step.
 //
 //   step/twist/small/cuda    part/sweep/twist/small/cuda    step/twist@1200/cuda (from a state)
 #pragma once
@@ -10,7 +10,7 @@
 
 namespace ogc::experiments {
 
-/// Registers all scene benchmarks with Google Benchmark; nothing is generated before it is measured.
+/// Registers all scene benchmarks with Google Benchmark. A scene is generated when its benchmark runs.
 void register_scene_benchmarks(const BenchOptions& options);
 
 }  // namespace ogc::experiments

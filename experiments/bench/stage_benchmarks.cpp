@@ -25,7 +25,7 @@ using compare::TestCase;
 
 constexpr std::uint64_t batch = 1u << 14, seed = 1;
 
-/// Returns cases of the generators that seek no degeneracy, by their shares.
+/// Returns cases of the generators without degeneracies, divided by the generators' shares.
 std::vector<TestCase> generic_cases(Stage stage, std::uint64_t count) {
   double shares = 0;
   for (const compare::Generator& row : generators(stage)) shares += row.generic ? row.share : 0;
@@ -42,7 +42,7 @@ std::vector<TestCase> generic_cases(Stage stage, std::uint64_t count) {
 
 bool takes_scene(Stage stage) { return compare::traits_of(stage).of_scene != nullptr; }
 
-/// Returns the cases of a benchmark: a scene at its start, one mesh of the judge, or many of its single cases.
+/// Returns the cases of a benchmark: a scene at its start, one generated mesh, or many single cases.
 std::vector<TestCase> cases_of(Stage stage, const Contestant& contestant, const std::string& scale) {
   if (takes_scene(stage)) {
     const compare::Scene scene = make_scene("cloth_on_sphere", parse_scale(scale));

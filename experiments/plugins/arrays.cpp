@@ -6,7 +6,7 @@ using namespace ogc::compare;
 
 namespace {
 
-/// Returns a face as the plug-in wrote it.
+/// Returns the face that the plug-in named. Throws compare::ContestantFailure for an unknown kind.
 Face face(std::int32_t kind, std::int32_t index) {
   if (kind < 0 || kind > 2)
     throw ContestantFailure("a contact names a face of kind " + std::to_string(kind) +

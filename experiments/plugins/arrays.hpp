@@ -1,5 +1,4 @@
-// Holds what all stages of a plug-in share on the judge's side: a topology as arrays, and arrays that come back as
-// vectors and contacts.
+// Converts between the judge's types and a plug-in's arrays: topologies as inputs, outputs as vectors and contacts.
 #pragma once
 
 #include <cstring>
@@ -13,7 +12,7 @@
 
 namespace ogc::experiments {
 
-/// Returns the sizes of a question whose cases stand alone.
+/// Returns the sizes of a question that consists of independent cases.
 QuestionSizes sizes_of(std::size_t cases);
 /// Returns the sizes of a question about a mesh.
 QuestionSizes sizes_of(const compare::Topology& topology);
@@ -21,17 +20,17 @@ QuestionSizes sizes_of(const compare::Topology& topology);
 /// Returns the arrays of ogc_topology, in its order.
 std::vector<Bytes> inputs_of(const compare::Topology& topology);
 
-/// Returns, by vertex, whether it is inside a solid; also if there is no solid.
+/// Returns for each vertex whether it is inside a solid. The array has full length even without a solid.
 std::vector<std::uint8_t> inside_solid(const compare::Topology& topology);
 
-/// Returns a row for each of `count` vertices, all empty if there are no partners.
+/// Returns one row for each of `count` vertices; all rows are empty if `partners` is null.
 compare::CompressedRows rows_by_vertex(const compare::CompressedRows* partners, std::size_t count);
 
-/// Turns outputs into vectors, one after another.
+/// Copies outputs into vectors, one after another.
 class Outputs {
  public:
   explicit Outputs(const PluginProcess::Answer& answer) : answer_(answer) {}
-  /// Copies the next outputs, each into a vector of its element.
+  /// Copies the next outputs into the given vectors, one output each.
   template <class... Items>
   void to(Items&... items) {
     (next(items), ...);
@@ -49,12 +48,10 @@ class Outputs {
   std::size_t next_ = 0;
 };
 
-/// Returns a contact as the plug-in wrote it. All three throw compare::ContestantFailure for a kind of face that does
-/// not exist.
+/// Converts a contact. All three overloads throw compare::ContestantFailure if it names an unknown kind of face.
 compare::VertexFacetContact contact_of(const ogc_vertex_facet_contact& c);
-/// Returns both halves of a contact with a volume as one.
+/// Joins the two parts of a contact with a volume.
 compare::VolumeContact contact_of(const ogc_volume_contact& c, const ogc_volume_numbers& numbers);
-/// Returns the contact in the judge's type.
 compare::EdgeEdgeContact contact_of(const ogc_edge_edge_contact& c);
 
 }  // namespace ogc::experiments

@@ -14,9 +14,10 @@ namespace {
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-/// Time between two checks whether the other process still runs [ms].
+/// Time between two checks whether the other process is still running [ms].
 constexpr int look_again = 50;
-/// Bytes by which a block grows while it comes in, so that memory follows what was sent, not what was announced.
+/// Number of bytes by which a block grows while it arrives. Memory thus follows the bytes that arrived, not the
+/// announced length.
 constexpr std::uint64_t piece = 16u << 20;
 
 std::optional<double> deadline_of(const Patience& patience) {
@@ -88,7 +89,8 @@ Transfer Channel::receive(std::vector<std::byte>& block, BlockLength allowed, co
 
 Transfer Channel::wait(short until, const Patience& patience, const Deadline& deadline) const {
   for (;;) {
-    // Checked before the socket, which may still hold what the process sent before it ended.
+    // The process is checked before the socket, because the socket may still hold what the process sent before it
+    // ended.
     const bool runs = !patience.other_runs || patience.other_runs();
     const int left = milliseconds_until(deadline), soon = left < 0 ? look_again : std::min(left, look_again);
     const int turn = patience.other_runs ? soon : left;

@@ -1,7 +1,6 @@
-// Connects `ogc` and a worker process by a socket, and sends blocks of bytes over it. Each block has a mark and its
-// length in front, so that both sides read what was written, and recognise what something else wrote into the socket. A
-// plug-in lives in the worker's process and can reach the socket: all that comes out of it is checked before it is
-// used.
+// Connects `ogc` and a worker process by a socket, and sends blocks of bytes over it. Each block begins with a mark and
+// its length, so that a reader recognises bytes that are no block. A plug-in runs in the worker's process and can write
+// to the socket. Everything that arrives is therefore checked before it is used.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +19,7 @@ namespace ogc::experiments {
 /// A block to send.
 using Bytes = std::span<const std::byte>;
 
-/// Returns the bytes of items that lie one behind the other.
+/// Returns the bytes of contiguous items.
 template <class Items>
 Bytes bytes_of(const Items& items) {
   static_assert(std::is_trivially_copyable_v<typename Items::value_type>);
@@ -34,42 +33,41 @@ Bytes bytes_of_one(const Item& item) {
   return std::as_bytes(std::span(&item, 1));
 }
 
-/// The head in front of each block.
+/// Holds the head in front of each block.
 struct BlockHead {
   std::uint64_t mark = right_mark;  ///< tells a head from other bytes
   std::uint64_t length = 0;         ///< of the block behind the head [bytes]
-  /// The bytes "gc-block": no length, count or text that a plug-in sends by chance.
+  /// The bytes "gc-block", which a plug-in hardly sends by chance as a length, a count or text.
   static constexpr std::uint64_t right_mark = 0x6b636f6c622d6367;
 };
 
-/// The allowed lengths of a block [bytes].
 struct BlockLength {
   std::uint64_t least = 0, most = std::numeric_limits<std::uint64_t>::max();  ///< inclusive
 };
-/// Allows one length only.
+/// Allows exactly this length.
 constexpr BlockLength exactly(std::uint64_t bytes) { return {bytes, bytes}; }
 
-/// Tells that what came is no block, or not of the length that is due. what() ends the sentence "a message …".
+/// Thrown if the received bytes are no block or have a wrong length. what() ends the sentence "a message …".
 struct MalformedBlock : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Says how a block came through.
+/// Result of a transfer.
 enum class Transfer {
   whole,
-  end,  ///< the other side is gone, also in the middle of a block
+  end,  ///< the other side closed the socket, possibly in the middle of a block
   timeout,
 };
 
-/// Says how long to wait for the other side.
+/// Limits how long to wait for the other side.
 struct Patience {
   double seconds = -1;  ///< < 0: for ever
-  /// Returns whether the process on the other side still runs. The socket alone can't tell if that process has left
-  /// children behind, which hold it, too.
+  /// Returns whether the process on the other side is still running. The socket alone can't show this, because children
+  /// of that process may keep it open.
   std::function<bool()> other_runs{};
 };
 
-/// One end of the socket, which it owns.
+/// Owns one end of the socket.
 class Channel {
  public:
   Channel() = default;
@@ -80,15 +78,15 @@ class Channel {
   Channel(Channel&& other) noexcept : descriptor_(other.descriptor_) { other.descriptor_ = -1; }
   Channel& operator=(Channel&& other) noexcept;
 
-  /// Closes this end; the other side then reads Transfer::end.
+  /// Closes this end; the other side then receives Transfer::end.
   void close();
-  /// Returns whether there is another side.
+  /// Returns whether this end is open.
   bool is_open() const { return descriptor_ >= 0; }
   /// Returns the socket's descriptor; negative if closed.
   int descriptor() const { return descriptor_; }
   Transfer send(Bytes block, const Patience& patience = {});
-  /// Waits for a block. Throws MalformedBlock, before it allocates memory for it, if its head is none or its length not
-  /// allowed.
+  /// Waits for a block. Throws MalformedBlock, before it allocates memory for the block, if the head is invalid or the
+  /// length is not allowed.
   Transfer receive(std::vector<std::byte>& block, BlockLength allowed, const Patience& patience = {});
 
  private:

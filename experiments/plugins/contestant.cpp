@@ -1,4 +1,4 @@
-// Turns the judge's questions into arrays, in the order of stages.cpp, and the arrays that come back into answers.
+// Converts the judge's questions into arrays, in the order of stages.cpp, and the returned arrays into answers.
 #include "experiments/plugins/contestant.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 using namespace ogc::compare;
 
-// One layout on both sides: a question's structures are the plug-in's.
+// The judge's structures and the plug-in's have the same layout, so that questions are copied byte by byte.
 static_assert(sizeof(Vec3f) == sizeof(ogc_vec3));
 static_assert(sizeof(HalfSpace) == sizeof(ogc_half_space) &&
               offsetof(HalfSpace, offset) == offsetof(ogc_half_space, offset));
@@ -163,7 +163,7 @@ ActivationOut ask_activation(PluginProcess& plugin, const ActivationIn& in) {
   return out;
 }
 
-/// Returns one entry a case, also if no case has half-spaces.
+/// Returns half-spaces with one row for each case, even if no case has half-spaces.
 HalfSpacesIn half_spaces_by_case(const TruncateIn& in) {
   if (!in.half_spaces.offsets.empty()) return in.half_spaces;
   const std::size_t n = in.bound.size();

@@ -1,4 +1,4 @@
-// Makes a contestant of a plug-in, so that the judge drives it exactly as it drives ours.
+// Wraps a plug-in as a contestant, so that the judge treats it exactly like ours.
 #pragma once
 
 #include <map>
@@ -14,11 +14,11 @@ namespace ogc::experiments {
 /// answer that can be judged.
 compare::Contestant plugin_contestant(std::shared_ptr<PluginProcess> plugin);
 
-/// Time that our contestant took for the questions that the plug-in answered, by stage [s].
+/// Times of our contestant by stage [s], for the questions that the plug-in answered.
 using Times = std::map<std::string, double, std::less<>>;
 
-/// Returns the plug-in as a contestant that asks `ours` the same question right after it, adds our time to `times`, and
-/// discards our answer.
+/// Returns the plug-in as a contestant that also puts each question to `ours`, right after the plug-in's answer. It
+/// adds our time to `times` and discards our answer.
 compare::Contestant timed_beside(compare::Contestant plugin, const compare::Contestant& ours,
                                  std::shared_ptr<Times> times);
 

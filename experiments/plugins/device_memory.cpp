@@ -1,6 +1,6 @@
-// Implements device memory by the driver's interface, which is declared here by hand: the few functions that move bytes
-// have not changed since CUDA 4, and so a host build can judge a CUDA plug-in, too. The context is the primary one,
-// which the runtime library of the plug-in uses.
+// Implements device memory by the CUDA driver's interface, so that a host build can judge a CUDA plug-in, too. The few
+// needed functions are declared by hand; they have not changed since CUDA 4. The context is the primary one, which the
+// plug-in's runtime library uses.
 #include <dlfcn.h>
 
 #include <cstring>
@@ -72,7 +72,7 @@ class DeviceMemory final : public PluginMemory {
   ~DeviceMemory() override {
     try {
       release();
-    } catch (const std::runtime_error&) {  // a device that reports an error at the end of the process
+    } catch (const std::runtime_error&) {  // a device that reports an error when the process ends
     }
   }
 

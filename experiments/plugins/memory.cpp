@@ -18,10 +18,10 @@ std::size_t page() {
 
 std::size_t whole_pages(std::size_t bytes) { return (bytes + page() - 1) / page() * page(); }
 
-/// Protected address space on either side of an array, not memory; accesses farther off are not caught.
+/// Protected address space on either side of an array, which occupies no memory. Accesses farther away are not caught.
 constexpr std::size_t untouchable = 16u << 20;
 
-/// Pages between two protected ranges of address space.
+/// Holds pages between two protected ranges of address space.
 class Pages {
  public:
   explicit Pages(std::size_t bytes) : bytes_(whole_pages(bytes)) {
@@ -58,7 +58,7 @@ bool holds_pattern(Bytes zone) {
 class HostMemory final : public PluginMemory {
  public:
   const void* input(Bytes content) override {
-    // 16 bytes: the alignment that a compiler may assume of an array, for vector loads.
+    // 16 bytes: the alignment that a compiler may assume for vector loads.
     const std::size_t bytes = (content.size() + 15) / 16 * 16;
     Pages& pages = inputs_.emplace_back(bytes);
     std::byte* const data = pages.end() - bytes;

@@ -8,7 +8,7 @@ namespace ogc::experiments {
 
 namespace {
 
-/// Returns an item of whatever bytes came; the caller checks its members.
+/// Returns an item with the received bytes. The caller checks its members.
 template <class Item>
 Item item(const NextBlock& next) {
   Item item;

@@ -1,5 +1,5 @@
-// Reads a worker's messages, block by block. Each length, code and count is checked against the question before it is
-// used: the plug-in shares the worker's process, and may have written any of it.
+// Reads a worker's messages, block by block. The plug-in shares the worker's process and may have written any of it.
+// Each length, code and count is therefore checked against the question before it is used.
 #pragma once
 
 #include <cstddef>
@@ -13,29 +13,31 @@
 
 namespace ogc::experiments {
 
-/// Returns the next block; throws MalformedBlock if its length is not allowed, and its own error if there is none.
+/// Returns the next block. Throws MalformedBlock if the block's length is not allowed, and an error of its own if no
+/// block arrives.
 using NextBlock = std::function<std::vector<std::byte>(BlockLength allowed)>;
 
-/// A worker's message about the library that it has loaded.
+/// Holds a worker's message about the library that it has loaded.
 struct Greeting {
   LoadStatus status = LoadStatus::loaded;  ///< result of loading
   std::string text;                        ///< the plug-in's name, or why it was not loaded
-  std::vector<std::uint8_t> has;  ///< by plugin_stages(), if it was loaded: 1 if the library has the stage
+  /// for each of plugin_stages() 1 if the library has it; empty if the library was not loaded
+  std::vector<std::uint8_t> has;
 };
 
-/// A worker's answer to one question.
+/// Holds a worker's answer to one question.
 struct WorkerAnswer {
   CallResult result;  ///< outcome of the call
-  std::string why;    ///< reason, if it was not answered
+  std::string why;    ///< the reason if the question was not answered
   std::vector<std::vector<std::byte>>
-      outputs;  ///< of the stage, in its order, as long as the counts and the question's sizes say
+      outputs;  ///< outputs of the stage, in its order; their lengths follow from the counts and the question's sizes
 };
 
-/// Read a message; throw MalformedBlock that says what is wrong with it.
+/// Read a message. Throw MalformedBlock that describes what is wrong with the message.
 Greeting read_greeting(const NextBlock& next);
 WorkerAnswer read_answer(const NextBlock& next, const PluginStage& stage, const QuestionSizes& sizes);
 
-/// Longest text [bytes]; short_enough() cuts a text to it.
+/// Largest length of a text [bytes]; short_enough() cuts a text to this length.
 inline constexpr std::uint64_t most_text = 1 << 16;
 std::string short_enough(std::string text);
 

@@ -35,8 +35,8 @@ constexpr const char* lost_socket =
 
 std::string in_seconds(unsigned seconds) { return std::to_string(seconds) + (seconds == 1 ? " second" : " seconds"); }
 
-/// Starts `program plugin-worker file` with one end of a socket as worker_descriptor; returns the process and the other
-/// end.
+/// Starts `program plugin-worker file`, whose end of a socket is worker_descriptor. Returns the process; `channel` gets
+/// the other end.
 pid_t spawn(const PluginOptions& options, Channel& channel) {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
@@ -45,12 +45,12 @@ pid_t spawn(const PluginOptions& options, Channel& channel) {
   const Channel other(ends[1]);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  // dup2 onto itself would leave the descriptor to be closed.
+  // dup2 of a descriptor onto itself would keep its close-on-exec flag, so the descriptor is copied first.
   const int above = fcntl(ends[1], F_DUPFD_CLOEXEC, worker_descriptor + 1);
   posix_spawn_file_actions_adddup2(&actions, above, worker_descriptor);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  // a group of its own, so that it ends together with what it starts
+  // The process gets a group of its own, so that it and all processes that it starts can be ended together.
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   std::string program = options.program.string(), command = "plugin-worker", file = options.file.string();
   char* const words[] = {program.data(), command.data(), file.data(), nullptr};
@@ -63,21 +63,21 @@ pid_t spawn(const PluginOptions& options, Channel& channel) {
   return process;
 }
 
-/// Returns whether the process has not ended yet; one that has is left for waitpid.
+/// Returns whether the process is still running. An ended process stays a zombie for waitpid.
 bool runs(pid_t process) {
   siginfo_t info{};
   return waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == 0;
 }
 
-/// Waits a second at most for a process whose socket is closed; returns whether it ended.
+/// Waits at most a second for a process whose socket is closed; returns whether it ended.
 bool ended_by_itself(pid_t process) {
   for (int i = 0; i < 100 && runs(process); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   return !runs(process);
 }
 
-/// Ends the rest of the process and those that it has started, unless they have left its group; returns its status.
+/// Kills the process and all processes that it started, unless they have left its group. Returns its status.
 int end_group(pid_t process) {
-  // Before waitpid, after which the number might be another process's.
+  // The signal precedes waitpid, after which the number may belong to another process.
   kill(-process, SIGKILL);
   int status = 0;
   waitpid(process, &status, 0);

@@ -1,5 +1,5 @@
-// Drives a plug-in from the outside: starts its worker process, asks it, times it, ends it, and starts it again after
-// it broke.
+// Controls a plug-in from outside its process: starts the worker, sends it questions, measures and limits its time,
+// ends it, and restarts it after a failure.
 #pragma once
 
 #include <filesystem>
@@ -19,62 +19,64 @@ namespace ogc::experiments {
 /// Options of a plug-in's process.
 struct PluginOptions {
   std::filesystem::path file;                        ///< the shared library
-  std::filesystem::path program = "/proc/self/exe";  ///< `ogc`, which is the worker, too
-  unsigned limit_seconds = 10;                       ///< for each call, and for loading
+  std::filesystem::path program = "/proc/self/exe";  ///< the program `ogc`, which also contains the worker
+  unsigned limit_seconds = 10;                       ///< limit for each call and for loading
 };
 
-/// Observations that are no failure of the process, but are reported at the end: for each output, how many elements
-/// were NaN, or were never written.
+/// Holds what is reported at the end although it is no failure: for each output, the number of NaN elements and of
+/// elements that were never written.
 struct PluginNotes {
-  /// number of elements by output
+  /// number of elements by name of the output
   std::map<std::string, std::uint64_t, std::less<>> not_a_number, unwritten;
 };
 
-/// Runs a plug-in in a process of its own, which is started again after it breaks.
+/// Runs a plug-in in a separate process, which is restarted after a failure.
 class PluginProcess {
  public:
-  /// Loads the library. Throws InputError if there is no such file, it can't be loaded, is no plug-in or of another
-  /// version, ResourceError if the device that it asks for is missing, and ContestantFailure if it crashed or hung
-  /// while it was loaded.
+  /// Loads the library. Throws InputError if the file does not exist, can't be loaded, is no plug-in, or has another
+  /// version. Throws ResourceError if the required device is missing, and ContestantFailure if loading crashed or hung.
   explicit PluginProcess(PluginOptions options);
   ~PluginProcess() { stop(); }
   PluginProcess(const PluginProcess&) = delete;
   PluginProcess& operator=(const PluginProcess&) = delete;
 
-  /// Returns the plug-in's own name.
+  /// Returns the name that the plug-in gives itself.
   const std::string& name() const { return name_; }
-  /// Returns whether it answers this stage.
+  /// Returns whether the plug-in has this stage.
   bool has(std::string_view stage) const;
-  /// Returns the stages that it offers, separated by commas.
+  /// Returns the plug-in's stages, separated by commas.
   std::string offered() const;
 
-  /// A plug-in's answer.
+  /// Holds a plug-in's answer.
   struct Answer {
-    std::vector<std::vector<std::byte>> outputs;  ///< by output of the stage, in its order
-    ListSizes counts{};                           ///< entries of each list
+    std::vector<std::vector<std::byte>> outputs;  ///< outputs of the stage, in its order
+    ListSizes counts{};                           ///< number of entries of each list
   };
-  /// Asks the plug-in. Throws ContestantFailure, which says what the plug-in did instead, if there is no answer.
+  /// Puts a question to the plug-in. Throws ContestantFailure, which describes what the plug-in did, if there is no
+  /// answer.
   Answer ask(std::string_view stage, const QuestionSizes& sizes, std::span<const Bytes> inputs);
 
-  /// Returns the time in the plug-in's functions, by stage [s].
+  /// Returns the time spent in the plug-in's function for this stage [s].
   double seconds(std::string_view stage) const;
   const PluginNotes& notes() const { return notes_; }
 
  private:
   void start();
   void stop();
-  /// Ends the process; returns how it ended by itself, or that it had to be ended.
+  /// Ends the process; returns how it ended, or that it had to be killed.
   std::string ending(Transfer how);
-  /// Sends a block or throws ContestantFailure.
+  /// Sends a block; throws ContestantFailure on failure.
   void send(Bytes block);
-  /// Returns what `read` makes of the blocks that come; throws ContestantFailure if none come, or wrong ones.
+  /// Returns the result of `read` for the blocks that arrive. Throws ContestantFailure if none arrive or if they are
+  /// wrong.
   template <class Read>
   auto received(Read read);
   Patience patience() const;
   void note(const PluginStage& stage, const Answer& answer);
 
   PluginOptions options_;
-  unsigned limit_seconds_;  ///< shorter after a hang: the search for the case that hangs waits many times
+  /// shortened after a hang, because the search for the case that hangs waits for it many times
+  unsigned limit_seconds_;
   pid_t process_ = -1;
   Channel channel_;
   std::string name_;

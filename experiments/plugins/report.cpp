@@ -11,7 +11,7 @@ double ours_of(const Times& times, std::string_view stage) {
   return at == times.end() ? 0 : at->second;
 }
 
-/// Returns the time of one case [ns]; not-a-number if nothing was judged.
+/// Returns the time for one case [ns]; not-a-number if no case was judged.
 double nanoseconds(double seconds, const compare::StageReport& report) {
   return 1e9 * seconds / static_cast<double>(report.tally.total().cases);
 }

@@ -1,4 +1,5 @@
-// Reports what a comparison with a plug-in adds to the judge's table: its time beside ours, and unusual outputs.
+// Reports what a comparison with a plug-in adds to the judge's table: the plug-in's time beside ours, and unusual
+// outputs.
 #pragma once
 
 #include <span>
@@ -10,15 +11,15 @@
 
 namespace ogc::experiments {
 
-/// Observations of the judged plug-in; taken before failing cases are asked again.
+/// Holds observations of the judged plug-in, from before failing cases are repeated.
 struct PluginSeen {
   std::string name, backend;  ///< name of the plug-in, and of our contestant that answered beside it
   Times ours;                 ///< times of our contestant
   PluginNotes notes;          ///< notes of the plug-in's process
 };
 
-/// Returns a table of times (the plug-in's functions alone; ours with its copies to and from the backend), then a line
-/// for each output that held NaN or was not written.
+/// Returns a table of times, followed by a line for each output that contained NaN or was not written. The plug-in's
+/// times cover its functions alone; ours include copies to and from the backend.
 std::string plugin_text(const PluginSeen& seen, std::span<const compare::StageReport> reports);
 Json plugin_json(const PluginSeen& seen, std::span<const compare::StageReport> reports);
 

@@ -1,5 +1,5 @@
-// Turns scenes and rest states into arrays in single precision (a judged scene is rounded, so nothing is lost), in the
-// order of stages.cpp, and traces into events.
+// Converts scenes and rest states into arrays in the order of stages.cpp, and traces into events. Arrays are in single
+// precision; this loses nothing, because a judged scene is rounded.
 #include "experiments/plugins/scenes.hpp"
 
 #include <algorithm>
@@ -111,7 +111,7 @@ class SceneArrays {
   std::vector<ogc_scene_spring> springs_;
 };
 
-/// Holds the arrays of ogc_rest, to and from the plug-in.
+/// Holds the arrays of ogc_rest in both directions.
 struct RestArrays {
   std::vector<float> mass;
   std::vector<Triangle> corner;
@@ -195,7 +195,7 @@ ogc_edge_edge_contact plain(const EdgeEdgeContact& c) {
           c.second_edge};
 }
 
-/// Returns the targets of prescribed vertices after the step, and the positions of all others.
+/// Returns the targets of prescribed vertices after the step, and for all other vertices their positions.
 std::vector<Vec3f> prescribed_of(const Scene& scene) {
   std::vector<Vec3f> target = to_single(scene.mesh.positions);
   for (const PrescribedMotion& motion : scene.motions) {
@@ -205,26 +205,26 @@ std::vector<Vec3f> prescribed_of(const Scene& scene) {
   return target;
 }
 
-/// Holds the outputs of a step behind those of its rest state.
+/// Holds the outputs of a step that follow those of its rest state.
 struct Trace {
   std::vector<float> query_radius;
   std::vector<Index> kind, cut;
-  std::vector<Vec3f> position;                                         ///< of all events
-  std::vector<float> d_min_vertex, bound, d_min_triangle, d_min_edge;  ///< of all detections
+  std::vector<Vec3f> position;                                         ///< of all events, one after another
+  std::vector<float> d_min_vertex, bound, d_min_triangle, d_min_edge;  ///< of all detections, one after another
   std::vector<Index> vertex_facet_end, edge_edge_end;
   std::vector<ogc_vertex_facet_contact> vertex_facet;
   std::vector<ogc_edge_edge_contact> edge_edge;
 };
 
-/// Returns the k-th of equal parts.
+/// Returns part k of `all`, whose parts have the same length.
 template <class T>
 std::vector<T> part(const std::vector<T>& all, std::size_t k, std::size_t length) {
   const auto first = all.begin() + static_cast<std::ptrdiff_t>(k * length);
   return {first, first + static_cast<std::ptrdiff_t>(length)};
 }
 
-/// Returns the contacts of detection k, between its end and that of the detection before it. They are in canonical
-/// order, in which sweeps get them.
+/// Returns the contacts of detection k, which lie between the end of detection k − 1 and its own end, in the canonical
+/// order that sweeps require.
 template <class Contact, class Plain>
 std::vector<Contact> contacts_of(const std::vector<Plain>& all, const std::vector<Index>& ends, std::size_t k) {
   const std::int64_t begin = k == 0 ? 0 : ends[k - 1], end = ends[k];

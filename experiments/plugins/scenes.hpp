@@ -1,4 +1,4 @@
-// Asks a plug-in the stages about a whole scene: rest_state, sweep and step.
+// Puts the questions about whole scenes to a plug-in: rest_state, sweep and step.
 #pragma once
 
 #include "compare/contestant.hpp"
@@ -7,8 +7,8 @@
 
 namespace ogc::experiments {
 
-/// Return the plug-in's answer. All three throw compare::ContestantFailure if there is none, ask_step also if the lists
-/// of a trace do not fit together.
+/// Return the plug-in's answer to the stage `rest_state`. All three functions throw compare::ContestantFailure if there
+/// is no answer; ask_step also throws it if the lists of a trace are inconsistent.
 compare::RestStateOut ask_rest_state(PluginProcess& plugin, const compare::RestStateIn& in);
 /// Returns the plug-in's answer to the stage `sweep`.
 compare::SweepOut ask_sweep(PluginProcess& plugin, const compare::SweepIn& in);

@@ -15,7 +15,7 @@ int call(void* function, const In& in, Out& out) {
   return callee(&in, &out);
 }
 
-// Braces take the arrays in order; parentheses would not fix the order.
+// Braces evaluate the calls in order; parentheses would not.
 ogc_rows rows(CallArrays& a) { return {a.in(), a.in()}; }
 constexpr std::size_t topology_inputs = 13;
 ogc_topology topology(CallArrays& a) {
@@ -152,7 +152,7 @@ int call_block(void* function, CallArrays& a) {
   return call(function, in, out);
 }
 
-// Inputs of a scene: those of its topology, then these.
+// Inputs of a scene: those of its topology, then these nine.
 constexpr std::size_t scene_inputs = topology_inputs + 9;
 ogc_scene scene(CallArrays& a) {
   return {topology(a), a.sizes.hinges, a.sizes.bodies, a.sizes.springs,  a.sizes.tetrahedra,
@@ -352,8 +352,8 @@ std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, const Lis
   return static_cast<std::size_t>(of_each() * lists[static_cast<std::size_t>(info.list)]);
 }
 
-// Room for contacts and planes is a guess; room for events and detections holds all that Algorithm 3 can have, with a
-// detection before each round and each iteration.
+// Returns the room for lists at the first call. Room for contacts and planes is a guess. Room for events and detections
+// is the most that Algorithm 3 needs, with a detection before each round and each iteration.
 ListSizes first_capacities(const QuestionSizes& sizes) {
   const std::int64_t contacts = 64 + 4 * (std::int64_t{sizes.vertices} + sizes.edges),
                      rounds = sizes.settings.guess_rounds + sizes.settings.iterations;
@@ -369,10 +369,10 @@ ListSizes first_capacities(const QuestionSizes& sizes) {
           64 + 4 * sizes.cases};
 }
 
-// The most contacts are each vertex with each triangle, each edge with each other one as first and as second, at each
-// detection, plus the guess above, so that contacts which are listed twice in a small mesh are recognised as that.
-// Planes: one for each vertex of each of these pairs. Contacts with a volume: each point with each face. The products
-// fit into 64 bits, as sizes fit into 31, and 2^40 limits them.
+// Returns limits: the first capacities plus the largest numbers of pairs at each detection. Contacts are at most all
+// vertices with all triangles and all ordered pairs of edges; contacts with a volume, all points with all faces. Planes
+// are at most one for each vertex of each pair. The added guess lets the judge recognise contacts that are listed twice
+// in a small mesh. Products of two sizes fit into 64 bits, because sizes fit into 31; 2^40 limits them.
 ListSizes most_entries(const QuestionSizes& sizes) {
   constexpr std::int64_t most = std::int64_t{1} << 40;
   ListSizes entries = first_capacities(sizes);

@@ -1,5 +1,6 @@
-// Describes the stages that a plug-in can have: their arrays, how the worker makes the C structures of compare/plugin.h
-// from them, and what it expects back. The judge's side (contestant.cpp) names the same arrays in the same order.
+// Describes the stages that a plug-in can have: their input arrays, the C structures of compare/plugin.h that the
+// worker builds from them, and the expected outputs. The judge's side (contestant.cpp) lists the arrays in the same
+// order.
 #pragma once
 
 #include <array>
@@ -12,23 +13,23 @@
 
 namespace ogc::experiments {
 
-/// Holds the sizes and numbers of a question; always in host memory.
+/// Holds the sizes and numbers of a question, always in host memory.
 struct QuestionSizes {
-  std::int64_t cases = 0;                               ///< cases of a stage whose cases stand alone
-  std::int32_t vertices = 0, edges = 0, triangles = 0;  ///< of a mesh
-  float first = 0, second = 0;  ///< numbers of the stage beside its arrays: r and r_q of a detection
+  std::int64_t cases = 0;                               ///< cases of a stage with independent cases
+  std::int32_t vertices = 0, edges = 0, triangles = 0;  ///< sizes of a mesh
+  float first = 0, second = 0;  ///< numbers of the stage besides its arrays: r and r_q of a detection
   /// sizes of a scene, and of its rest state
   std::int32_t hinges = 0, bodies = 0, springs = 0, tetrahedra = 0;
   std::int32_t rest_triangles = 0, rest_hinges = 0, rest_tetrahedra = 0;
-  std::int64_t vertex_facet = 0, edge_edge = 0;  ///< given contacts
+  std::int64_t vertex_facet = 0, edge_edge = 0;  ///< contacts that the question contains
   ogc_settings settings{};
   ogc_vec3 gravity{};
 };
 
-/// Type of an output's elements, and the unit that has one group of them.
+/// `Element`: type of an output's elements. `Per`: the output has one group of elements for each of these units.
 enum class Element : std::uint8_t { number, byte, index, real };
 enum class Per : std::uint8_t { one, item, vertex, edge, triangle, two_bodies };
-/// Outputs whose length the plug-in decides.
+/// Outputs whose length the plug-in determines.
 enum class List : std::uint8_t {
   none,
   vertex_facet,
@@ -42,19 +43,19 @@ enum class List : std::uint8_t {
   volume_contacts
 };
 inline constexpr std::size_t list_count = 10;
-/// Number of entries of each list, or the room for them; 1 for `none`.
+/// Number of entries of each list, or room for them; 1 for `none`.
 using ListSizes = std::array<std::int64_t, list_count>;
 
-/// Describes one array that a stage answers with.
+/// Describes one output array of a stage.
 struct OutputInfo {
-  std::string_view name;   ///< as in compare/plugin.h
+  std::string_view name;   ///< name in compare/plugin.h
   Element element;         ///< type of the array
-  std::size_t elements;    ///< elements of a group
-  Per per;                 ///< unit that has one group
-  List list = List::none;  ///< the groups repeat for each entry of this list
+  std::size_t elements;    ///< number of elements in a group
+  Per per;                 ///< the output has one group for each of these units
+  List list = List::none;  ///< list whose every entry repeats the groups
 };
 
-/// Return the bytes of one element, and of one group.
+/// Return the size of one element, and of one group [bytes].
 constexpr std::size_t bytes_of(Element element) {
   return element == Element::byte ? 1 : element == Element::real ? 8 : 4;
 }
@@ -63,15 +64,15 @@ constexpr std::size_t group_bytes(const OutputInfo& info) { return bytes_of(info
 std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, const ListSizes& lists);
 /// Returns the room for the lists at the first call.
 ListSizes first_capacities(const QuestionSizes& sizes);
-/// Returns limits that no right answer exceeds; never below first_capacities.
+/// Returns upper limits for every correct answer; never below first_capacities.
 ListSizes most_entries(const QuestionSizes& sizes);
 /// Returns the name of the list's entries, in the plural.
 std::string_view list_name(List list);
 
-/// Holds the arrays of one call, taken one after another.
+/// Provides the arrays of one call, one after another.
 class CallArrays {
  public:
-  /// A pointer that converts to the type that it is assigned to.
+  /// Holds a pointer that converts to the type to which it is assigned.
   template <class Void>
   struct Any {
     Void* data;
@@ -92,7 +93,7 @@ class CallArrays {
 
   const QuestionSizes& sizes;
   const ListSizes& capacities;
-  ListSizes counts{1};  ///< as the plug-in counted
+  ListSizes counts{1};  ///< counts that the plug-in returned
 
  private:
   std::span<const void* const> inputs_;
@@ -102,10 +103,10 @@ class CallArrays {
 
 /// Describes one stage of compare/plugin.h.
 struct PluginStage {
-  std::string_view name;                            ///< of the stage; its function is ogc_NAME
+  std::string_view name;                            ///< name of the stage; its function is ogc_NAME
   std::size_t inputs;                               ///< number of input arrays
   std::span<const OutputInfo> outputs;              ///< in the order of the function's arguments
-  int (*call)(void* function, CallArrays& arrays);  ///< returns what the function returned
+  int (*call)(void* function, CallArrays& arrays);  ///< calls the function and returns its result
 };
 
 /// Returns all stages.

@@ -30,22 +30,21 @@ struct Refusal : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The process that was started; a copy that the plug-in forks has another number.
+/// Number of the process that was started. A copy forked by the plug-in has another number.
 const pid_t worker = getpid();
 
-/// Ends a child that the plug-in forked and that returned from its function: the question went to its parent, which
-/// answers it.
+/// Ends a child process that the plug-in forked and in which its function returned. The parent answers the question.
 void end_if_copy() {
   if (getpid() != worker) _exit(exit_success);
 }
 
-/// Closes the socket in processes that the plug-in forks or starts, so that they neither write to it nor hold it open.
+/// Closes the socket in processes that the plug-in forks or starts, so that they neither write to it nor keep it open.
 void keep_from_children() {
   fcntl(worker_descriptor, F_SETFD, FD_CLOEXEC);
   pthread_atfork(nullptr, nullptr, [] { close(worker_descriptor); });
 }
 
-/// Holds the library, its stages, and the memory that it asks for.
+/// Holds the library, its stages, and the kind of memory that it requires.
 class Library {
  public:
   explicit Library(const std::string& file) {
@@ -80,7 +79,7 @@ class Library {
   std::unique_ptr<PluginMemory> memory;
 };
 
-/// Carries out one question, from its arrays to the outputs.
+/// Answers one question: copies the arrays, calls the plug-in and collects the outputs.
 class Call {
  public:
   Call(Library& library, const CallRequest& request, const std::vector<std::vector<std::byte>>& inputs)
@@ -95,13 +94,14 @@ class Call {
   ~Call() {
     try {
       memory_.release();
-    } catch (const std::runtime_error&) {  // a device that has given up, as was reported before
+    } catch (const std::runtime_error&) {  // a device that has failed, which was reported before
     }
   }
   Call(const Call&) = delete;
   Call& operator=(const Call&) = delete;
 
-  /// Calls the plug-in. Throws std::runtime_error that says what the plug-in did wrong.
+  /// Calls the plug-in, a second time if a list was too short. Throws std::runtime_error that says what the plug-in did
+  /// wrong.
   CallResult run() {
     CallResult result = attempt();
     if (!too_long(result)) return result;
@@ -212,8 +212,8 @@ bool answer(Channel& channel, Library& library, const CallRequest& request,
   return all;
 }
 
-/// Reads a question; returns nothing if the other side is gone. Throws MalformedBlock if a part of it is missing, which
-/// the plug-in must have read.
+/// Reads a question; returns nothing if the other side has closed the socket. Throws MalformedBlock if a part is
+/// missing, which only the plug-in can have read.
 std::optional<std::pair<CallRequest, std::vector<std::vector<std::byte>>>> next_question(Channel& channel) {
   std::vector<std::byte> block;
   CallRequest request;
@@ -226,7 +226,7 @@ std::optional<std::pair<CallRequest, std::vector<std::vector<std::byte>>>> next_
   return std::pair(request, std::move(inputs));
 }
 
-/// Answers questions until the other side is gone.
+/// Answers questions until the other side closes the socket.
 void serve(Channel& channel, Library& library) {
   try {
     while (const auto question = next_question(channel))
@@ -243,7 +243,7 @@ bool greet(Channel& channel, LoadStatus status, const std::string& text) {
 int work(const std::string& file) {
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
-  dup2(STDERR_FILENO, STDOUT_FILENO);  // the plug-in's output must not stand in a result
+  dup2(STDERR_FILENO, STDOUT_FILENO);  // the plug-in's output must not appear in a result
   std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
   keep_from_children();
   Channel channel(worker_descriptor);
@@ -260,10 +260,10 @@ int work(const std::string& file) {
   std::vector<std::uint8_t> has;
   for (const void* function : library->functions) has.push_back(function != nullptr);
   if (greet(channel, LoadStatus::loaded, library->name) && sent(channel, bytes_of(has))) serve(channel, *library);
-  // The processes that the plug-in has started are not waited for.
+  // Ends the processes that the plug-in has started; does not wait for them.
   signal(SIGTERM, SIG_IGN);
   if (getpgrp() == getpid()) kill(0, SIGTERM);
-  // The library's destructors do not run: the answers are given, and a failure now would tell nothing.
+  // Skips the library's destructors: all answers are sent, and a failure in a destructor would prove nothing.
   _exit(exit_success);
 }
 

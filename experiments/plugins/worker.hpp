@@ -1,6 +1,6 @@
-// Declares the process in which a plug-in lives: `ogc plugin-worker FILE`, which only PluginProcess starts. It loads
-// the library, reports what it found, and answers questions until the other side closes the socket. What the library
-// breaks, it breaks here.
+// Declares the process in which a plug-in runs: `ogc plugin-worker FILE`, which only PluginProcess starts. The process
+// loads the library, reports the result, and answers questions until the other side closes the socket. A failure of the
+// library affects this process alone.
 #pragma once
 
 #include <array>
@@ -16,24 +16,26 @@ inline constexpr int worker_descriptor = 3;
 
 /// Result of loading a library.
 enum class LoadStatus : std::uint8_t {
-  loaded,  ///< a block with the name follows, then one with a byte for each of plugin_stages(): 1 if the library has it
-  refused,  ///< wrong file, version or memory; a block with the reason follows
-  failed,   ///< missing device; a block with the reason follows
+  /// followed by a block with the name and a block with one byte for each of plugin_stages(): 1 if the library has it
+  loaded,
+  refused,  ///< wrong file, version or memory; followed by a block with the reason
+  failed,   ///< missing device; followed by a block with the reason
 };
 
-/// Result of a call. A block of text follows (why it failed), then, if it was answered, the outputs.
+/// Holds the result of a call. It is followed by a block of text (why the call failed) and, if it was answered, the
+/// outputs.
 struct CallResult {
-  /// broken: a fresh process is needed
+  /// broken: the next question needs a new process
   enum class Status : std::uint8_t { answered, failed, broken } status = Status::answered;
   ListSizes counts{1};  ///< entries of the lists that the stage has
-  double seconds = 0;   ///< time of the plug-in's function, the device's work included
+  double seconds = 0;   ///< time of the plug-in's function, including the device's work
 };
 
-/// The question: a stage of plugin_stages(), sizes, time limit; its arrays follow.
+/// Holds a question, which its arrays follow.
 struct CallRequest {
-  std::uint64_t stage = 0;     ///< its position in plugin_stages()
-  QuestionSizes sizes;         ///< sizes of the question
-  unsigned limit_seconds = 0;  ///< the worker ends itself soon after, in case no process is left to end it
+  std::uint64_t stage = 0;  ///< position in plugin_stages()
+  QuestionSizes sizes;
+  unsigned limit_seconds = 0;  ///< the worker ends itself soon after this time, in case no process is left to end it
 };
 
 /// Exit status of a worker that could not send its answer.

@@ -1,4 +1,4 @@
-// Declares the subcommands of `ogc`. Each has a file, commands/NAME.cpp, which declares its options and leaves its exit
+// Declares the subcommands of `ogc`. Each has a file commands/NAME.cpp, which declares its options and stores its exit
 // status in the context.
 #pragma once
 
@@ -9,14 +9,14 @@ namespace ogc::experiments {
 /// Exit statuses of `ogc`.
 enum ExitStatus : int { exit_success = 0, exit_check_failed = 1, exit_bad_input = 2, exit_out_of_resource = 3 };
 
-/// Holds what all subcommands share.
+/// Holds the state that all subcommands share.
 struct CommandContext {
   bool json = false;          ///< machine-readable result on standard output
-  int status = exit_success;  ///< what the program returns; a command sets it, main maps exceptions to it
+  int status = exit_success;  ///< exit status of the program; a command sets it, main maps exceptions to it
   std::string command_line;   ///< as typed, for run.json
 };
 
-/// Each function adds one subcommand of `ogc` (experiments/program/commands/).
+/// Each of these functions adds one subcommand of `ogc` (experiments/program/commands/).
 void add_scenes_command(CLI::App& app, CommandContext& context);
 void add_run_command(CLI::App& app, CommandContext& context);
 void add_ablate_command(CLI::App& app, CommandContext& context);

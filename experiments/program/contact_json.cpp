@@ -1,6 +1,6 @@
-// Writes the keys of contacts.schema.json, which explains them; a test validates this file's output against the schema.
-// Contacts are printed as they are computed: as one JSON value, those of 245,000 crowded vertices with their margins do
-// not fit into 20 GB.
+// Writes the keys of contacts.schema.json, which explains them; a test validates the output against the schema.
+// Contacts are printed as they are computed, because one JSON value for 245,000 crowded vertices with margins exceeds
+// 20 GB.
 #include <algorithm>
 #include <utility>
 
@@ -45,7 +45,7 @@ Json to_json(const std::vector<reference::BlockMargin>& margins) {
   return json;
 }
 
-/// Buffers standard output in large pieces.
+/// Writes to standard output in large pieces.
 class Printer {
  public:
   void member(const std::string& key, const Json& value) {
@@ -130,7 +130,7 @@ Json sets_by_primitive(const ContactReport& report) {
   return json;
 }
 
-/// Returns the place of each edge in the mesh, which its number of triangles determines.
+/// Returns the place of each edge in the mesh, by the number of its triangles.
 std::vector<std::string> edge_places(const Topology& topology) {
   constexpr std::array<const char*, 3> places{"loose", "boundary", "inner"};
   std::vector<std::string> all;
@@ -141,8 +141,8 @@ std::vector<std::string> edge_places(const Topology& topology) {
   return all;
 }
 
-/// Returns the place of each vertex in the mesh: the first of the schema's list that fits. A valid mesh has no vertex
-/// without an edge.
+/// Returns the place of each vertex in the mesh: the first entry of the schema's list that applies. In a valid mesh
+/// each vertex has an edge.
 std::vector<std::string> vertex_places(const Topology& topology) {
   const std::vector<std::string> edges = edge_places(topology);
   std::vector<std::string> all;

@@ -19,7 +19,7 @@ using compare::FaceKind;
 using compare::Topology;
 using compare::Vec3f;
 
-/// Returns the cases of closest_face whose distances are those of the contacts.
+/// Returns one case of closest_face for each contact, to obtain the contact's distance.
 compare::ClosestFaceIn vertex_facet_cases(const ContactReport& report, const std::vector<Vec3f>& positions) {
   compare::ClosestFaceIn cases;
   for (const compare::VertexFacetContact& contact : report.vertex_facet.contacts) {
@@ -98,7 +98,8 @@ std::string name(const Face& face, const Topology& topology, const compare::Elem
   return {};
 }
 
-/// Returns a histogram of the distances in tenths of r_q, with the number of primitives that have nothing within it.
+/// Returns a histogram of the distances in tenths of r_q, and the number of primitives that have no neighbour within
+/// r_q.
 std::string distribution(const std::vector<float>& distances, float query_radius) {
   constexpr std::size_t parts = 10;
   std::array<std::size_t, parts + 1> counts{};
@@ -117,7 +118,7 @@ std::string distribution(const std::vector<float>& distances, float query_radius
   return table(rows, 2);
 }
 
-/// Returns the closest pairs, at most `limit`.
+/// Returns the lines of the closest pairs, at most `limit`.
 template <class Contacts, class Line>
 std::string closest(const Contacts& contacts, const std::vector<double>& distances, Line line, std::size_t limit = 5) {
   std::vector<std::size_t> order(contacts.size());

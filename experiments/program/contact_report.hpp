@@ -1,4 +1,4 @@
-// Finds contact sets, distances and bounds of one mesh with any of the engines, and prints them.
+// Finds contact sets, distances and bounds of one mesh with a selected engine, and prints them.
 #pragma once
 
 #include <optional>
@@ -14,30 +14,31 @@
 
 namespace ogc::experiments {
 
-/// The implementation that finds the contacts.
+/// Selects the implementation that finds the contacts.
 enum class Engine { exact, cpu, cuda };
 
-/// Holds what only the reference computes.
+/// Holds results that only the reference computes.
 struct ExactGeometry {
   std::vector<reference::VertexKind> vertex_kind;     ///< by vertex
   std::vector<std::vector<compare::Index>> ipc, sdf;  ///< F_IPC (Eq. 3) and F_SDF (Eq. 4) by vertex, if requested
 };
 
-/// Holds what `ogc contacts` prints.
+/// Holds all data that `ogc contacts` prints.
 struct ContactReport {
-  compare::Topology topology;                  ///< of the mesh
+  compare::Topology topology;
   std::vector<compare::Vec3f> positions;       ///< by vertex [m]
   float contact_radius = 0, query_radius = 0;  ///< r, r_q [m]
   compare::DetectVertexFacetOut vertex_facet;  ///< F_OGC and smallest distances
   compare::DetectEdgeEdgeOut edge_edge;        ///< E_OGC and smallest distances
-  /// Distance of each contact [m]: between the vertex and the owner; between the contact points.
+  /// Distance of each contact [m]: from the vertex to the owner, or between the two contact points.
   std::vector<double> vertex_facet_distance, edge_edge_distance;
   std::vector<float> bound;  ///< b_v, Eq. 21 [m]
   std::optional<ExactGeometry> exact;
-  reference::FilterCounts filters;  ///< calls of predicates for this report; all zero unless exact
+  /// number of calls of each predicate for this report; all zero unless the engine is exact
+  reference::FilterCounts filters;
 };
 
-/// Selects the sets that an exact report has besides OGC's. Each one tests all pairs of vertices and triangles.
+/// Selects contact sets that an exact report has besides OGC's. Each of them tests all pairs of vertices and triangles.
 struct FurtherSets {
   bool ipc = false, sdf = false;  ///< F_IPC (Eq. 3), F_SDF (Eq. 4)
 };
@@ -49,15 +50,15 @@ ContactReport find_contacts(const compare::Mesh& mesh, Engine engine, float cont
 /// Returns the mean length of all edges [m].
 double mean_edge_length(const compare::Mesh& mesh);
 
-/// Returns d_min² and b_v² of Eq. 21–26 by primitive as fractions [m²] (reference::ExactSquares).
+/// Returns d_min² and b_v² of Eq. 21–26 as exact fractions [m²], by primitive (reference::ExactSquares).
 Json exact_squares(const ContactReport& report, float bounds_relaxation);
-/// Prints the report in the form of the schema, after the members of `head`. Contacts are printed one by one, because
-/// with their margins they may take gigabytes. The margins of an exact report are computed while it is printed; without
+/// Prints the members of `head` and then the report, as contacts.schema.json describes. Contacts are printed one by
+/// one, because they may take gigabytes. The margins of an exact report are computed during printing; without
 /// `with_margins` they are left out.
 void print_json(const Json& head, const ContactReport& report, bool with_margins);
 /// Returns the JSON Schema of `ogc contacts --json` (contacts.schema.json).
 std::string contacts_schema();
-/// Returns the report as text. `names`: the names of the mesh's elements.
+/// Returns the report as text. `names`: names of the mesh's elements.
 std::string describe(const ContactReport& report, const compare::ElementNames& names);
 
 }  // namespace ogc::experiments

@@ -13,11 +13,11 @@ namespace ogc::experiments {
 
 namespace {
 
-// Largest number of failing cases saved for each generator.
+// Largest number of failing cases that are saved for each generator.
 constexpr std::ptrdiff_t saved_cases = 4;
-// Time for shrinking all failing cases, and for shrinking one [s].
+// Time limits for shrinking all failing cases, and for shrinking one case [s].
 constexpr double shrinking_seconds = 30, shrinking_one = 2;
-// Largest number of cases explained in full; nobody reads more.
+// Largest number of cases that are explained in full.
 constexpr std::size_t most_explained = 5;
 
 }  // namespace
@@ -29,8 +29,7 @@ const compare::States* OpenStates::of(const std::string& folder) {
   return states.get();
 }
 
-/// Returns the case of this name. A replayed case keeps its file's data; all others are generated again from their
-/// names.
+/// Returns the case with this name. Given cases keep their data; all others are generated again from their names.
 compare::TestCase Failures::case_again(const compare::CaseName& name) {
   for (const compare::TestCase& test : given_)
     if (test.name == name) return test;

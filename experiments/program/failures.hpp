@@ -14,7 +14,7 @@
 
 namespace ogc::experiments {
 
-/// Holds run folders, each of which is opened once.
+/// Opens run folders, each of them once.
 class OpenStates {
  public:
   explicit OpenStates(const compare::Authority& authority) : authority_(authority) {}
@@ -26,29 +26,30 @@ class OpenStates {
   std::map<std::string, std::unique_ptr<compare::States>> open_;
 };
 
-/// Works on the failures of one comparison. `given`: the cases that the command line names one by one; empty otherwise.
+/// Treats the failing cases of one comparison. `given`: cases that the command line names one by one; empty otherwise.
 class Failures {
  public:
   Failures(const compare::Contestant& contestant, const compare::Authority& authority, OpenStates& states,
            std::span<const compare::TestCase> given)
       : contestant_(contestant), authority_(authority), states_(states), given_(given) {}
 
-  /// Saves the first failing cases of each generator, shrunk, and their problem strings as a batch file. Returns the
-  /// paths. Explains the first failing case of each stage in full, unless the cases were given.
+  /// Shrinks and saves the first failing cases of each generator, and writes their problem strings to a batch file.
+  /// Returns the paths. Also explains the first failing case of each stage in full, unless the cases were given.
   std::vector<std::string> save(const std::vector<compare::StageReport>& reports, const std::filesystem::path& folder);
 
-  /// Explains given cases in full: a single one whether it fails or not, of several ones those that fail.
+  /// Explains given cases in full: a single case in any event, several cases only if they fail.
   void explain_given(const std::vector<compare::StageReport>& reports);
 
-  /// Compares the failures of each stage with the known wrong forms. `seed`: of the further cases that this draws.
+  /// Compares the failures of each stage with the known wrong forms. `seed`: seed of further cases that are drawn for
+  /// this.
   void diagnose(std::vector<compare::StageReport>& reports, std::uint64_t seed);
 
-  /// of all cases explained so far
+  /// Returns the explanations of all cases so far.
   const std::vector<compare::Explanation>& explanations() const { return explanations_; }
 
  private:
   compare::TestCase case_again(const compare::CaseName& name);
-  /// Returns the shrunk case and its message, which then names the sizes; returns both unchanged if no time is left.
+  /// Returns the shrunk case and its message with the new sizes. Returns both unchanged if no time is left.
   std::pair<compare::TestCase, std::string> small(const compare::TestCase& test, const std::string& message);
   void explain(const compare::TestCase& test, const std::filesystem::path& file);
 

@@ -1,4 +1,4 @@
-// Ctrl-C requests that a run stop after its current step, so that its folder stays complete. A second Ctrl-C ends the
+// Lets Ctrl-C stop a run after its current step, so that the run folder stays complete. A second Ctrl-C ends the
 // program at once.
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace ogc::experiments {
 
-/// Exit status of a command that was stopped in this way; a shell reports the same for a program that Ctrl-C ended.
+/// Exit status after an interruption; a shell reports the same status for a program that Ctrl-C ended.
 inline constexpr int exit_interrupted = 128 + SIGINT;
 
 /// Makes the first SIGINT or SIGTERM set a flag; the second one has its default effect.

@@ -1,4 +1,4 @@
-// The program `ogc`. Every failure ends here as one message with a remedy and one of four exit statuses.
+// The program `ogc`. Every failure becomes one message with a remedy, and one of four exit statuses.
 #include <csignal>
 #include <cstdlib>
 #include <exception>
@@ -43,9 +43,9 @@ void add_commands(CLI::App& app, CommandContext& context) {
       command->add_flag("--json", context.json, "Print the result as JSON on standard output");
 }
 
-/// Makes the program parse its command line and run nothing. The environment variable OGC_PARSE_ONLY selects this;
-/// tests use it to check that the commands in documents are still valid. The program ends where the commands' callbacks
-/// would begin, because these own the variables that options are written to.
+/// Makes the program parse its command line and run nothing, as the environment variable OGC_PARSE_ONLY requests. Tests
+/// use it to check the commands in documents. The program ends inside the parser, where the callbacks of commands would
+/// run, because they own the variables for the options.
 void run_nothing(CLI::App& app) {
   experiments::log_line("ogc: OGC_PARSE_ONLY is set: the command line is parsed, and nothing is run");
   app.parse_complete_callback([] { throw CLI::Success(); });
@@ -54,7 +54,7 @@ void run_nothing(CLI::App& app) {
 int usage_error(const CLI::App& app, const CLI::ParseError& error) {
   std::string command;
   for (const CLI::App* used : app.get_subcommands()) command = " " + used->get_name();
-  constexpr std::size_t most_shown = 400;  // it may repeat a word of any length
+  constexpr std::size_t most_shown = 400;  // the message may repeat a word of any length
   experiments::log_line("ogc: " + compare::shown(error.what(), most_shown) + "; see ogc" + command + " --help");
   return experiments::exit_bad_input;
 }
@@ -89,7 +89,7 @@ int failure(const std::string& what, int status) {
   return status;
 }
 
-/// Reports a path that the system refuses, wherever that was found.
+/// Reports a path that the system refuses, from any part of the program.
 int path_failure(const std::filesystem::filesystem_error& error) {
   try {
     compare::refuse_path(error.path1(), "use the path", error.code());
@@ -103,7 +103,7 @@ int path_failure(const std::filesystem::filesystem_error& error) {
 }  // namespace
 
 int main(int count, char** words) {
-  // A limit on the size of files is reported like a full disk; it must not kill the program.
+  // A limit on file sizes is reported like a full disk instead of killing the program.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     return run_program(count, words);

@@ -17,8 +17,8 @@ namespace ogc::experiments {
 
 namespace {
 
-/// Says how many vertices share a position. Modelling programs write a vertex once for each face that bends there;
-/// these faces touch, and nothing holds them together.
+/// Describes how many vertices share a position. At a sharp bend, modelling programs write one vertex for each face;
+/// the faces touch there, but nothing connects them.
 std::string repeated_places(const compare::Mesh& mesh) {
   std::vector<std::array<double, 3>> places;
   for (const compare::Vec3& p : mesh.positions) places.push_back({p.x, p.y, p.z});
@@ -30,7 +30,7 @@ std::string repeated_places(const compare::Mesh& mesh) {
          " exactly the coordinates of another: faces touch there and do not hang together; --weld merges them";
 }
 
-/// Says how many tetrahedra are flat or inverted, unless all of them are.
+/// Describes how many tetrahedra are flat or inverted, unless all of them are.
 std::string wrong_tetrahedra(const compare::LoadedMesh& loaded) {
   compare::Mesh seen = loaded.mesh;
   clear_dust(seen);

@@ -10,7 +10,7 @@ namespace ogc::experiments {
 
 namespace {
 
-/// More than machines have, and few enough to be created.
+/// More threads than machines have, but few enough to be created.
 constexpr std::uint64_t most_threads = 1024;
 
 template <class Number>
@@ -21,7 +21,7 @@ std::optional<Number> parsed(std::string_view text) {
   return value;
 }
 
-/// Returns a check that is named by `range`. `accepts` gets the text without a plus sign; so does the option's own
+/// Returns a check whose name is `range`. `accepts` gets the text without a leading plus sign, like the option's own
 /// parser.
 template <class Accepts>
 CLI::Validator check(const std::string& range, Accepts accepts) {

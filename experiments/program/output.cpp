@@ -19,7 +19,7 @@ namespace ogc::experiments {
 
 namespace {
 
-/// Returns the number of characters, not bytes: every byte of UTF-8 except those that continue a character.
+/// Returns the number of characters: all bytes of UTF-8 that do not continue a character.
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));

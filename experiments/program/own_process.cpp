@@ -32,7 +32,7 @@ pid_t start_self(std::vector<std::string> words, const std::filesystem::path& lo
             errors = log.empty() ? STDERR_FILENO : open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   const pid_t parent = getpid(), child = out < 0 || errors < 0 ? -1 : fork();
   if (child == 0) {
-    // A parent that is killed can't stop its processes, and two must not write into one folder.
+    // The child dies with its parent: a killed parent can't stop it, and two processes must not write into one folder.
     if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != parent) _exit(127);
     if (!log.empty()) setpgid(0, 0);
     if (dup2(out, STDOUT_FILENO) < 0 || dup2(errors, STDERR_FILENO) < 0) _exit(127);

@@ -9,23 +9,23 @@
 
 namespace ogc::experiments {
 
-/// Starts this program with these words. Its standard output is dropped. Its standard error goes to the file `log`, and
-/// then an interrupt from the terminal does not reach it; with an empty `log` it goes to our standard error. The
-/// process is killed if this process ends first. Throws std::runtime_error.
+/// Starts this program with these words and discards its standard output. Its standard error goes to the file `log`,
+/// and the terminal's interrupts do not reach it. If `log` is empty, standard error is ours, and interrupts reach it.
+/// The process is killed if this process ends first. Throws std::runtime_error.
 pid_t start_self(std::vector<std::string> words, const std::filesystem::path& log = {});
 
-/// Waits for the process and returns its exit status in the form of a shell.
+/// Waits for the process and returns its exit status as a shell reports it.
 int status_of(pid_t child);
 
-/// One command of this program and its name on the screen.
+/// Holds one command of this program and its displayed name.
 struct OwnCommand {
   std::string name;
   std::vector<std::string> words;
-  std::filesystem::path log;  ///< is removed if the command ends with status 0
+  std::filesystem::path log;  ///< removed if the command ends with status 0
 };
 
-/// Runs the commands in their order, at most `jobs` at a time. After an interrupt (interrupt.hpp) it starts no more,
-/// requests that the running ones stop, and waits for them. Throws std::runtime_error.
+/// Runs the commands in their order, at most `jobs` at a time. After an interrupt (interrupt.hpp) it starts no more
+/// commands, asks the running ones to stop, and waits for them. Throws std::runtime_error.
 void run_side_by_side(const std::vector<OwnCommand>& commands, int jobs);
 
 }  // namespace ogc::experiments

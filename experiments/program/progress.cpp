@@ -9,7 +9,7 @@ namespace ogc::experiments {
 
 namespace {
 
-// Updates are frequent enough to show activity and rare enough to cost nothing; the log of a day's run stays below ten
+// Updates are frequent enough to show activity and rare enough to cost nothing. The log of a day has fewer than ten
 // thousand lines.
 constexpr std::chrono::milliseconds redraw_interval{100}, line_interval{10000};
 constexpr int bar_width = 24;

@@ -1,5 +1,4 @@
-// Shows the progress of a long command: a bar that is redrawn on a terminal, plain lines (at most one every few
-// seconds) in a file.
+// Shows the progress of a long command: a redrawn bar on a terminal, or plain lines every few seconds in a file.
 #pragma once
 
 #include <chrono>
@@ -13,10 +12,10 @@ class Progress {
  public:
   /// Counts from `first` to `last` in `unit` (steps, frames).
   Progress(std::int64_t first, std::int64_t last, std::string unit);
-  /// Shows `current`, followed by `detail`: "1.2 ms a step, 340 contacts". The end is shown once, however often it is
+  /// Shows `current`, followed by `detail`: "1.2 ms a step, 340 contacts". Shows the end once, however often it is
   /// reported.
   void show(std::int64_t current, const std::string& detail);
-  /// Ends the bar, so that the next output starts on a fresh line. Idempotent.
+  /// Ends the bar, so that the next output starts on a new line. Idempotent.
   void end();
   ~Progress() { end(); }
 

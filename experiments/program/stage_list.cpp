@@ -35,8 +35,8 @@ std::string names_of(const Rows& rows) {
   return names.empty() ? "none" : names;
 }
 
-/// Launches that other devices would use: small blocks, one multiprocessor (few blocks, teams run one after the other),
-/// a thousand of them (spread teams).
+/// Launches as on other devices: small blocks, one or seven multiprocessors (few blocks, each with several teams in
+/// turn), and a thousand multiprocessors (spread teams).
 constexpr std::array<fast::LaunchShape, 4> other_shapes{{{32, 0}, {96, 7}, {128, 1}, {64, 1000}}};
 
 std::string text_of(const fast::LaunchShape& shape) {
@@ -46,7 +46,7 @@ std::string text_of(const fast::LaunchShape& shape) {
              : blocks;
 }
 
-/// Returns what changes on a device with other launches, as lines of a report.
+/// Returns, as lines of a report, which results change with other launches.
 std::vector<std::string> changed_by_shape(const compare::DeterminismReport& report, std::uint64_t cases,
                                           std::uint64_t seed, const compare::Authority& authority) {
   std::vector<std::string> changed;
@@ -70,7 +70,7 @@ std::string stage_list_markdown() {
   for (const Stage stage : compare::all_stages) {
     const StageInfo& info = compare::stage_info(stage);
     const std::string name(info.name);
-    // Both backends instantiate one list of probes (fast/probes/probes.hpp), so CUDA has what the CPU has.
+    // Both backends instantiate the same probes (fast/probes/probes.hpp), so CUDA has the stages that the CPU has.
     const bool is_there = compare::can_judge(stage, fast, authority);
     text += "| " + link(name, "stages/" + name + ".hpp") + " | " + std::string(info.question) + " | " +
             std::string(info.unit) + " | " + link("exact", "../" + std::string(info.reference)) +

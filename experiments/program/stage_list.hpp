@@ -1,5 +1,5 @@
-// Implements `ogc compare --list` and `--determinism`: lists what the registry of stages declares, and checks whether
-// the bits are as repeatable as declared.
+// Implements `ogc compare --list` and `--determinism`: lists the registry of stages, and checks whether bits are as
+// repeatable as the registry declares.
 #pragma once
 
 #include <span>
@@ -11,15 +11,15 @@
 
 namespace ogc::experiments {
 
-/// Returns the table of compare/README.md: a row for each stage with its contract, its question, the implementations
-/// that have it, its generators, agreement tests and determinism.
+/// Returns the table of compare/README.md with a row for each stage: contract, question, implementations, generators,
+/// agreement tests and determinism.
 std::string stage_list_markdown();
 
-/// Returns the same list for a terminal, with the names of each stage's generators and parameters.
+/// Returns the same list for a terminal, with each stage's generators and parameters.
 std::string stage_list_text();
 
-/// Checks the determinism of stages on a backend: on the CPU with one and two threads besides all of them, on a device
-/// with other block sizes and with the launches of devices of other sizes.
+/// Checks the determinism of stages on a backend. The CPU also uses one and two threads; a device also uses other block
+/// sizes, and launches as on devices of other sizes.
 std::vector<compare::DeterminismReport> determinism_of(fast::Backend backend, std::span<const compare::Stage> stages,
                                                        std::uint64_t cases, std::uint64_t seed);
 

@@ -1,20 +1,20 @@
-// Fig. 21: a square cloth falls onto a sphere and the ground below it, to compare contact energies.
+// Fig. 21: a square cloth falls onto a sphere and the ground below, to compare contact energies.
 #pragma once
 
 #include "compare/problem/scene.hpp"
 
 namespace ogc::experiments {
 
-/// Holds the sizes; defaults: the paper's. The contact radius follows the spacing: 5 mm on 70 × 70.
+/// Holds the sizes; defaults: the paper's. The contact radius is proportional to the spacing: 5 mm on 70 × 70.
 struct ActivationDropSizes {
   compare::Index vertices_a_side = 70;  ///< of the cloth
-  int sphere_subdivisions = 3;          ///< of an icosahedron
-  std::int64_t steps = 40;              ///< of the run
+  int sphere_subdivisions = 3;          ///< of the sphere, from an icosahedron
+  std::int64_t steps = 40;              ///< steps of the run
   std::int64_t iterations = 500;        ///< of vbd
 };
 
-/// Returns cloth_on_sphere with a ground, which is a fixed mesh of 4 m × 4 m at y = −0.272 m with triangles at most a
-/// hundred times as large as the cloth's. Steps are solved to convergence: one cut vertex triggers a detection.
+/// Returns cloth_on_sphere with a ground. The ground is a fixed mesh of 4 m × 4 m at y = −0.272 m; its triangles are at
+/// most a hundred times as large as the cloth's. Steps are solved to convergence: one cut vertex triggers a detection.
 compare::Scene activation_drop(const ActivationDropSizes& sizes = {});
 
 }  // namespace ogc::experiments

@@ -1,4 +1,5 @@
-// Numbers are the paper's Table 1, the authors' published parameters, and the damping of their layers (decided here).
+// Numbers are the paper's Table 1 and the authors' published parameters. The damping of the authors' layers is our
+// choice.
 #include "experiments/scenes/cloth_on_sphere.hpp"
 
 #include "experiments/scenes/materials.hpp"

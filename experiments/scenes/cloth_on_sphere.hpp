@@ -5,21 +5,21 @@
 
 namespace ogc::experiments {
 
-/// Holds the sizes; defaults: the paper's. The contact radius follows the spacing, so that every size has the contact
-/// regime of r = 5 mm on 70 × 70.
+/// Holds the sizes; defaults: the paper's. The contact radius is proportional to the spacing, so that the contact
+/// regime is always that of r = 5 mm on 70 × 70.
 struct ClothOnSphereSizes {
   compare::Index vertices_a_side = 70;  ///< of the cloth
-  int sphere_subdivisions = 3;          ///< of an icosahedron
-  std::int64_t steps = 100;             ///< of the run
+  int sphere_subdivisions = 3;          ///< of the sphere, from an icosahedron
+  std::int64_t steps = 100;             ///< steps of the run
   double sphere_radius = 0.262;         ///< [m]
 };
 
 /// Returns the material of cloth, sphere and ground in the scenes with a sphere.
 compare::Material sphere_scene_material();
-/// Appends the fixed sphere of this radius [m] about (−0.15, 0, 0) as the next body of the scene.
+/// Appends a fixed sphere of this radius [m] about (−0.15, 0, 0) as the next body of the scene.
 void append_sphere(compare::Scene& scene, int subdivisions, double radius = 0.262);
 
-/// Returns the scene: 1 m × 1 m of cloth at y = 0.30 m above a sphere about (−0.15, 0, 0). IPC has a barrier distance
+/// Returns the scene: a cloth of 1 m × 1 m at y = 0.30 m above a sphere about (−0.15, 0, 0). IPC has a barrier distance
 /// of 1 mm on 70 × 70 and the tolerance of the codimensional scripts.
 compare::Scene cloth_on_sphere(const ClothOnSphereSizes& sizes = {});
 

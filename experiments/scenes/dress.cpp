@@ -1,5 +1,6 @@
-// Panels are cut from developable surfaces, so that the rest shapes are exact. Vertices of different panels at one
-// place are all stitched to one another: then all pairs of faces that touch at the start are between direct partners.
+// Panels are cut from developable surfaces, so that rest shapes are exact. Where vertices of several panels share a
+// place, each of them is stitched to all others. All pairs of faces that touch at the start then lie between stitched
+// vertices.
 #include "experiments/scenes/dress.hpp"
 
 #include <algorithm>
@@ -50,7 +51,7 @@ void set_up(Scene& scene, double contact_radius, std::int64_t steps) {
   scene.settings.contact_radius = contact_radius;
 }
 
-/// Appends a panel, with its positions on the body's surface and on the table; returns its first vertex.
+/// Appends a panel with its positions on the body's surface (start) and on the table (rest). Returns its first vertex.
 Index append_panel(Scene& scene, const std::string& name, const Mesh& worn, const std::vector<Vec3>& flat) {
   const std::size_t body = append_body(scene, {.name = name, .material = wool()}, worn);
   const Index first = scene.bodies[body].first_vertex;
@@ -62,8 +63,8 @@ void stitch(Scene& scene, Index first, Index second, Index third = -1, double ra
   add_stitch(scene, first, second, third, ratio, stitch_stiffness);
 }
 
-/// Returns a point of a piece of a cone, or of a cylinder, laid flat: `down` [m] along it from the edge of radius
-/// `upper`, `turn` [rad] around its axis; `slant` is its length.
+/// Returns a point of a flattened piece of a cone or cylinder. The point is `down` [m] below the edge of radius
+/// `upper`, and `turn` [rad] around the axis. `slant`: length of the piece from edge to edge.
 Vec3 laid_flat(double upper, double lower, double slant, double down, double turn) {
   const double widening = (lower - upper) / slant;
   if (widening == 0) return {upper * turn, down, 0};
@@ -71,21 +72,21 @@ Vec3 laid_flat(double upper, double lower, double slant, double down, double tur
   return {from_apex * std::sin(angle), from_apex * std::cos(angle), 0};
 }
 
-/// Says where a vertex of the upper edge of a band is stitched: between slots `second` and `second` + 1 of the band
-/// above.
+/// Holds the place where a vertex of a band's upper edge is stitched: between slots `second` and `second` + 1 of the
+/// band above.
 struct StitchPoint {
   Index second;
   double ratio;
 };
 
-/// Four panels around the body, from one height to a lower one. A slot is a place around the body, counted from +z to
-/// +x over all panels; where panels meet, it has two vertices.
+/// Builds four panels around the body, from one height down to another. A slot is a place around the body, counted from
+/// +z to +x over all panels. Where two panels meet, a slot has two vertices.
 class Band {
  public:
   Band(const char* name, std::array<Index, 2> cells, std::array<double, 2> heights, std::array<double, 2> radii)
       : name_(name), rows_(cells[0]), columns_(cells[1]), heights_(heights), radii_(radii) {}
 
-  /// Appends the band; its upper edge lies on the straight lines between the slots of the lower edge of `above`.
+  /// Appends the band. Its upper edge lies on the straight lines between the slots of the lower edge of `above`.
   void append(Scene& scene, const Band* above) {
     const Mesh cut{{}, cross_diagonals(rows_ + 1, columns_ + 1), {}};
     for (Index panel = 0; panel < quarters; ++panel) {
@@ -110,7 +111,7 @@ class Band {
   }
 
   Index slots() const { return quarters * columns_; }
-  /// Returns the vertices at a slot of a row: one or two.
+  /// Returns the vertices at a slot of a row: one, or two where panels meet.
   std::vector<Index> vertices_at(Index row, Index slot) const {
     const Index panel = slot / columns_ % quarters, column = slot % columns_;
     if (column > 0) return {vertex(panel, row, column)};
@@ -160,8 +161,8 @@ class Band {
   std::vector<Index> first_;  ///< first vertex by panel
 };
 
-/// Appends half a cone about an axis along x, over the shoulder from the bodice's upper edge in front to the one
-/// behind; `side`: −1 or 1. Its columns lie on the slots.
+/// Appends half a cone about an axis along x, which leads over the shoulder from the front of the bodice's upper edge
+/// to its back. `side`: −1 or 1. The columns end at slots.
 void append_strap(Scene& scene, const Band& bodice, Index cells, int side) {
   const Index around = bodice.slots();
   const auto slot_at = [&](double radians) {
@@ -194,15 +195,15 @@ void append_strap(Scene& scene, const Band& bodice, Index cells, int side) {
   }
 }
 
-/// Sets lengths below 2⁻²⁰ m, which no scene may have (method.md §2.4), to 0. All others stay as published, so that
-/// different places stay different.
+/// Sets lengths below 2⁻²⁰ m, which scenes may not have (method.md §2.4), to 0. Other lengths keep their published
+/// values, so that different places remain different.
 Vec3 without_dust(const Vec3& v) {
   const auto swept = [](double x) { return std::abs(x) < 0x1p-20 ? 0 : x; };
   return {swept(v.x), swept(v.y), swept(v.z)};
 }
 
-/// Appends the triangles and vertices of panel `number` in their order; `renumbered` gets the vertices' numbers in the
-/// scene.
+/// Appends the triangles and vertices of panel `number` in their order. Stores the vertices' numbers in the scene in
+/// `renumbered`.
 void append_panel(Scene& scene, const DressData& data, Index number, std::vector<Index>& renumbered) {
   const auto first = static_cast<Index>(scene.mesh.positions.size());
   std::vector<bool> is_in(data.pattern.size());
@@ -246,9 +247,8 @@ void append_character(Scene& scene, const DressData& data) {
   scene.motions.push_back(std::move(motion));
 }
 
-/// Excludes pairs of vertices that are stitched to the same vertex and start nearer to each other than `within` [m],
-/// which is where seams meet. Stitches draw them together as well, so that they are not in contact either; neighbours
-/// in a panel are not excluded.
+/// Excludes pairs of vertices that are stitched to the same vertex and start closer than `within` [m], as where seams
+/// meet. Stitches draw these vertices together, too. Neighbours in a panel are not excluded.
 void exclude_junctions(Scene& scene, double within) {
   const compare::Topology topology = build_topology(scene);
   const compare::Exclusions direct = exclusions(scene);
@@ -277,7 +277,8 @@ Scene dress(const DressSizes& sizes) {
   skirt.append(scene, &chest);
   lowest.append(scene, &skirt);
   for (const int side : {-1, 1}) append_strap(scene, chest, sizes.strap, side);
-  constexpr double inside_hips = 0.191;  // radius of the largest ball about (0, 0.86 m, 0) in the cone of the hips [m]
+  // radius of the largest ball about (0, 0.86 m, 0) inside the cone of the hips [m]
+  constexpr double inside_hips = 0.191;
   append_mannequin(scene,
                    {.shoulders = shoulders,
                     .torso_radius = chest_radius - 1.5 * radius,
@@ -298,7 +299,8 @@ Scene dress(const DressData& data, std::int64_t steps) {
   for (const Stitch& s : data.stitches) {
     const Index first = renumbered[at(s.first)], second = renumbered[at(s.second)], third = renumbered[at(s.third)];
     stitch(scene, first, second, third, s.ratio);
-    // A stitch to an end of an edge is also one to the edge: in the published start these intersect.
+    // A stitch to an end of an edge also excludes the other end, because in the published start the vertex meets the
+    // edge.
     scene.excluded_pairs.push_back({first, s.ratio < 0.5 ? third : second});
   }
   exclude_junctions(scene, scene.settings.contact_radius);

@@ -1,5 +1,5 @@
-// This reader is separate because stage.obj has statements that no other mesh has (stitch, seam), and because the
-// groups of its faces matter.
+// A separate reader is needed because stage.obj contains statements that other meshes do not have (stitch, seam), and
+// because the groups of its faces matter.
 #include "experiments/scenes/dress_data.hpp"
 
 #include <algorithm>
@@ -100,7 +100,7 @@ class ObjReader {
   Obj obj_;
 };
 
-/// Returns the first of these places that exists; the error names the most usual one.
+/// Returns the first of the possible places that exists. The error names the most usual place.
 std::filesystem::path found(const std::filesystem::path& folder, const std::string& subfolder,
                             const std::string& name) {
   for (const std::filesystem::path& place : {folder / subfolder / name, folder / name}) {
@@ -152,7 +152,7 @@ void check_stage(const std::filesystem::path& file, const Obj& stage, const Dres
   }
 }
 
-/// Reads garment and body of the start.
+/// Reads garment and body at the start.
 void take_start(DressData& data, const std::filesystem::path& file, const Obj& stage, const DressCounts& counts) {
   const Obj drape = ObjReader(file).read();
   check_count(file, "vertices", drape.positions.size(), counts.vertices + counts.body_vertices);
@@ -173,9 +173,10 @@ void take_start(DressData& data, const std::filesystem::path& file, const Obj& s
   }
 }
 
-/// Returns the translation from `from` to `to`. Throws if they differ by more than it and the last digits of the files.
+/// Returns the translation from `from` to `to`. Throws if they differ by more than a translation and the rounding of
+/// the files.
 Vec3 translation(const std::vector<Vec3>& from, const std::vector<Vec3>& to, const std::filesystem::path& file) {
-  constexpr double printed = 2e-6;  // [m]: seven digits of lengths below 2 m, of two files
+  constexpr double printed = 2e-6;  // [m]: rounding to seven digits of lengths below 2 m, in two files
   Vec3 mean;
   const double share = 1.0 / static_cast<double>(from.size());
   for (std::size_t v = 0; v < from.size(); ++v)

@@ -15,27 +15,27 @@ struct Stitch {
   double ratio = 0;                                    ///< from 0 to 1
 };
 
-/// Holds the counts that the files must have, so that a truncated file is refused; defaults: as published.
+/// Holds the counts that the files must have, so that a truncated file is refused; defaults: the published counts.
 struct DressCounts {
   std::size_t vertices = 15656, triangles = 29456, panels = 14, stitches = 851;  ///< of the garment
   std::size_t body_vertices = 12811, body_triangles = 25472, frames = 121;       ///< of the body, and its frames
 };
 
-/// Holds the data set in the form that one scene needs.
+/// Holds the data set.
 struct DressData {
   std::vector<std::array<double, 2>> pattern;     ///< rest shape by vertex [m]
   compare::Mesh garment;                          ///< at the start [m]
-  std::vector<compare::Index> panel_of_triangle;  ///< from 0
-  std::vector<Stitch> stitches;                   ///< of the garment
+  std::vector<compare::Index> panel_of_triangle;  ///< panel of each triangle, from 0
+  std::vector<Stitch> stitches;                   ///< stitches of the garment
   compare::Mesh body;                             ///< at the start [m]
-  /// the body's vertices by frame, moved to their place at the start [m]
+  /// the body's vertices in each frame [m], moved to the place of the start
   std::vector<std::vector<compare::Vec3>> motion;
 };
 
-/// Reads stage.obj (pattern in `vt`, panels, stitches), drape.obj (start: the garment, then the body) and shell0.obj …
-/// (the body every 0.04 s) from `folder`, or from its subfolders dress_knife and Rumba_Dancing. Throws
-/// compare::InputError that names the file: missing, unreadable, other counts, a stitch to a vertex that does not
-/// exist, or a motion that does not begin with the body of the start up to a translation.
+/// Reads the data set from `folder` or its subfolders dress_knife and Rumba_Dancing. stage.obj has the pattern (`vt`),
+/// the panels and the stitches; drape.obj has the garment and the body at the start; shell0.obj … have the body every
+/// 0.04 s. Throws compare::InputError that names the file if it is missing or unreadable, has other counts, stitches a
+/// vertex that does not exist, or begins the motion with another shape than that of the start.
 DressData read_dress_data(const std::filesystem::path& folder, const DressCounts& counts = {});
 
 }  // namespace ogc::experiments

@@ -14,7 +14,7 @@ compare::Material ground_material() {
   return material;
 }
 
-/// Returns a sum of 12 uniforms − 6: mean 0, standard deviation 1, never beyond 6.
+/// Returns the sum of 12 uniform numbers minus 6: mean 0, standard deviation 1, absolute value at most 6.
 double normal_deviate(compare::Random& random) {
   double sum = -6;
   for (int k = 0; k < 12; ++k) sum += random.unit();

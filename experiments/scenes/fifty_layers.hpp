@@ -1,4 +1,4 @@
-// Fig. 10 and 1: fifty square cloths fall off-centre onto a fixed cylinder and from there to the ground.
+// Fig. 10 and 1: fifty square cloths fall off-centre onto a fixed cylinder, and from there to the ground.
 #pragma once
 
 #include "compare/problem/scene.hpp"
@@ -6,31 +6,31 @@
 
 namespace ogc::experiments {
 
-/// Holds the sizes; defaults: the paper's at 246,000 vertices. Heights follow the contact radius; the ground's
-/// triangles follow the cloth's.
+/// Holds the sizes; defaults: the paper's with 246,000 vertices. Heights are multiples of the contact radius; the
+/// ground's triangles are proportional to the cloth's.
 struct FiftyLayersSizes {
-  std::string name = "fifty_layers";    ///< of the scene
+  std::string name = "fifty_layers";    ///< name of the scene
   compare::Index layers = 50;           ///< number of cloths
   compare::Index vertices_a_side = 70;  ///< of each cloth
   double contact_radius = 3e-3;         ///< r [m]
   double shift = 3e-3;                  ///< standard deviation of each layer's shift in x and in z [m]
-  CylinderCells cylinder{};             ///< of the cylinder's mesh
-  /// 4 s. The layers rest only later, for which `ogc run --steps` is needed.
+  CylinderCells cylinder{};             ///< cells of its mesh
+  /// 4 s. The layers come to rest only later, for which `ogc run --steps` is needed.
   std::int64_t steps = 4800;
   std::uint64_t seed = 0;  ///< seed of the shifts
 };
 
-/// Returns the scene: layers of 1 m × 1 m, 1.05 r apart from y = 0.30 m on, above a cylinder of radius 0.25 m and
-/// length 0.5 m along z about (−0.18, 0, 0) and a ground of 4 m × 4 m at y = −0.60 m. Each layer is one body, the
-/// lowest first. Start and rest shape are equal and free of intersections by construction.
+/// Returns the scene. Layers of 1 m × 1 m lie 1.05 r apart, the lowest at y = 0.30 m. Below them are a cylinder of
+/// radius 0.25 m and length 0.5 m along z about (−0.18, 0, 0), and a ground of 4 m × 4 m at y = −0.60 m. Each layer is
+/// one body, the lowest first. The start equals the rest shape and has no intersections by construction.
 compare::Scene fifty_layers(const FiftyLayersSizes& sizes = {});
 
-/// Returns the sizes of Table 1's row of 1M vertices: 50 × (141 × 141), r = 2 mm.
+/// Returns the sizes of Table 1's row with 1M vertices: 50 × (141 × 141), r = 2 mm.
 FiftyLayersSizes fifty_layers_1m_sizes();
 
-/// Returns the sizes of two hundred layers, 980,000 vertices: a scene of *Divide and Truncate* (Chen, Hsu, Ayman,
-/// Macklin, 2026), whose sheets we do not know. [D] Its layers are those of fifty_layers, with 7,200 steps: the stack
-/// is 0.94 m high.
+/// Returns the sizes of two hundred layers with 980,000 vertices, like a scene of *Divide and Truncate* (Chen, Hsu,
+/// Ayman, Macklin, 2026), whose sheets we do not know. [D] The layers are those of fifty_layers. The stack is 0.94 m
+/// high, so the run has 7,200 steps.
 FiftyLayersSizes two_hundred_layers_sizes();
 
 }  // namespace ogc::experiments

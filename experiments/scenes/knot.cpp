@@ -1,5 +1,5 @@
-// Numbers are the authors' published curve and parameters. Start positions are rounded to 2⁻²⁰ m, because a normal is
-// noisy where the curve is nearly straight.
+// Numbers are the authors' published curve and parameters. Start positions are rounded to 2⁻²⁰ m, because normals are
+// dominated by rounding where the curve is nearly straight.
 #include "experiments/scenes/knot.hpp"
 
 #include <algorithm>
@@ -26,14 +26,14 @@ Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Returns a point of a coil of radius 0.09 m and step 0.12 m about an axis along x; `turn` in turns.
+/// Returns a point of a coil about an axis along x, with radius 0.09 m and pitch 0.12 m. `turn` is in turns.
 Vec3 coil(const Vec3& axis, double turn) {
   const double angle = 2 * std::numbers::pi * turn;
   return axis + Vec3{0.12 * turn, 0.09 * std::cos(angle), 0.09 * std::sin(angle)};
 }
 
-/// Returns the points of the curve: three coils, four overhand knots, three coils about the first ones' continuation
-/// [m].
+/// Returns the control points [m]: three coils, four overhand knots, and three coils about the continuation of the
+/// first coils' axis.
 std::vector<Vec3> control_points() {
   std::vector<Vec3> points{{-0.9, -0.4, 0.035}};
   for (int third = 4; third < 12; ++third) points.push_back(coil({-0.9, -0.3, 0.035}, third / 3.0));
@@ -50,7 +50,8 @@ std::vector<Vec3> control_points() {
   return points;
 }
 
-/// A centripetal Catmull–Rom curve: knots are the square roots of chords apart. The ends continue by reflection.
+/// A centripetal Catmull–Rom curve: consecutive knots differ by the square root of the chord. At the ends, the
+/// neighbour is reflected.
 class Curve {
  public:
   explicit Curve(const std::vector<Vec3>& through) {
@@ -62,7 +63,7 @@ class Curve {
       knots_.push_back(knots_.back() + std::sqrt(length(points_[i] - points_[i - 1])));
   }
 
-  /// Returns the point for `s` from 0 to segments(); each control point is at an integer.
+  /// Returns the point at `s` from 0 to segments(); the control points are at integers.
   Vec3 at(double s) const {
     const std::size_t i = std::min(static_cast<std::size_t>(s), segments() - 1);
     const std::array<double, 4> k{knots_[i], knots_[i + 1], knots_[i + 2], knots_[i + 3]};
@@ -81,8 +82,8 @@ class Curve {
   std::vector<double> knots_;
 };
 
-/// Returns `count` points at equal distances along the curve. Its length is that of a polyline of 48,000 points;
-/// positions are interpolated linearly between these.
+/// Returns `count` points at equal distances along the curve. Lengths are measured on a polyline of 48,000 points, and
+/// parameters are interpolated linearly between these.
 std::vector<Vec3> equally_spaced(const Curve& curve, Index count) {
   constexpr int fine = 48'000;
   const auto parameter = [&](int k) { return static_cast<double>(curve.segments()) * k / (fine - 1); };
@@ -102,8 +103,8 @@ std::vector<Vec3> equally_spaced(const Curve& curve, Index count) {
   return points;
 }
 
-/// Returns the direction across the strip by row: normal × tangent. The normal is the change of the unit chords, with a
-/// sign that does not jump.
+/// Returns the direction across the strip at each row: normal × tangent. The normal is the change of the unit chords,
+/// with signs chosen so that it does not flip.
 std::vector<Vec3> across(const std::vector<Vec3>& centres) {
   std::vector<Vec3> chords;
   for (std::size_t i = 1; i < centres.size(); ++i) chords.push_back(unit(centres[i] - centres[i - 1]));

@@ -1,5 +1,5 @@
-// Numbers are those of the paper's caption (size, radius, half a turn); speed, time step and iterations are those of
-// twist and dress (decided here), IPC's tolerance that of the codimensional scripts.
+// Size, radius and half a turn are from the paper's caption. Speed, time step and iterations are those of twist and
+// dress (our choice). IPC's tolerance is that of the codimensional scripts.
 #include "experiments/scenes/large_radius_twist.hpp"
 
 #include "experiments/scenes/twist.hpp"

@@ -1,5 +1,5 @@
-// A limb turns about the x axis through its joint, then everything turns about the y axis. Knees stay straight, because
-// a hollow that closes on cloth can only stop.
+// A limb first turns about the x axis through its joint, then everything turns about the y axis. Knees stay straight,
+// because a hollow that closes on cloth can only stop.
 #include "experiments/scenes/mannequin.hpp"
 
 #include <algorithm>
@@ -53,13 +53,13 @@ compare::Mesh surface_of(const Limb& limb, double spacing) {
   return capsule({cells(4 * quarter, 6), cells(length, 1), cells(quarter, 2)}, limb.radius, limb.from, limb.to);
 }
 
-/// Turns a point forwards (towards +z) by `angle` about an axis along x at this height and depth 0.
+/// Rotates a point by `angle` forwards (towards +z) about the axis along x through (y, z) = (height, 0).
 Vec3 swung(const Vec3& p, double height, double angle) {
   const double y = p.y - height, c = std::cos(angle), s = std::sin(angle);
   return {p.x, height + c * y + s * p.z, c * p.z - s * y};
 }
 
-/// Returns the position of a point of the limb at time `t` [s].
+/// Returns the position of a limb's point at time `t` [s].
 Vec3 posed(Vec3 p, const Limb& limb, const MannequinSizes& sizes, double t) {
   const double eased = std::clamp(t / ease_seconds, 0.0, 1.0), strength = eased * eased * (3 - 2 * eased);
   const double phase = 2 * std::numbers::pi * t / stride_seconds, stride = limb.side * std::sin(phase);

@@ -1,5 +1,5 @@
-// r, k_c, friction, steps and h are from the paper's Table 1 and Fig. 19; size and material from IPC's mat scene (Li et
-// al. 2020); the rate of each end is decided here, because the paper gives π/2 without saying of what.
+// r, k_c, friction, steps and h are from the paper's Table 1 and Fig. 19. Size and material are from IPC's mat scene
+// (Li et al. 2020). The angular velocity of each end is our choice, because the paper gives π/2 without a reference.
 #include "experiments/scenes/mat_twist.hpp"
 
 #include <numbers>
@@ -13,7 +13,7 @@ namespace {
 constexpr double thickness = 8.333e-3, radius = 2e-3;  ///< [m], for 88 vertices on 1 m
 constexpr double young = 2e4, poisson = 0.4;           ///< [Pa], [1]
 
-/// Returns the material. The energies of a surface keep their defaults, because the surface of a solid has none.
+/// Returns the material. The energies of surfaces keep their defaults, because they do not act on a solid's surface.
 compare::Material soft_solid() {
   compare::Material material;
   material.solid_density = 1000;
@@ -23,7 +23,7 @@ compare::Material soft_solid() {
   return material;
 }
 
-/// Returns the motion of all vertices of column `column` of 2 × `across`, turned about the x axis.
+/// Returns the motion of all vertices of one column, rotated about the x axis. A column has 2 × `across` vertices.
 compare::PrescribedMotion handle(const char* name, compare::Index column, compare::Index across,
                                  double angular_velocity) {
   compare::PrescribedMotion motion;

@@ -5,16 +5,17 @@
 
 namespace ogc::experiments {
 
-/// Holds the sizes; defaults: the paper's, as far as it gives them. Thickness and contact radius follow the spacing
-/// along x, so that every size has the contact regime of 8.333 mm and r = 2 mm on 88 × 87.
+/// Holds the sizes; defaults: the paper's, as far as they are given. Thickness and contact radius are proportional to
+/// the spacing along x, so that the contact regime is always that of 8.333 mm and r = 2 mm on 88 × 87.
 struct MatTwistSizes {
   compare::Index along = 88,
-                 across = 87;  ///< vertices along x, the axis of the twist, and z; two through the thickness
-  std::int64_t steps = 3840;   ///< 16 s
+                 /// vertices along x (the axis of the twist) and along z; there are two through the thickness
+      across = 87;
+  std::int64_t steps = 3840;  ///< 16 s
 };
 
-/// Returns the scene: the mat lies flat in the xz plane about the origin, without gravity; the outermost columns at x =
-/// ±0.5 m turn about the x axis at ±π/2 rad/s.
+/// Returns the scene: the mat lies flat in the xz plane about the origin, without gravity. Its outermost columns, at x
+/// = ±0.5 m, rotate about the x axis at ±π/2 rad/s.
 compare::Scene mat_twist(const MatTwistSizes& sizes = {});
 
 }  // namespace ogc::experiments

@@ -1,4 +1,4 @@
-// Defines materials that several scenes share.
+// Defines materials of several scenes.
 #pragma once
 
 #include "compare/problem/scene.hpp"
@@ -12,8 +12,8 @@ compare::Material layer_cloth();
 /// 0.5.
 compare::Material driven_surface();
 
-/// Returns the material of a solid whose file has none, decided here: 1000 kg/m³, E = 10⁵ Pa, ν = 0.4, as soft as foam
-/// rubber; damping 2 ms, so that it comes to rest after a fall; μ_c = 0.5.
+/// Returns the material of a solid whose file has none (our choice): 1000 kg/m³, E = 10⁵ Pa, ν = 0.4, as soft as foam
+/// rubber; μ_c = 0.5. A damping of 2 ms brings the solid to rest after a fall.
 compare::Material soft_rubber();
 
 }  // namespace ogc::experiments

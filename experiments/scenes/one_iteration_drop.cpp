@@ -1,4 +1,4 @@
-// Numbers are those of the paper's caption; sphere and frames are decided here, materials are those of cloth_on_sphere.
+// Numbers are from the paper's caption; sphere and frames are our choice; materials are those of cloth_on_sphere.
 #include "experiments/scenes/one_iteration_drop.hpp"
 
 #include "experiments/scenes/cloth_on_sphere.hpp"

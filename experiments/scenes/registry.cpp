@@ -1,4 +1,4 @@
-// Defines the sizes of every scale, and nothing else does.
+// Lists the scenes and their sizes at each scale.
 #include "experiments/scenes/registry.hpp"
 
 #include <array>
@@ -32,8 +32,8 @@ compare::Scene cloth_on_sphere_at(Scale scale) {
   return cloth_on_sphere();
 }
 
-/// Returns the paper's scene with fewer layers of `vertices_a_side` vertices and a coarser cylinder; radius and shift
-/// follow the spacing.
+/// Returns the paper's scene with fewer and coarser layers and a coarser cylinder. Radius and shift are proportional to
+/// the spacing.
 compare::Scene fewer_layers(FiftyLayersSizes sizes, compare::Index layers, compare::Index vertices_a_side,
                             CylinderCells cylinder, std::int64_t steps) {
   const double coarser = static_cast<double>(sizes.vertices_a_side - 1) / (vertices_a_side - 1);
@@ -105,7 +105,7 @@ compare::Scene dress_at(Scale scale) {
   return dress();
 }
 
-/// Returns the dress of the data set. It has one size, so that scales differ in steps.
+/// Returns the dress of the data set. It has a single size, so that scales differ only in the number of steps.
 compare::Scene dress_of(Scale scale, const std::filesystem::path& data) {
   switch (scale) {
     case Scale::smoke: return dress(read_dress_data(data), 6);
@@ -194,13 +194,14 @@ compare::Scene twist_at(Scale scale) {
   return twist();
 }
 
-/// Makes frames frequent enough that a short run has a handful of them.
+/// Sets frames so frequent that a short run has several.
 compare::Scene with_frames(compare::Scene scene) {
   scene.settings.frame_steps = 20;
   return scene;
 }
 
-/// Returns the scene with loops of the same spacing, pulled at the same rate of strain.
+/// Returns the scene with fewer loops of the same spacing. The rate of strain is the paper's at `small`, and ten times
+/// as large at `smoke`.
 compare::Scene yarn_stretch_at(Scale scale) {
   switch (scale) {
     case Scale::smoke:

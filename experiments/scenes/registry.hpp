@@ -10,23 +10,24 @@
 
 namespace ogc::experiments {
 
-/// Scales: a run takes seconds; it takes minutes on two cores; it has the paper's sizes.
+/// Scales: a run at `smoke` takes seconds, a run at `small` takes minutes on two cores, and `paper` has the paper's
+/// sizes.
 enum class Scale { smoke, small, paper };
 
-/// Holds one row of the registry.
+/// Describes one scene.
 struct SceneInfo {
-  std::string_view name, figure, summary;  ///< "twist"; the figure of the paper; one line
-  compare::Scene (*generate)(Scale);       ///< makes the scene
-  /// makes the scene from a published data set in this folder; null if there is none
+  std::string_view name, figure, summary;  ///< name such as "twist", figure of the paper, summary of one line
+  compare::Scene (*generate)(Scale);       ///< generates the scene
+  /// generates the scene from a published data set in this folder; null if there is none
   compare::Scene (*generate_of)(Scale, const std::filesystem::path&) = nullptr;
 };
 
-/// Returns all rows, ordered by name.
+/// Returns all scenes, ordered by name.
 std::span<const SceneInfo> scenes();
 
-/// Generates a scene, rounded to single precision; with `data` from the data set in that folder. Throws
-/// compare::InputError that lists the known names, or describes what is wrong with the data, or says that the scene has
-/// none.
+/// Generates a scene, rounded to single precision. If `data` is not empty, uses the data set in that folder. Throws
+/// compare::InputError if the name is unknown (and lists the known ones), if the data are wrong, or if the scene has no
+/// data set.
 compare::Scene make_scene(std::string_view name, Scale scale, const std::filesystem::path& data = {});
 
 /// Parses "smoke", "small" or "paper"; throws compare::InputError for other texts.

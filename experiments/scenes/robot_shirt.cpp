@@ -1,5 +1,5 @@
-// Grid points of the shirt are places on the table. Whether front and back share a vertex at a place decides where the
-// shirt is open.
+// Grid points of the shirt are places on the table. The shirt is open where front and back do not share the vertex of a
+// place.
 #include "experiments/scenes/robot_shirt.hpp"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ constexpr double table_edge = -0.06;      // z [m]
 
 enum class Layer { back, front };
 
-/// Maps the shirt's cells: column i counts from −across/2 − sleeve, row j from the shoulders down.
+/// Maps the shirt's cells. Columns i count from −across/2 − sleeve; rows j count from the shoulders down.
 class Pattern {
  public:
   Pattern(const RobotShirtSizes& sizes, double spacing, double radius)
@@ -48,13 +48,13 @@ class Pattern {
 
  private:
   bool has_cell(Layer layer, Index i, Index j) const {
-    const Index out = i < 0 ? -1 - i : i;  // column within its half
+    const Index out = i < 0 ? -1 - i : i;  // column counted from the middle of the shirt
     if (out >= side_) return j < sizes_.sleeve_rows;
     const double share = (out + 0.5) / sizes_.neck_columns;
     const Index depth = layer == Layer::front ? sizes_.front_neck : sizes_.back_neck;
     return share > 1 || j >= std::lround(depth * std::sqrt(1 - share * share));
   }
-  /// Returns whether front and back share the vertex: along sides, below and above sleeves.
+  /// Returns whether front and back share the vertex. They do along the sides, and below and above the sleeves.
   bool is_joined(Index p, Index q) const {
     const Index out = std::abs(p);
     return out >= side_ && (q == 0 || (out == side_ && q >= sizes_.sleeve_rows) || q == sizes_.sleeve_rows);
@@ -72,8 +72,8 @@ class Pattern {
     return entry->second;
   }
 
-  /// Adds a cell. Both layers are cut along the same diagonals; others would cross each other beside the joints, half a
-  /// gap apart.
+  /// Adds a cell. Both layers are cut along the same diagonals. Different diagonals would intersect beside the joints,
+  /// where the gap is halved.
   void add_cell(Layer layer, Index i, Index j) {
     const Index a = vertex(layer, i, j), b = vertex(layer, i, j + 1), c = vertex(layer, i + 1, j + 1),
                 d = vertex(layer, i + 1, j);
@@ -87,7 +87,8 @@ class Pattern {
   Index side_;
   double spacing_, radius_;
   compare::Mesh mesh_;
-  std::array<std::map<std::array<Index, 2>, Index>, 2> vertices_;  ///< by layer; shared ones belong to the first
+  /// by layer; shared vertices belong to the first layer
+  std::array<std::map<std::array<Index, 2>, Index>, 2> vertices_;
 };
 
 compare::Material cloth() {
@@ -98,7 +99,7 @@ compare::Material cloth() {
 
 compare::Mesh table(double spacing) {
   constexpr double half_width = 0.65, depth = 1.30;
-  const double cell = 5 * spacing;  // a cell has fifty times the area of the shirt's triangles
+  const double cell = 5 * spacing;  // cells have fifty times the area of the shirt's triangles
   const auto rows = static_cast<Index>(std::ceil(2 * half_width / cell)),
              columns = static_cast<Index>(std::ceil(depth / cell));
   compare::Mesh mesh;
@@ -111,7 +112,7 @@ compare::Mesh table(double spacing) {
   return mesh;
 }
 
-/// Holds the pose of both grippers: where the lower jaws' upper side is, and how far the upper jaws are from it [m].
+/// Holds the pose of both grippers [m]: the upper side of the lower jaws, and the distance of the upper jaws from it.
 struct Pose {
   double y, z, opening;
 };
@@ -143,7 +144,7 @@ class Trajectory {
   }
 
  private:
-  /// Returns a swing of 1.5 cm that grows and fades.
+  /// Returns a swing with an amplitude of 1.5 cm that grows and fades.
   static double shake(double t) {
     constexpr double begin = 2.0, end = 3.0, hertz = 2.5;
     if (t <= begin || t >= end) return 0;
@@ -153,7 +154,7 @@ class Trajectory {
   std::vector<Waypoint> points_;
 };
 
-/// Appends two boxes at x = `centre`, which move apart vertically and otherwise together.
+/// Appends two boxes at x = `centre` that form a gripper. They move apart vertically, and otherwise together.
 void append_gripper(Scene& scene, const char* name, double centre, double spacing, const Trajectory& trajectory) {
   constexpr double thickness = 0.012, inner = -0.045, outer = 0.03, frame_seconds = 1.0 / 60, seconds = 6;
   const double half = std::max(0.03, 1.1 * spacing);
@@ -196,7 +197,7 @@ Scene robot_shirt(const RobotShirtSizes& sizes) {
   const Trajectory trajectory(radius);
   append_gripper(scene, "left_gripper", -0.15, spacing, trajectory);
   append_gripper(scene, "right_gripper", 0.15, spacing, trajectory);
-  // so that a step moves the jaws by the same part of r at every scale
+  // a step thus moves the jaws by the same fraction of r at every scale
   scene.settings.time_step = 1.0 / 600 * 56 / sizes.across;
   scene.settings.steps = sizes.steps;
   scene.settings.iterations = 10;

@@ -57,8 +57,8 @@ Mesh split_in_four(const Mesh& coarse) {
   return fine;
 }
 
-/// Adds `count` vertices of a circle about (centre.x, centre.y, z), counter-clockwise as seen from +z. Sines are
-/// multiples of 2⁻⁴⁰, so that sin π is 0.
+/// Adds `count` vertices on a circle about (centre.x, centre.y, z), counter-clockwise as seen from +z. Sines are
+/// rounded to multiples of 2⁻⁴⁰, so that sin π is 0.
 void add_ring(Mesh& mesh, Index count, double radius, const Vec3& centre, double z) {
   const auto tidy = [](double sine) { return std::round(sine * 0x1p40) * 0x1p-40; };
   for (Index i = 0; i < count; ++i) {
@@ -67,8 +67,8 @@ void add_ring(Mesh& mesh, Index count, double radius, const Vec3& centre, double
   }
 }
 
-/// Adds two triangles a cell between rings of `count` vertices that begin at `from` and `to`. Normals point outward if
-/// the second ring lies towards +z, or inside.
+/// Adds two triangles for each cell between two rings of `count` vertices, which begin at `from` and `to`. Normals
+/// point outward if the second ring lies towards +z, or inside the first one.
 void join_rings(Mesh& mesh, Index count, Index from, Index to) {
   for (Index i = 0; i < count; ++i) {
     const Index next = (i + 1) % count;
@@ -77,7 +77,8 @@ void join_rings(Mesh& mesh, Index count, Index from, Index to) {
   }
 }
 
-/// Adds the triangles from the pole to the ring that begins at `ring`; `up`: the pole lies towards +axis of the ring.
+/// Adds the triangles between the pole and the ring that begins at `ring`. `up`: the pole lies towards the ring's
+/// positive axis.
 void add_fan(Mesh& mesh, Index count, Index ring, Index pole, bool up) {
   for (Index i = 0; i < count; ++i) {
     const Index a = ring + i, b = ring + (i + 1) % count;
@@ -85,7 +86,7 @@ void add_fan(Mesh& mesh, Index count, Index ring, Index pole, bool up) {
   }
 }
 
-/// Adds the triangles from the ring that begins at `rim` to the centre of its disc; `up`: the disc faces +z.
+/// Adds the disc inside the ring that begins at `rim`. `up`: the disc faces +z.
 void add_cap(Mesh& mesh, const CylinderCells& cells, double radius, const Vec3& centre, double z, Index rim, bool up) {
   Index outer = rim;
   for (Index k = 1; k <= cells.cap; ++k) {
@@ -99,7 +100,7 @@ void add_cap(Mesh& mesh, const CylinderCells& cells, double radius, const Vec3& 
   add_fan(mesh, cells.around, outer, middle, up);
 }
 
-/// Returns two unit vectors across `axis`, so that (first, second, axis) is right-handed.
+/// Returns two unit vectors perpendicular to `axis`, so that (first, second, axis) is right-handed.
 std::array<Vec3, 2> across(const Vec3& axis) {
   const bool along_y = std::abs(axis.y) > 0.9;
   const Vec3 first = on_unit_sphere(along_y ? Vec3{0, -axis.z, axis.y} : Vec3{axis.z, 0, -axis.x});
@@ -114,7 +115,7 @@ class BoxSurface {
   BoxSurface(const std::array<Index, 3>& cells, const Vec3& low, const Vec3& high)
       : cells_(cells), low_(low), high_(high) {}
 
-  /// Adds the two sides across `axis`, with axes u, v so that (u, v, axis) is right-handed.
+  /// Adds the two sides perpendicular to `axis`, with axes u, v so that (u, v, axis) is right-handed.
   void add_sides(int axis) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     for (const bool far : {false, true}) {
@@ -219,7 +220,7 @@ std::vector<Triangle> cross_diagonals(Index rows, Index columns) {
 
 Mesh ground(Index vertices_a_side, double height) {
   constexpr double side = 4;
-  // ten cells of the cloth, so that a triangle has the area of a hundred of its triangles
+  // as long as ten cells of the cloth: a triangle then has a hundred times the area of the cloth's triangles
   const double largest_cell = 10.0 / (vertices_a_side - 1);
   return grid(static_cast<Index>(std::ceil(side / largest_cell)) + 1, side, height);
 }

@@ -3,8 +3,8 @@
 namespace ogc::experiments {
 namespace {
 
-/// The orders of axes, x (0), y (1) and z (2), of the paths from the lowest corner of a cell to its highest one. The
-/// even permutations come first; their tetrahedra have a positive volume.
+/// Orders of the axes x (0), y (1) and z (2) in paths from the lowest to the highest corner of a cell. The even
+/// permutations come first; their tetrahedra have positive volume.
 constexpr std::array<std::array<std::size_t, 3>, 6> paths{
     {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {1, 0, 2}, {2, 1, 0}}};
 constexpr std::size_t even_paths = 3;

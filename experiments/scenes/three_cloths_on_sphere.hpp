@@ -5,15 +5,15 @@
 
 namespace ogc::experiments {
 
-/// Holds the sizes; defaults: the paper's. The contact radius follows the spacing: 2 mm on 70 × 70.
+/// Holds the sizes; defaults: the paper's. The contact radius is proportional to the spacing: 2 mm on 70 × 70.
 struct ThreeClothsSizes {
   compare::Index vertices_a_side = 70;  ///< of each cloth
-  int sphere_subdivisions = 3;          ///< of an icosahedron
-  std::int64_t steps = 50;              ///< of the run
-  std::int64_t iterations = 500;        ///< sweeps a step
+  int sphere_subdivisions = 3;          ///< of the sphere, from an icosahedron
+  std::int64_t steps = 50;              ///< steps of the run
+  std::int64_t iterations = 500;        ///< sweeps in each step
 };
 
-/// Returns the scene: the sphere of cloth_on_sphere and three of its cloths at y = 0.30 m and 2 r and 4 r above that.
+/// Returns the scene: the sphere of cloth_on_sphere and three of its cloths, at y = 0.30 m and 2 r and 4 r above.
 compare::Scene three_cloths_on_sphere(const ThreeClothsSizes& sizes = {});
 
 }  // namespace ogc::experiments

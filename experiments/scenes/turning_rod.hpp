@@ -1,4 +1,4 @@
-// A straight rod turns freely about its middle. The scene shows how much of its angular momentum an update of frames
+// Builds a straight rod that turns freely about its middle, to show how much angular momentum an update of frames
 // keeps.
 #pragma once
 
@@ -8,14 +8,14 @@
 
 namespace ogc::experiments {
 
-/// Holds the sizes; defaults: a tenth of a metre of the yarn of yarn_stretch.
+/// Holds the sizes; defaults: a tenth of a metre of yarn_stretch's yarn.
 struct TurningRodSizes {
-  compare::Index segments = 100;  ///< of 1 mm each
+  compare::Index segments = 100;  ///< segments of 1 mm each
   std::int64_t steps = 500;       ///< 0.2 s
-  double rate = 10;               ///< about the z axis [rad/s]
+  double rate = 10;               ///< angular velocity about the z axis [rad/s]
 };
 
-/// Returns the scene: the rod lies along the x axis, without gravity and far from everything.
+/// Returns the scene: the rod lies along the x axis, without gravity or contact.
 compare::Scene turning_rod(const TurningRodSizes& sizes = {});
 
 }  // namespace ogc::experiments

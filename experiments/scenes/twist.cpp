@@ -1,4 +1,4 @@
-// Numbers are the paper's Table 1 and the authors' published parameters; 8 turns are relative turns (decided here).
+// Numbers are the paper's Table 1 and the authors' published parameters. That 8 turns are relative turns is our choice.
 #include "experiments/scenes/twist.hpp"
 
 #include <numbers>
@@ -20,7 +20,7 @@ compare::Material cloth() {
   return material;
 }
 
-// Returns the motion of all vertices of column `column` of the sheet, turned about the x axis.
+// Returns the motion of all vertices of one column of the sheet, rotated about the x axis.
 compare::PrescribedMotion handle(const char* name, compare::Index column, compare::Index count,
                                  double angular_velocity) {
   compare::PrescribedMotion motion;

@@ -1,19 +1,19 @@
-// Fig. 12: a square cloth twisted by its two ends until it coils.
+// Fig. 12: a square cloth is twisted at its two ends until it coils.
 #pragma once
 
 #include "compare/problem/scene.hpp"
 
 namespace ogc::experiments {
 
-/// Holds the sizes; defaults: the paper's. The contact radius follows the spacing, so that every size has the contact
-/// regime of r = 2 mm on 100 × 100.
+/// Holds the sizes; defaults: the paper's. The contact radius is proportional to the spacing, so that the contact
+/// regime is always that of r = 2 mm on 100 × 100.
 struct TwistSizes {
   compare::Index vertices_a_side = 100;  ///< of the cloth
   std::int64_t steps = 9600;             ///< 8 relative turns of 4 s
 };
 
-/// Returns the scene: the cloth lies flat in the xz plane, without gravity; the columns x = ±0.5 m turn about the x
-/// axis at ±π/4 rad/s.
+/// Returns the scene: the cloth lies flat in the xz plane, without gravity. The columns at x = ±0.5 m rotate about the
+/// x axis at ±π/4 rad/s.
 compare::Scene twist(const TwistSizes& sizes = {});
 
 }  // namespace ogc::experiments

@@ -1,7 +1,7 @@
-// The curve of a row is Crane's (2023, A Simple Parametric Model of Plain-Knit Yarns), x = w t/2π + a sin 2t, y = h cos
-// t, z = d cos 2t, with lengths decided here so that neighbouring yarns start 2.95 mm apart, within their contact
-// radius of 3 mm. Half circles join the rows in turn, so that the cloth is one rod, as in hand knitting. Yarn of 1 g/m,
-// contact radius and time step are the paper's (Table 1, §5.2); k_s, k_b, speeds and the held vertices are those of the
+// The curve of a row is from Crane (2023, A Simple Parametric Model of Plain-Knit Yarns): x = w t/2π + a sin 2t, y = h
+// cos t, z = d cos 2t. The lengths are our choice: neighbouring yarns start 2.95 mm apart, within their contact radius
+// of 3 mm. Half circles join consecutive rows, so that the cloth is one rod, as in hand knitting. Yarn of 1 g/m,
+// contact radius and time step are the paper's (Table 1, §5.2). k_s, k_b, speeds and the held vertices are from the
 // second author's public yarn code; 222 N/m is its k_c in this unit.
 #include "experiments/scenes/yarn.hpp"
 
@@ -18,11 +18,11 @@ using compare::Vec3;
 using std::numbers::pi;
 
 constexpr double loop_width = 0.4 / 33, row_height = 0.01, bow = 0.24 * loop_width, half_height = 8.6e-3,
-                 depth = 2.1e-3;  // w, c, a, h, d [m]
+                 depth = 2.1e-3;  // w, c, a, h, d of the curve [m]; c is the distance of rows
 constexpr Index segments_a_loop = 49, segments_a_join = 15;
-constexpr double held_width = 0.01;  // of each edge [m]
+constexpr double held_width = 0.01;  // width of each held edge [m]
 
-/// Returns a point of a loop of row 0, which begins at t = −π.
+/// Returns a point of the first loop of row 0, which begins at t = −π.
 Vec3 on_loop(double t) {
   return {loop_width * t / (2 * pi) + bow * std::sin(2 * t), half_height * std::cos(t), depth * std::cos(2 * t)};
 }
@@ -32,8 +32,8 @@ double speed(double t) {
                     2 * depth * std::sin(2 * t));
 }
 
-/// Returns the parameters of `segments_a_loop` + 1 points at equal arcs of a loop. Simpson's rule sums the length on a
-/// grid so fine that its error is below a rounding of single precision, and Newton's method inverts it.
+/// Returns the parameters of `segments_a_loop` + 1 points at equal arcs of a loop. Simpson's rule computes the length
+/// on a grid so fine that its error is below the rounding of single precision. Newton's method inverts the length.
 std::vector<double> equal_arcs() {
   constexpr int cells = 4096;
   const double cell = 2 * pi / cells;
@@ -59,7 +59,7 @@ std::vector<double> equal_arcs() {
 /// Sets numbers below 1 nm to 0, so that exact arithmetic stays cheap.
 double tidy(double x) { return std::abs(x) < 1e-9 ? 0 : x; }
 
-/// Returns the yarn from end to end, centred in the plane z = 0, with its wales along y.
+/// Returns the yarn from end to end, centred in the plane z = 0. Wales run along y.
 std::vector<Vec3> knit(const YarnSizes& sizes) {
   const std::vector<double> parameters = equal_arcs();
   std::vector<Vec3> row;
@@ -102,7 +102,7 @@ compare::Material yarn() {
   return material;
 }
 
-/// Returns a motion of all vertices within `held_width` of the lowest or the highest one along y.
+/// Returns a motion of all vertices that are within `held_width` of the highest or the lowest vertex along y.
 compare::PrescribedMotion edge(const char* name, const std::vector<Vec3>& points, bool is_upper) {
   double most = is_upper ? points.front().y : -points.front().y;
   for (const Vec3& p : points) most = std::max(most, is_upper ? p.y : -p.y);

@@ -1,4 +1,4 @@
-// A plain knit of one yarn (Fig. 15 and 16) is pulled apart at its two edges across the wales, or twisted between them.
+// Fig. 15 and 16: a plain knit of one yarn is pulled apart at two edges across the wales, or twisted between them.
 #pragma once
 
 #include <cstdint>
@@ -9,18 +9,19 @@ namespace ogc::experiments {
 
 /// Holds the sizes; defaults: the paper's.
 struct YarnSizes {
-  compare::Index rows = 40, loops = 33;  ///< rows, and loops in each of them
-  std::int64_t rest_steps = 1250;        ///< of yarn_stretch, before the pull: 0.5 s
-  std::int64_t steps = 16250;            ///< of the run
-  double pull = 0.25;                    ///< of yarn_stretch: speed of each edge [m/s]
-  double turns = 5;                      ///< of yarn_twist
+  compare::Index rows = 40, loops = 33;  ///< number of rows, and of loops in each row
+  std::int64_t rest_steps = 1250;        ///< yarn_stretch: steps before the pull, 0.5 s
+  std::int64_t steps = 16250;            ///< steps of the run
+  double pull = 0.25;                    ///< yarn_stretch: speed of each edge [m/s]
+  double turns = 5;                      ///< yarn_twist: turns of the lower edge
 };
 
-/// Returns the pulled knit: it lies horizontally, gravity along −y, first at rest; then both edges are pulled apart.
+/// Returns the pulled knit. It lies horizontally, with gravity along −y, and is first at rest. Then both edges are
+/// pulled apart.
 compare::Scene yarn_stretch(const YarnSizes& sizes = {});
 
-/// Returns the twisted knit: it hangs vertically, its upper edge is held; the lower one turns about the vertical at π
-/// rad/s and is then held.
+/// Returns the twisted knit. It hangs vertically with its upper edge held. Its lower edge rotates about the vertical at
+/// π rad/s and is then held.
 compare::Scene yarn_twist(const YarnSizes& sizes = {.steps = 27500});
 
 }  // namespace ogc::experiments

@@ -14,12 +14,12 @@ CAMERAS = {"fifty_layers": fig10_fifty_layers.CAMERA, "knot": fig11_knot.CAMERA,
            "dress": fig13_dress.camera,
            # or a function of the run
            "robot_shirt": fig14_robot_shirt.CAMERA, "cloth_on_sphere": fig18_cloth_on_sphere.CAMERA}
-MOMENTS = {"robot_shirt": 0.62}  # as a part of the run: while the shirt hangs; at the end it lies folded
+MOMENTS = {"robot_shirt": 0.62}  # share of the run at which it is shown: the shirt hangs; at the end it lies folded
 SIZE = (960, 640)
 
 
 def words(run, frame):
-    """Returns the scene with its size, and the time; only cloth is counted."""
+    """Returns a label with the scene, its number of cloth vertices, and the time."""
     cloths = [body for body in run.manifest["scene"]["bodies"] if is_cloth(body)]
     count = f"{len(cloths)} cloths, " if len(cloths) > 1 else ""
     vertices = sum(body["vertex_count"] for body in cloths)
@@ -29,8 +29,8 @@ def words(run, frame):
 
 
 def draw(runs, out):
-    """Draws a picture for each run, two in a row. Throws RunError for a run that is not finished, failed its audit, or
-    is of a scene without a camera."""
+    """Draws a picture for each run, two in a row. Throws RunError for a run that is not finished or failed its audit,
+    and for a scene without a camera."""
     usable, reason = render.available()
     if not usable:
         raise RunError(reason)

@@ -23,8 +23,8 @@ def edges_of(triangles):
 
 
 def roughness(positions, triangles):
-    """Returns the root mean square over inner vertices of the distance, along the normal, from the mean of the
-    neighbours, in mean edge lengths."""
+    """Returns the roughness, in mean edge lengths: the root mean square, over inner vertices, of the distance along the
+    normal from the mean of the neighbours."""
     edges = edges_of(triangles)
     count, (mean, normal) = np.zeros(len(positions)), np.zeros((2, *positions.shape))
     for a, b in ((0, 1), (1, 0)):
@@ -61,7 +61,7 @@ def history(run, rest):
 
 
 def draw(runs, out):
-    """Draws the first two runs, or the only one, and curves of all."""
+    """Draws the last common state of the first two runs (or of the only run), and curves of all runs."""
     plt = style.use()
     figure = plt.figure(figsize=(11, 8))
     grid = figure.add_gridspec(2, 6, height_ratios=[1.2, 1])
@@ -80,7 +80,7 @@ def draw(runs, out):
             picture.text(0.5, 0.5, reason, ha="center", wrap=True, transform=picture.transAxes)
     lines, rows = [], []
     ogc = next(run for run in runs if run.manifest["solver"] == "vbd")
-    rest = ogc.frame(ogc.frames[0]).positions.astype(float)  # windows start elsewhere
+    rest = ogc.frame(ogc.frames[0]).positions.astype(float)  # a window does not begin at rest
     for run, dash in zip(runs, style.DASHES):
         time, rough, stretched = history(run, rest)
         h = run.setting("time_step")
@@ -91,7 +91,7 @@ def draw(runs, out):
         steps = run.column("step")
         energies = dict(zip(steps.astype(int), run.column("kinetic_energy")))
         for at in sorted({np.searchsorted(time, min(both_at * h, time[-1]) - h / 2), len(time) - 1}):
-            energy = energies.get(round(time[at] / h), np.nan)  # the state with which a run began has none
+            energy = energies.get(round(time[at] / h), np.nan)  # a run has no energy for the state with which it began
             lines.append(f"{label(run)}: at t = {time[at]:.3g} s roughness {rough[at]:.3g} edges, stretch "
                          f"{stretched[at][0]:.3g} … {stretched[at][2]:.3g}, "
                          f"kinetic energy {energy:.3g} J")
@@ -114,8 +114,8 @@ def draw(runs, out):
 
 
 def runs_of(arguments):
-    """Returns IPC's run and OGC's. At the paper's size, where IPC's whole run would take days, it is windows of 20
-    steps from states of OGC's."""
+    """Returns IPC's run and OGC's. At the paper's size IPC's whole run would take days; IPC then has windows of 20
+    steps from states of OGC's run."""
     folder = Path(arguments.folder)
     ours, baseline = commands.beside_ipc(SCENE, arguments.scale, arguments.backend, arguments.membrane)
     ogc = run_job(arguments.ogc, ours, folder)

@@ -1,5 +1,5 @@
-"""Fig. 10: fifty square cloths fall onto a cylinder, collide with each other, slide to the ground and rest; time,
-contacts, distances, four frames."""
+"""Fig. 10: fifty square cloths fall onto a cylinder, collide, slide to the ground and come to rest. Draws time,
+contacts, distances and four frames."""
 
 from paper_figures.workflow.common import main
 

@@ -1,13 +1,13 @@
-"""Fig. 11: a long strip with four overhand knots, pulled at both ends, with planes; time, contacts, distances, four
-frames, and the last state's tight knot from near."""
+"""Fig. 11: a long strip with four overhand knots, pulled at both ends, with planes. Draws time, contacts, distances,
+four frames, and a close view of the tight knot in the last state."""
 
 import numpy as np
 
 from paper_figures.workflow.common import main
 
 CAMERA = ((-0.3, 0.0, 2.15), (-0.3, -0.13, 0), (0, 1, 0))
-REACH = 0.06  # size of the near view, about that of the tight knot [m]
-ROUNDS = 10  # of a mean shift, which converges after a few
+REACH = 0.06  # size of the close view, about that of the tight knot [m]
+ROUNDS = 10  # iterations of the mean shift, which converges after a few
 
 
 def near(positions):

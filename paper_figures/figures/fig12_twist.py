@@ -1,5 +1,4 @@
-"""Fig. 12: a square cloth twisted by its two ends, with planes; time, contacts, distances, and four frames over the
-run."""
+"""Fig. 12: a square cloth twisted at its two ends, with planes. Draws time, contacts, distances and four frames."""
 
 from paper_figures.workflow.common import main
 

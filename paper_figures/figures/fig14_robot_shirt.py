@@ -1,5 +1,5 @@
-"""Fig. 14: two grippers lift a T-shirt by its shoulders, shake it, fold it; time, contacts, lag of the grippers, four
-frames."""
+"""Fig. 14: two grippers lift a T-shirt by its shoulders, shake it and fold it. Draws time, contacts, the grippers' lag
+and four frames."""
 
 from paper_figures.workflow.common import main
 

@@ -1,14 +1,17 @@
 """Fig. 17: the residual of Eq. 29 over iterations and over time, one step of three cloths on a sphere, by VBD in single
 and in double precision and by Newton.
 
-All start from the same state, that of VBD in single precision after the step before. Every step up to that state was
-solved to convergence (γ_e = 0); curves that name another step start from the state before that one. Contacts are
-detected again after one vertex in a hundred was cut (γ_e of the paper), or after a single one (γ_e = 0). With γ_e = 0
-one curve has a hundredth of the printed ε_v, which may be in cm/s. Curves have the contacts of the solver's last
-detection (stale), as in the paper; the table adds the residual with contacts detected at the end (fresh). Newton's
-curve also has the friction of its solve: it jumps where friction is lagged anew. --start-iterations gives the steps
-before fewer iterations. Curves can be left out (--without); picture and table name them, and `accept` takes them only
-with --incomplete.
+All curves start from one state, which VBD in single precision reached with every step solved to convergence (γ_e = 0).
+A curve that names another step starts from the state before that step. Contacts are detected again after one vertex in
+a hundred was cut (the paper's γ_e), or after a single one (γ_e = 0). One curve with γ_e = 0 has a hundredth of the
+printed ε_v, which may be in cm/s.
+
+Residuals on curves use the contacts of the solver's last detection (stale), as in the paper. The table adds the
+residual with contacts detected at the end (fresh). Newton's curve also uses the friction of its solve; it jumps where
+the lagged friction is updated.
+
+--start-iterations sets the number of iterations of the steps before. --without leaves curves out; picture and table
+name them, and `accept` takes such results only with --incomplete.
 """
 
 import argparse
@@ -29,11 +32,11 @@ SCENE, STEPS = commands.THREE_CLOTHS, commands.THREE_CLOTHS_STEP
 # Deviations from the paper: their names in folders, and in words.
 CHOICES = {"any": "γ_e = 0", "slow": "ε_v = 1e-4 m/s", "planes": "half-spaces", "pairs": "pair by pair",
            "narrow": "γ_p = 0.2"}
-MARKS = (50, 500)  # iterations of the paper's curves of Newton and of VBD
+MARKS = (50, 500)  # last iteration of the paper's curves of Newton and of VBD
 
 
 def label_of(name):
-    """Returns names like vbd_cuda_any and vbd_cuda_any_at_25 in words."""
+    """Describes in words a name such as vbd_cuda_any or vbd_cuda_any_at_25."""
     kind, *more = name.split("_")
     where = "single, " + more[0] if kind == "vbd" and more[0] != "double" else "double"
     said = "".join(f", {words}" for word, words in CHOICES.items() if word in more)
@@ -58,7 +61,7 @@ def first_below(rows, level, name):
 
 
 def smallest_in(rows, iterations):
-    """Returns the smallest residual of a curve within as many iterations as the paper's has."""
+    """Returns the smallest residual of a curve within the paper's number of iterations."""
     return f"{rows['residual'][rows['iteration'] <= iterations].min():.3g}"
 
 
@@ -114,11 +117,10 @@ def draw(runs, start, left_out, step, scale, claims, out):
 
 
 def main(folder, ogc, scale="small", backends=("cpu",), single_only=False, start_iterations=None, without=()):
-    """Makes the runs that are missing in `folder`, and writes fig17.png and fig17.csv there. Returns the picture's
-    path."""
+    """Makes the missing runs in `folder`, writes fig17.png and fig17.csv there, and returns the picture's path."""
     folder = Path(folder)
     claims = json.loads((CLAIMS / f"{SCENE}.json").read_text())["claims"]
-    # the curves that others are compared with: each names a cell of the table
+    # claims that compare curves; each names a cell of the table
     claims = [c for c in claims if isinstance(c["measure"], list)]
     single, double = commands.three_cloths(scale, list(dict.fromkeys(backends)), start_iterations)
     start, runs = curves(folder, ogc, [*single, *([] if single_only else double)], without)

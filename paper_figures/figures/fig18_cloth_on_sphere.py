@@ -1,5 +1,5 @@
-"""Fig. 18 as far as it exists: time and detections a step of VBD-OGC on one layer of cloth on a sphere, and frames 0,
-25, 50, 75."""
+"""Fig. 18 without IPC and Newton: VBD-OGC on one layer of cloth on a sphere. Draws time and detections in each step,
+and frames 0, 25, 50 and 75."""
 
 from paper_figures.workflow.common import main
 

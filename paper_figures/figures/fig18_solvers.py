@@ -1,6 +1,6 @@
 """Fig. 18: time and collision detections a step of IPC, Newton-OGC and VBD-OGC on one scene and the same cores, frames
 of the first run, and the ratios beside the paper's, each with its threads and devices. VBD-OGC on CUDA is a fourth
-curve if its run lies in the folder (or with --cuda).
+curve if its run is in the folder (or with --cuda).
 """
 
 import json
@@ -34,21 +34,21 @@ def detections(run):
 
 
 def processor_ms(run):
-    """Returns the program's processor time, start and audit included; not-a-number if it was not measured."""
+    """Returns the program's processor time, including start and audit; not-a-number if it was not measured."""
     path = run.folder / PROCESSOR_TIME
     return 1e3 * sum(json.loads(path.read_text()).values()) if path.is_file() else np.nan
 
 
 def processor_times(run):
-    """Returns the processor time of each step [ms]: that of the whole run, divided in proportion to time on the clock.
-    Not-a-number if it was not measured."""
+    """Returns the processor time of each step [ms]: the processor time of the whole run, divided in proportion to the
+    steps' times on the clock. Not-a-number if it was not measured."""
     wall = run.column("wall")
     return wall * processor_ms(run) / np.sum(wall)
 
 
 def claimed(run):
-    """Returns how much longer than this run IPC takes on average, from the paper's text beside Fig. 18; None if the
-    paper gives no number, as for CUDA."""
+    """Returns the paper's mean ratio of IPC's time to this run's, from its text beside Fig. 18. None if the paper gives
+    no number, as for CUDA."""
     if run.manifest["backend"] != "cpu":
         return None
     claims = json.loads((CLAIMS / f"{SCENE}.json").read_text())["claims"]
@@ -57,9 +57,9 @@ def claimed(run):
 
 
 def ratios(runs):
-    """Returns [(label, IPC's time a step over this run's, the kind of time, the paper's claim or None)] over the steps
-    that both have: for time on the clock, which means nothing if the machine does other work, and, where measured, for
-    processor time, which means nothing for a GPU and little for threads that wait."""
+    """Returns [(label, IPC's time over this run's, kind of time, the paper's claim or None)] over the steps that both
+    runs have. Time on the clock means nothing on a busy machine. Processor time, where measured, means nothing for a
+    GPU and little for threads that wait."""
     baseline = next((run for run in runs if run.manifest["solver"] == "ipc"), None)
     result = []
     for run in runs if baseline else []:
@@ -94,14 +94,14 @@ def summary(runs):
 
 
 def unequal(runs):
-    """Returns a warning if solvers of the CPU ran on different numbers of threads; else nothing."""
+    """Returns a warning if CPU solvers ran on different numbers of threads; otherwise an empty text."""
     threads = sorted({run.manifest["device"] for run in runs if run.manifest["backend"] == "cpu"})
     warning = f"NOT ON THE SAME CORES ({', '.join(threads)}): a ratio of these says little about the methods"
     return [warning] if len(threads) > 1 else []
 
 
 def rows(runs):
-    """Returns a row for each run: its provenance, and its means and shares."""
+    """Returns a row for each run: its provenance, means and shares."""
     result = []
     for run in runs:
         wall = run.column("wall")
@@ -141,7 +141,7 @@ def draw(runs, out):
     logarithmic.set(xlabel="step", ylabel=f"{time} a step [ms]", title=f"{time.capitalize()}, logarithmic",
                     yscale="log")
     counts.set(xlabel="step", ylabel="detections a step", title="Detections, continuous and discrete", ylim=(0, None))
-    for axes in (linear, counts):  # in the third it would cover the curve of a GPU
+    for axes in (linear, counts):  # in the third axes the legend would cover the curve of a GPU
         axes.legend()
     words = figure.add_subplot(grid[2, 2:])
     words.axis("off")
@@ -151,8 +151,8 @@ def draw(runs, out):
 
 
 def runs_of(arguments):
-    """Returns the runs, IPC's first; VBD's on CUDA if it lies in the folder or is requested. With --made the existing
-    ones."""
+    """Returns the runs, IPC's first. VBD on CUDA is included if its run is in the folder or requested. With --made only
+    existing runs are returned."""
     folder = Path(arguments.folder)
     made = [name for name in commands.SOLVERS if (folder / name / "run.json").is_file()]
     if arguments.made and not made:

@@ -1,9 +1,9 @@
 """Fig. 19: the twisted mat. Time a step of VBD-OGC with balls and with planes; without friction beside GIPC's times
-over the same steps; windows on the CPU beside IPC's; how far one step ends from Newton's converged one; lag of the
+over the same steps; windows on the CPU beside IPC's; the distance of one step from Newton's converged one; lag of the
 ends.
 
 GIPC's times were measured on one H200; its known settings are in paper_figures/results/h200/README.md. They end after
-2,303 steps: no curve and no average extends beyond them, and below the paper's size there are none.
+2,303 steps, so that no curve or average extends beyond them. Below the paper's size there are none.
 """
 
 import csv
@@ -26,13 +26,13 @@ from plots.run_folder import Run, RunError, commits_in_words
 from plots.scene_figure import draw_movie
 
 GIPC, GIPC_DEVICE = RESULTS / "h200" / "gipc_mat.csv", "NVIDIA H200"
-# The paper's times of the whole run [ms]: average, and maximum if it gives one.
+# The paper's times over the whole run [ms]: average, and maximum if given.
 PAPER = {"cuda": (5.5, 8.5), "cpu": (540.0, None), "ipc": (61180.0, None)}
-HALF = 8.0  # seconds: the paper's 16 s, if its π/2 is the relative rate of the ends
+HALF = 8.0  # [s]: half of the paper's 16 s, the duration if the paper's π/2 is the relative rate of the ends
 
 
 def runs_of(arguments):
-    """Returns name -> Run, made if it does not exist; with --made the existing ones."""
+    """Returns name -> Run, and makes missing runs; with --made returns only existing ones."""
     scale, folder = arguments.scale, Path(arguments.folder)
     jobs = [*commands.mat_whole(scale, arguments.backend), *commands.mat_without_friction(scale, arguments.backend),
             *commands.mat_windows(scale), *commands.mat_one_step(scale)]
@@ -50,13 +50,13 @@ def runs_of(arguments):
 
 
 def has_steps(run):
-    """Returns whether the run has a step; an abandoned step leaves none."""
+    """Returns whether the run has a step; an abandoned run may have none."""
     rows = run / "steps.csv"
     return (run / "run.json").is_file() and rows.is_file() and rows.read_text().count("\n") > 1
 
 
 def gipc_times(scale):
-    """Returns the times of each step [ms]; None below the paper's size."""
+    """Returns GIPC's time of each step [ms]; None below the paper's size."""
     if scale != "paper":
         return None
     with GIPC.open(newline="") as file:
@@ -92,14 +92,14 @@ def row_of(what, run, **more):
 
 
 def ends_of(run, step):
-    """Returns the positions after this step, or None if the run did not reach it."""
+    """Returns the positions after this step; None if the run did not reach it."""
     frames = [frame for frame in run.frames if int(frame.stem.removeprefix("frame_")) == step]
     return run.frame(frames[0]).positions.astype(float) if frames and not run.status.startswith("failed") else None
 
 
 def distances(runs):
-    """Returns share -> (label, run, iterations or None) with the distance of its first step from Newton's converged
-    one."""
+    """Yields (share, run, cells) for the runs at each window; the cells contain the distance of the run's first step
+    from Newton's converged one."""
     for share in commands.MAT_WINDOWS:
         newton = runs.get(f"window_{share}/newton")
         beside = [runs.get(f"window_{share}/{name}") for name in ("step_" + str(n) for n in one_step_iterations(runs))]
@@ -113,7 +113,7 @@ def one_step_iterations(runs):
 
 def cells_of_distance(run, newton, whole):
     first = int(run.column("step")[0])
-    own = run.manifest["solver"] == "ipc"  # its residual is a measure of its own
+    own = run.manifest["solver"] == "ipc"  # IPC's residual is another quantity
     residual = np.nan if own or "residual" not in run.steps else run.column("residual")[0]
     cells = {"residual [1]": residual if np.isfinite(residual) else ""}
     begin, end, least = ends_of(whole, first - 1), ends_of(run, first), ends_of(newton, first) if newton else None
@@ -136,7 +136,7 @@ def mean_of_windows(rows):
 
 
 def without_friction(runs, theirs):
-    """Returns rows of the runs without friction, and GIPC's; the ratio is over all steps measured of both."""
+    """Returns rows of the runs without friction, and GIPC's row. Ratios cover the steps that both measured."""
     rows = []
     for bounds in commands.MAT_BOUNDS:
         run = runs.get(f"{bounds}/free")

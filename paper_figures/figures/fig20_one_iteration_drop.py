@@ -19,8 +19,8 @@ FRAMES = (0, 50, 80)
 
 
 def centre(run):
-    """Returns time [s] and mean height [m] of the cloth's vertices at each frame. This is the centre of mass, except
-    that vertices at the rim are lighter."""
+    """Returns time [s] and mean height [m] of the cloth's vertices in each frame. The mean height differs from the
+    centre of mass only because vertices at the rim are lighter."""
     body = run.bodies()[0]
     cloth = slice(body["first_vertex"], body["first_vertex"] + body["vertex_count"])
     frames = [run.frame(path) for path in run.frames]
@@ -28,8 +28,8 @@ def centre(run):
 
 
 def rows(runs):
-    """Returns a row for each run and shown frame: kinetic energy and mean height there, the run's largest kinetic
-    energy, and the largest loss of it in one step."""
+    """Returns a row for each run and shown frame: kinetic energy and mean height in the frame, the run's largest
+    kinetic energy, and the largest loss of kinetic energy in one step."""
     result = []
     for run in runs:
         energy, last = run.column("kinetic_energy"), int(run.column("step")[-1])

@@ -1,15 +1,16 @@
 """Fig. 21 and the ablation that the paper does not have: a cloth falls onto a sphere and the ground, 40 steps solved to
 convergence with each contact energy.
 
-Newton's method solves all five energies; one that does not converge (Eq. 19 as printed has a force that jumps at τ)
-keeps its row. Step 40 is then repeated from each energy's own state 39: by Newton with the condition number of each
-matrix, of it without friction and without contact, and, for the paper's two energies, by VBD in double and single
-precision, whose convergence is the paper's panel c. The states of both energies are compared vertex by vertex.
+Newton's method solves all five energies. An energy for which it does not converge keeps its row; Eq. 19 as printed has
+a force that jumps at τ. Step 40 is then repeated from each energy's own state 39. Newton's repetition gives the
+condition numbers of its matrices, also without friction and without contact. For the paper's two energies VBD in double
+and in single precision repeats the step, too; its convergence is the paper's panel c. The states of both energies are
+compared vertex by vertex.
 
-Two choices that the paper leaves open are varied. κ: IPC's energy is −κ k_c (d − r)² ln(d/r). Weak contact: k_c so
-small that about half of OGC's contacts push with more than k_c r/2, where IPC's energy is the stiffest beside OGC's at
-equal force. Each last state gives the forces of contacts, and the number of contacts at which IPC's is the softer
-energy. With --without all but the paper's two at κ = 1 can be left out; picture and table then name what was not run,
+Two choices that the paper leaves open are varied. κ: IPC's energy is −κ k_c (d − r)² ln(d/r). Weak contact: k_c is so
+small that about half of OGC's contacts push with more than k_c r/2, where IPC's energy at equal force is stiffest in
+comparison with OGC's. Each last state gives the contact forces and the number of contacts at which IPC's energy is
+softer. --without leaves out all energies but the paper's two at κ = 1; picture and table then name what was not run,
 and `accept` takes them only with --incomplete.
 """
 
@@ -44,8 +45,8 @@ CONDITIONS = {
 
 @dataclass(frozen=True)
 class Solved:
-    """Holds the runs of a variant: all steps; the last one by Newton, by VBD in double and by VBD in single precision,
-    None if it is not made."""
+    """Holds the runs of a variant: all steps; and the last step by Newton, by VBD in double and by VBD in single
+    precision. A run that was not made is None."""
 
     run: Run
     newton: Run = None
@@ -95,14 +96,14 @@ def largest_distance(first, second):
 
 
 def first_below(rows, level):
-    """Returns the first iteration whose state has this residual, with the contacts of the last detection, or
+    """Returns the first iteration whose state has at most this residual, with the contacts of the last detection, or
     "never"."""
     below = np.flatnonzero(rows["residual"] <= level)
     return int(rows["iteration"][below[0]]) if len(below) else "never"
 
 
 def iterations_to(prefix, run, step):
-    """Returns columns of a solver: the iterations of the last step to each level, empty if it was not made."""
+    """Returns a solver's columns: the iterations of the last step to each level; empty if the step was not made."""
     rows = iterations(run, step) if run else None
     return {
         f"{prefix}_iterations_to_{name} [1]": first_below(rows, level) if rows else "" for name, level in LEVELS.items()
@@ -110,8 +111,8 @@ def iterations_to(prefix, run, step):
 
 
 def conditions(newton, step):
-    """Returns columns of the last matrix of the step, and the median over its iterations; empty if Newton made none or
-    gave up, because its last matrix is then of a state far from the end."""
+    """Returns columns about the matrices of the step: values of the last one, and medians over the iterations. Empty if
+    Newton made none or gave up, because its last matrix then belongs to a state far from the end."""
     rows = iterations(newton, step) if newton and newton.status == "finished" else None
     known = np.flatnonzero(np.isfinite(rows["condition_number"])) if rows else []
     if not len(known):
@@ -121,8 +122,7 @@ def conditions(newton, step):
 
 
 def pushing(forces):
-    """Returns columns about the contacts of the last state; empty for an energy that neither of the two curves
-    describes."""
+    """Returns columns about the contacts of the last state; empty for an energy that neither curve describes."""
     if forces is None:
         return dict.fromkeys(
             ("contacts [1]", "median_force [k_c r]", "share_above_half [1]", "share_where_ipc_is_softer [1]"), ""
@@ -136,14 +136,14 @@ def pushing(forces):
 
 
 def largest_residual(run):
-    """Returns the largest residual of the steps with contacts: in free flight the force with which VBD begins, f*, is
+    """Returns the largest residual over steps with contacts. In free flight f*, the force with which VBD begins, is
     only rounding."""
     touching = run.column("vertex_facet_contacts") + run.column("edge_edge_contacts") > 0
     return run.column("residual")[touching].max()
 
 
 def row_of(variant, found, forces, like, scale):
-    """Returns the row of a variant. `like`: the runs of OGC's energy with the same contact."""
+    """Returns the row of a variant. `like`: the runs with OGC's energy and the same contact."""
     run, step, newton = found.run, STEPS[scale], found.newton
     whole = run.status == "finished"
     return {
@@ -307,7 +307,7 @@ def draw_conditions(axes, rows):
 
 
 def over(rows, column, top=IPC, bottom=OGC):
-    """Returns the quotient of two cells in words; a dash if one is not a number."""
+    """Returns the quotient of two cells as text; a dash if one is no number."""
     cells = {row["activation"]: row[column] for row in rows}
     try:
         return f"{float(cells[top.label]) / float(cells[bottom.label]):.3g}"
@@ -347,8 +347,8 @@ def draw(results, panels, states, rows, scale, out):
 
 
 def main(folder, ogc, scale="small", backend="cpu", without=()):
-    """Makes the runs that are missing in `folder`, and writes fig21.png and the tables there; `backend`: of VBD in
-    single precision, `without`: names of variants that are neither run nor drawn. Returns the picture's path."""
+    """Makes the missing runs in `folder`, writes fig21.png and the tables there, and returns the picture's path.
+    `backend`: of VBD in single precision. `without`: names of variants that are neither run nor drawn."""
     folder = Path(folder)
     panels = curves(folder, ogc)
     results = {v: solved(folder, ogc, scale, v, backend) for v in VARIANTS if v.name not in without}

@@ -1,4 +1,4 @@
-"""Draws the paper's drawings (Fig. 2c to e, 3 to 9, 22) from the data of `ogc illustrate`. It computes no geometry; it
+"""Draws the paper's drawings (Fig. 2c to e, 3 to 9, 22) from the data of `ogc illustrate`. Computes no geometry: it
 only draws points and lines."""
 
 import argparse
@@ -13,7 +13,7 @@ import numpy as np
 from plots import style
 
 plt = style.use()
-from matplotlib.colors import BoundaryNorm, ListedColormap  # after the style has chosen its backend
+from matplotlib.colors import BoundaryNorm, ListedColormap  # imported after the style has chosen its backend
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection  # noqa: E402
 
 TITLES = {
@@ -76,7 +76,7 @@ def draw_arrows(axes, layer):
         start, end = xy(layer, line)
         segment, whole = int(layer["values"][2 * k]), layer["values"][2 * k + 1] > 0
         colour = SEGMENT_COLOURS[segment % len(SEGMENT_COLOURS)] if whole else "black"
-        width = 0.35 if starts[k] in starts[k + 1:] else 0.12  # equal arrows stay visible inside each other
+        width = 0.35 if starts[k] in starts[k + 1:] else 0.12  # two equal arrows stay visible inside each other
         shape = f"simple,head_length={0.5 + width},head_width={0.3 + 2 * width},tail_width={width}"
         axes.annotate("", end, start, zorder=4 + k,
                       arrowprops={"arrowstyle": shape, "mutation_scale": 10, "facecolor": colour, "edgecolor": "none",
@@ -161,7 +161,7 @@ def draw_path(figure, left, right, panels):
     right.legend(loc="upper center", ncols=2)
 
 
-# Truncated steps; their lengths are metres, drawn as millimetres ---
+# Truncated steps. Lengths are in metres and drawn in millimetres ---
 
 
 def millimetres(layer):
@@ -261,8 +261,8 @@ def lines_of(layer):
 
 
 def not_drawn_yet(lines, drawn):
-    """Returns the parts of `lines` whose segments are not in `drawn`, and adds them to it: where two boundaries share
-    an edge, the dashes of one must not fill the gaps of the other."""
+    """Returns the parts of `lines` whose segments are not in `drawn`, and adds them to `drawn`. Where two boundaries
+    share an edge, the dashes of one must not fill the gaps of the other."""
     result = []
     for line in lines:
         part = [line[0]]
@@ -278,7 +278,7 @@ def not_drawn_yet(lines, drawn):
 
 
 def draw_layer(axes, layer, colour, alpha, line_width=1.0, line_colour=None, drawn=None):
-    """Draws a layer. `drawn`: segments of lines that exist already, and are left out."""
+    """Draws a layer without the line segments that `drawn` already contains."""
     points = np.array(layer["points"], dtype=float).reshape(-1, 3)
     if layer["triangles"]:
         axes.add_collection3d(Poly3DCollection(points[np.array(layer["triangles"])], facecolors=colour,

@@ -1,6 +1,6 @@
 """How far Vertex Block Descent in single precision ends from where Newton's method in double ends: the same step of the
-same state by both, each until nothing moves, of three scenes. Both detect contacts during the step; where only one of
-them has a contact, or friction lags differently, that is part of the distance. Not in the paper.
+same state by both, each until nothing moves, of three scenes. Both detect contacts during the step. If only one of them
+has a contact, or their lagged friction differs, this adds to the distance. Not in the paper.
 """
 
 import csv

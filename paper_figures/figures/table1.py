@@ -1,9 +1,9 @@
 """Table 1, rows of cloth, of the mat and of yarn: ours beside the paper's, as CSV, Markdown and HTML, from the runs
 that the runner makes (FOLDER/ROW/whole… and FOLDER/ROW/cpu_SHARE).
 
-Average and maximum are those of whole steps as timed in steps.csv. A step that was repeated because a list grew counts
-in the average, not in the maximum, and is listed. The CPU's average is that of its windows with equal weights. With
-several whole runs each number is their median. The standard library is enough.
+Average and maximum are times of whole steps from steps.csv. A step that was repeated because a list grew counts in the
+average but not in the maximum; the number of such steps is listed. The CPU's average is that of its windows with equal
+weights. With several whole runs each number is their median. Python's standard library suffices.
 """
 
 import argparse
@@ -26,7 +26,7 @@ STALE, FRESH = "residual, last detection's contacts [1]", "residual, contacts of
 
 
 def runs_below(folder, pattern):
-    """Returns runs with at least one step; other content of the folder is left out."""
+    """Returns the runs with at least one step; ignores other content of the folder."""
     found = (run_at(path) for path in sorted(Path(folder).glob(pattern)))
     return [run for run in found if run and run.column("step")]
 
@@ -39,12 +39,12 @@ def times(run):
 
 
 def contacts(run):
-    """Returns the vertex-facet and edge-edge contacts of each step."""
+    """Returns the number of contacts, of both kinds together, in each step."""
     return [a + b for a, b in zip(run.column("vertex_facet_contacts"), run.column("edge_edge_contacts"))]
 
 
 def residuals(folder):
-    """Returns the residual that a step leaves at each measured state: `first state: residual`, by column."""
+    """Returns by column the residual that a step leaves at each measured state, as text "first state: residual; …"."""
     runs = sorted(runs_below(folder, "residual_*"), key=lambda run: run.column("step")[0])
     found = {STALE: [], FRESH: []}
     for run in runs:
@@ -72,7 +72,7 @@ def origin(run):
 
 
 def beside(run, average, maximum):
-    """Returns our numbers, the paper's and the quotients; below the paper's scale ours alone."""
+    """Returns our numbers, the paper's numbers and the quotients; below the paper's scale only ours."""
     row = {"average [ms]": average, "maximum [ms]": maximum}
     m = run.manifest
     for name, ours in (("average", average), ("maximum", maximum)):
@@ -83,8 +83,8 @@ def beside(run, average, maximum):
 
 
 def penetration(run):
-    """Returns the share of vertices that end a step cut, the lag of prescribed vertices, and, for bodies that may be
-    entered, the vertices inside them as counted by the solver."""
+    """Returns the share of vertices that a step leaves cut, the lag of prescribed vertices and, for volumes, the number
+    of vertices inside as the solver counts them."""
     columns = {"at bound, most [1]": "share_cut", "largest lag [m]": "largest_lag",
                "vertices inside, most": "vertices_inside", "deepest [m]": "deepest"}
     return {name: max(run.column(column)) if run and column in run.columns else "" for name, column in columns.items()}
@@ -98,8 +98,7 @@ def sizes(run):
 
 
 def device_row(scene, runs, memory="", left=None):
-    """Returns the row of the whole runs on the device, which must have equal lengths; `left`: the result of
-    `residuals`."""
+    """Returns the row of the whole runs on the device, which must have equal lengths. `left`: result of `residuals`."""
     if len({len(run.column("step")) for run in runs}) > 1:
         raise EvidenceError(f"{scene}: whole runs of different lengths ({', '.join(run.source for run in runs)}): "
                             "finish them, or remove the shorter ones")
@@ -117,7 +116,7 @@ def device_row(scene, runs, memory="", left=None):
 
 
 def cpu_row(scene, windows, wanted):
-    """Returns the row of the windows on the CPU, by their share of the run."""
+    """Returns the row of the windows on the CPU."""
     windows = sorted(windows, key=lambda run: run.column("step")[0])
     if len({(run.manifest["commit"], run.manifest["device"]) for run in windows}) > 1:
         raise EvidenceError(f"{scene}: CPU windows of different programs or machines: remove the old ones and make "

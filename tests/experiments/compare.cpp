@@ -1,5 +1,5 @@
-// Tests the judge with both sides: it passes the exact contestant and catches every planted fault, and `ogc compare`
-// reports so.
+// Tests the judge with a contestant and the reference: it passes the exact contestant, catches every planted fault, and
+// `ogc compare` reports both.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -35,13 +35,12 @@ JudgeOptions few_cases(Stage stage) {
   return options;
 }
 
-/// Returns the first mismatch, for the log of a failed test.
 std::string first_mismatch(const StageReport& report) {
   if (report.tally.mismatches.empty()) return "no mismatch";
   return print_problem(report.tally.mismatches[0].name) + ": " + report.tally.mismatches[0].message;
 }
 
-/// Faults to plant: all, those that any generator shows, or those that need their own generator.
+/// Selects faults: all, those that any generator reveals, or those that only one generator reveals.
 enum class Shown { in_any_way, by_any, by_its_own };
 
 /// Checks that the judge catches the faults planted in these stages.
@@ -54,10 +53,10 @@ void check_caught(const std::vector<Stage>& stages, Shown shown = Shown::in_any_
     fault.plant(wrong, authority);
     JudgeOptions options = few_cases(fault.stage);
     options.generator = fault.generator;
-    // A fault that only one generator shows needs enough scenes of it.
+    // A fault that only one generator reveals needs enough scenes of it.
     const std::uint64_t most = (fault.generator.empty() ? 1 : 20) * options.cases;
     std::uint64_t found = 0;
-    // A twentieth of the cases shows most faults; only the others get all cases.
+    // Most faults appear in a twentieth of the cases; all cases are tried only for the others.
     for (options.cases /= 20; found == 0 && options.cases <= most; options.cases *= 20)
       found = judge_stage(fault.stage, wrong, authority, options).tally.mismatched;
     INFO(fault.name);
@@ -85,7 +84,7 @@ TEST_CASE("the judge catches every planted fault of a step that needs a generato
   check_caught({Stage::step}, Shown::by_its_own);
 }
 
-// A guess that is changed alone makes the sweep after it wrong, too.
+// The sweep after a wrong guess is wrong, too.
 TEST_CASE("the judge says of a wrong rule for what contacts leave that it is the guess that is wrong", "[agreement]") {
   const Authority authority = reference::authority();
   int asked = 0;
@@ -185,7 +184,7 @@ TEST_CASE(
   for (const StageReport& report : reports) {
     INFO(first_mismatch(report));
     CHECK(report.tally.mismatched == 0);
-    // a grey share of few cases means nothing
+    // with few cases the share of grey ones means nothing
     CHECK((report.passed() || report.tally.total().cases < few_cases(report.tally.stage).cases));
   }
   CHECK(tests::loose_problems(reports) == std::vector<std::string>{});

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Returns the bytes of each frame by its name.
+/// Returns the bytes of each frame by file name.
 std::map<std::string, std::string> frames_of(const fs::path& run) {
   std::map<std::string, std::string> frames;
   for (const auto& entry : fs::directory_iterator(run / "frames"))
@@ -32,7 +32,7 @@ std::string rows_of(const fs::path& run) {
   return compare::step_lines(table.rows, table.stage_names.size(), table.groups);
 }
 
-/// Returns iterations.csv without its third column, a time.
+/// Returns iterations.csv without its third column, which is a time.
 std::string iterations_of(const fs::path& run) {
   std::ifstream file(run / "iterations.csv");
   std::string text;
@@ -43,8 +43,8 @@ std::string iterations_of(const fs::path& run) {
   return text;
 }
 
-/// Checks what a run left when it was cut off: every frame is whole, and every row up to the checkpoint and each frame
-/// that the run reported as written are there.
+/// Checks the folder of a run that was cut off: every frame is whole, and all rows up to the checkpoint and all frames
+/// that the run reported exist.
 void check_left(const fs::path& run, const std::string& said) {
   const compare::RunReader reader(run);
   std::int64_t last = -1;
@@ -81,18 +81,18 @@ Cuts run_with_cuts(const std::string& command, const fs::path& run, const std::s
   Cuts cuts;
   std::string arguments = command + " --out " + run.string();
   for (int attempt = 0; attempt < 40; ++attempt) {
-    // In the foreground, timeout waits for the process that it kills. Otherwise it ends by its own SIGKILL, maybe
-    // before the run's lock is released.
+    // With --foreground, timeout waits for the process that it kills. Without it, timeout dies by its own SIGKILL,
+    // maybe before the run releases its lock.
     const std::string before = cuts.in_time < 3 && cuts.killed < 20
                                    ? "timeout --foreground --preserve-status -s " + signal + " " +
                                          std::to_string(moment(random)) + " "
                                    : "";
     const ProgramResult result = run_ogc("run " + arguments, before);
-    // A signal may also reach a run whose last step is written, and leave the trajectory to `ogc export`.
+    // The signal may reach a run after its last step was written. The trajectory is then left to `ogc export`.
     if (result.status == 0 || is_finished(run)) {
       if (result.status != 0) REQUIRE(run_ogc("export " + run.string()).status == 0);
       if (cuts.in_time > 0) break;
-      fs::remove_all(run);  // no cut came in time; try again
+      fs::remove_all(run);  // no signal came in time; try again
       continue;
     }
     INFO(result.err);

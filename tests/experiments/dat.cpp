@@ -1,4 +1,4 @@
-// Makes whole smoke runs with bounds=dat and judges every state exactly: positions, motion and planes.
+// Makes whole smoke runs with bounds=dat and checks every state exactly: positions, motion and planes.
 #include "experiments/program/audits/auditor.hpp"
 #include "experiments/scenes/registry.hpp"
 #include "fast/cpu/simulation.hpp"
@@ -12,7 +12,7 @@ TEST_CASE("bounds=dat: scenes pass through nothing, each state audited exactly",
   INFO(name);
   compare::Scene scene = make_scene(name, Scale::smoke);
   scene.settings.bounds = compare::Bounds::dat;
-  if (name == "dress")  // with its own membrane it needs more steps than these to come near itself
+  if (name == "dress")  // with its own membrane the dress needs more steps to come near itself
     for (compare::Body& body : scene.bodies)
       if (body.material.membrane != compare::MembraneModel::none)
         body.material.membrane = compare::MembraneModel::st_venant_kirchhoff;

@@ -1,5 +1,5 @@
-// Tests failures and their names: each known wrong form is distinguished from the truth and recognised, planted faults
-// get the name of their form, and a fault that is no form gets none.
+// Tests diagnoses: each known wrong form differs from the truth and is recognised, planted faults get the name of their
+// form, and a fault without a form gets none.
 #include <map>
 #include <set>
 
@@ -17,8 +17,8 @@ using namespace ogc::compare;
 
 namespace {
 
-/// Adds failing cases if the judge stopped with too few to name a form, as with rare subjects like rigid groups and
-/// solids.
+/// Adds failing cases if the judge found too few to name a form, as for rigid groups and solids, which are in few
+/// meshes.
 void look_for_more(Stage stage, const Contestant& contestant, const Authority& authority,
                    std::vector<TestCase>& failing) {
   for (const Generator& row : generators(stage))
@@ -28,7 +28,7 @@ void look_for_more(Stage stage, const Contestant& contestant, const Authority& a
     }
 }
 
-/// Returns the judge's diagnosis of this contestant after a short run.
+/// Returns the judge's diagnosis of this contestant from a short run.
 Diagnosis diagnosis_of(Stage stage, const Contestant& contestant, const Authority& authority) {
   JudgeOptions options;
   options.cases = is_mesh_stage(stage) ? 1000 : 2000;
@@ -42,13 +42,13 @@ Diagnosis diagnosis_of(Stage stage, const Contestant& contestant, const Authorit
 
 bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// Returns whether the diagnosis has the name, or one that these cases do not distinguish from it.
+/// Returns whether the diagnosis has this name, or another name that its cases can't distinguish from this one.
 bool names(const Diagnosis& diagnosis, const std::string& name) {
   return diagnosis.name == name ||
          std::find(diagnosis.as_well.begin(), diagnosis.as_well.end(), name) != diagnosis.as_well.end();
 }
 
-/// Returns a few cases of each generator, with the contestant's answers.
+/// Returns `each` cases of each generator, with the contestant's answers.
 std::vector<Evidence> evidence_of(Stage stage, const Contestant& contestant, std::uint64_t each) {
   std::vector<Evidence> all;
   for (const Generator& row : generators(stage))
@@ -57,14 +57,14 @@ std::vector<Evidence> evidence_of(Stage stage, const Contestant& contestant, std
   return all;
 }
 
-/// Returns the count of failing cases in a longer run, because rare subjects like rigid groups are in few meshes.
+/// Returns the number of failing cases in a longer run, because few meshes have rigid groups or other rare subjects.
 std::size_t failing_of_many(Stage stage, const Contestant& contestant, const Authority& authority) {
   JudgeOptions options;
   options.cases = 6000;
   return judge_stage(stage, contestant, authority, options).tally.mismatched;
 }
 
-/// Checks the contestant of each form of these stages on a few cases; returns how many forms there are.
+/// Checks the contestant of each form of these stages on a few cases. Returns the number of forms.
 std::size_t check_forms(CaseKind kind) {
   const Authority authority = reference::authority();
   std::size_t forms = 0;
@@ -81,7 +81,7 @@ std::size_t check_forms(CaseKind kind) {
       }
       INFO(stage_name(stage) << ": " << form.name << ", of " << answers.size() << " cases " << fits << " fit, " << fails
                              << " fail");
-      // A few cases do not fit: a form's answer may overflow single precision, and its changed input may lie beside a
+      // A few cases do not fit: a form's answer may overflow single precision, and its changed input may lie close to a
       // jump.
       CHECK(static_cast<double>(fits) >= least_share * static_cast<double>(answers.size()));
       if (fails == 0) fails = failing_of_many(stage, wrong, authority);
@@ -168,7 +168,7 @@ TEST_CASE("planted faults that are known wrong forms are named, and others are n
 TEST_CASE("a form that fits too few of the failing cases is not named", "[agreement]") {
   const Authority authority = reference::authority();
   const auto right = tests::exact_contestant(authority).activation;
-  // Every third case is as printed, the others are 37 % too stiff; neither form fits enough of them.
+  // A third of the cases use the printed formula, the others are 37 % too stiff. Neither form fits enough cases.
   Contestant mixed = tests::exact_contestant(authority);
   mixed.activation = [right](const ActivationIn& in) {
     ActivationIn other = in;
@@ -181,7 +181,7 @@ TEST_CASE("a form that fits too few of the failing cases is not named", "[agreem
     return right(other);
   };
   CHECK(diagnosis_of(Stage::activation, mixed, authority).name.empty());
-  // One case alone is wrong, and it fits a form.
+  // A single case is wrong, and it fits a form.
   Contestant once = tests::exact_contestant(authority);
   const TestCase test = generate({Stage::activation, "ladder.switch", 1, 7, "", {}});
   const auto& c = case_of<ActivationCase>(test.data);
@@ -212,7 +212,7 @@ TEST_CASE("where the failing cases have an input in common that right ones lack,
   INFO(diagnosis_text(diagnosis));
   CHECK(diagnosis.where == "sides is edge_edge");
   CHECK(diagnosis.name == "flipped_sign");
-  CHECK(diagnosis.otherwise > 0);  // the other sides speak against the form, which is reported
+  CHECK(diagnosis.otherwise > 0);  // some failing cases contradict the form, which is reported
 }
 
 TEST_CASE("whoever answers as a form is told its name", "[agreement]") {
@@ -312,7 +312,7 @@ TEST_CASE("failures of few generators are said to be confined to them", "[unit]"
   CHECK(tally_of(100, {"ladder.needle"}).confined_to() == Names{"ladder.needle"});
   CHECK(tally_of(100, {"ladder.needle", "ladder.base"}).confined_to() == Names{"ladder.base", "ladder.needle"});
   CHECK(tally_of(100, {"ladder.needle", "ladder.base", "ladder.sliver", "ladder.offset"}).confined_to().empty());
-  CHECK(tally_of(20, {"ladder.needle"}).confined_to().empty());  // too few cases pass for that conclusion
+  CHECK(tally_of(20, {"ladder.needle"}).confined_to().empty());  // too few cases pass for this conclusion
   CHECK(tally_of(100, {"uniform", "ladder.needle"}).confined_to() == Names{"ladder.needle", "uniform"});
   StageReport report{tally_of(100, {"ladder.needle"})};
   CHECK(says(report_table({&report, 1}),

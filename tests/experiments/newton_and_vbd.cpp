@@ -1,11 +1,12 @@
 // Compares Newton, VBD in double and VBD in single precision on the same step: procedural scenes press a free sheet
 // onto another one, free or fixed, with friction and damping.
 //
-// If a step has one solution, x* with f(x*) = 0 and a Hessian of at least m/(2h²) between the two states, each solver
-// is within 2 h²/m ‖f(x)‖ of it, where f(x) is the force left where it stopped. Two conditions are checked. The Hessian
-// without half of the inertia has a Cholesky factorisation. No decision about a contact is at an open boundary, where
-// OGC's force jumps: no decision of the exact detection is grey at either end, and both ends have the same contacts (a
-// VBD that alternates across a boundary for ever ends with others). In other steps energies and residuals are compared.
+// Let x* be the only solution of the step, f(x*) = 0, and let the Hessian between two states be at least m/(2h²). Each
+// solver then ends within 2 h²/m ‖f(x)‖ of x*, where f(x) is the force that it leaves. The test checks two conditions
+// for this. First, the Hessian without half of the inertia has a Cholesky factorisation. Second, no contact is at an
+// open boundary, where OGC's force jumps: the exact detection is not grey at either end, and both ends have the same
+// contacts (a VBD that alternates across a boundary has others). For all other steps the test compares energies and
+// residuals.
 #include <cmath>
 #include <limits>
 #include <map>
@@ -24,7 +25,7 @@ using compare::Vec3f;
 
 namespace {
 
-/// Returns a number in [−1, 1) that depends on the scene and on its use.
+/// Returns a pseudo-random number in [−1, 1) that depends on the scene and the use.
 double draw(int scene, int use) {
   const double x = std::sin(12.9898 * (scene + 1) + 78.233 * (use + 1)) * 43758.5453;
   return 2 * (x - std::floor(x)) - 1;
@@ -67,7 +68,7 @@ std::vector<Vec3f> end_of_step(const compare::Contestant& contestant, const comp
   return simulation->snapshot().positions;
 }
 
-/// Holds what is known about a state.
+/// Holds the state in which a solver ended, with its residual and exact contacts.
 struct End {
   std::vector<Vec3f> x;
   reference::Residual residual;
@@ -103,7 +104,7 @@ class Pair {
     return a.facets.exact.contacts == b.facets.exact.contacts && a.edges.exact.contacts == b.edges.exact.contacts;
   }
 
-  /// Returns whether the Hessian at the state less m/(2h²) is positive definite.
+  /// Returns whether the Hessian at this state minus m/(2h²) is positive definite.
   bool positive_definite(const End& end) {
     const reference::State x = reference::widened(end.x),
                            start = reference::widened(compare::to_single(scene_.mesh.positions));
@@ -122,9 +123,9 @@ class Pair {
     return factor.factorize(matrix);
   }
 
-  double start_energy() const { return start_energy_; }  ///< at xᵗ [J]
+  double start_energy() const { return start_energy_; }  ///< energy at xᵗ [J]
 
-  /// Returns 2 h²/m Σ ‖f‖ of both ends plus the distance by which storing has moved them.
+  /// Returns the bound of the distance of both ends: 2 h²/m Σ ‖f‖, plus the rounding of the stored positions.
   double farthest_apart(const End& a, const End& b) const {
     double lightest = std::numeric_limits<double>::infinity(), largest = 0;
     const auto free = static_cast<double>(potential_.free_count());
@@ -171,7 +172,7 @@ TEST_CASE(
     Pair pair(scene);
     const End newton = pair.end(end_of_step(reference::newton(), scene));
     CHECK(newton.residual.contacts > 10);
-    // Storing positions in single precision leaves this much of 10⁻⁹.
+    // Storing positions in single precision increases the residual from 10⁻⁹ to this much.
     CHECK(newton.residual.share < 1e-5);
     std::vector<End> settled;
     for (const compare::Contestant* vbd : {&single, &twice}) {
@@ -182,8 +183,8 @@ TEST_CASE(
         ++same[vbd->name];
         CHECK(other.residual.share < 1e-5);
         CHECK(largest_distance(newton, other) <= pair.farthest_apart(newton, other));
-        // The bound is far from tight: single precision was measured to end within 5 nm, a few roundings of coordinates
-        // of 3 cm.
+        // The bound is loose. Measured distances in single precision are below 5 nm, a few roundings of coordinates of
+        // 3 cm.
         CHECK(largest_distance(newton, other) <= 16 * compare::unit_roundoff * 0.03);
         settled.push_back(other);
       } else {

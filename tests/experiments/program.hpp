@@ -6,7 +6,7 @@
 
 namespace ogc::tests {
 
-/// Makes a new folder, and removes it with its content at the end.
+/// Makes a new folder and removes it at the end.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -26,7 +26,7 @@ struct ProgramResult {
   std::string out, err;
 };
 
-/// Runs `ogc ARGUMENTS` through the shell, after the shell text `before` ("ulimit -f 8; ").
+/// Runs `ogc ARGUMENTS` through the shell. `before`: shell text in front of it, such as "ulimit -f 8; ".
 ProgramResult run_ogc(const std::string& arguments, const std::string& before = "");
 
 /// Returns whether `text` contains all of `parts`, in any order.

@@ -1,5 +1,5 @@
-"""experiments/seeds: other days ask other cases, what fails is printed and written as a batch file that fails again,
-what passes leaves nothing.
+"""Tests experiments/seeds: other days have other cases; a failure is printed and written as a batch file that fails
+again; a success leaves nothing.
 
 Usage: seeds.py SOURCE_DIR OGC
 """
@@ -11,7 +11,7 @@ from pathlib import Path
 
 SCRIPT, OGC = Path(sys.argv[1]) / "experiments/seeds", sys.argv[2]
 
-# Stands for ogc: the second seed has a mismatch, the third gives no result.
+# Replaces ogc: the second seed has a mismatch, the third gives no result.
 STUB = """#!/usr/bin/env python3
 import json, sys
 seed = int(sys.argv[sys.argv.index("--seed") + 1])
@@ -50,7 +50,7 @@ def test_failures(folder):
     assert "2 of 4 seeds failed" in done.stdout and problem in done.stdout and "no result" in done.stdout, done.stdout
     assert (out / "problems.txt").read_text() == f"# position: off\n{problem}\n"
     assert "out of memory" in (out / "s2020022902/said.txt").read_text() and not (out / "s2020022903").exists()
-    # The batch file is one that ogc takes; today's kernels pass it.
+    # ogc accepts the batch file; the current kernels pass it.
     again = subprocess.run([OGC, "compare", "--batch", out / "problems.txt"], capture_output=True, text=True,
                            check=False)
     assert again.returncode == 0, again.stderr

@@ -1,4 +1,4 @@
-// Tests stacks of identical sheets, run with the settings of `ogc suggest`: they come to rest and stay there.
+// Tests stacks of identical sheets with the settings of `ogc suggest`: they come to rest and stay there.
 #include <algorithm>
 #include <cmath>
 
@@ -14,11 +14,11 @@ using namespace ogc::tests;
 namespace {
 
 constexpr double edge = 0.02, gap = 0.004;  ///< [m]
-/// Steps until a stack is at rest, and steps that are checked then.
+/// Number of steps until a stack is at rest, and of steps that are checked afterwards.
 constexpr std::size_t settling = 80, resting = 100;
 
-/// Returns `count` sheets of n × n vertices, the lowest at y = 0; a pattern shifts each in its plane by up to `shift`
-/// [m].
+/// Returns `count` sheets of n × n vertices, the lowest at y = 0. A fixed pattern shifts each sheet in its plane by up
+/// to `shift` [m].
 compare::Mesh stack(int count, compare::Index n, double shift) {
   compare::Scene scene;
   for (int k = 0; k < count; ++k) {

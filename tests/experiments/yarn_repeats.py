@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Yarn scenes at smoke from jittered starts: every run comes to its end, keeps its bounds, and no thread meets a thread
-on any step's way (compare/meetings.md). Usage: yarn_repeats.py OGC [REPEATS] [--out FILE], 20 repeats by default, 17 s
-of a core; the test makes two. FILE gets a row a run. Python's own library is enough.
+in any step (compare/meetings.md). Usage: yarn_repeats.py OGC [REPEATS] [--out FILE]. By default there are 20 repeats of
+17 s on one core; the test makes two. FILE gets a row for each run. Python's standard library suffices.
 """
 
 import argparse
@@ -17,7 +17,7 @@ JITTER = "1e-5"  # a three-hundredth of the contact radius
 
 
 def made(ogc, scene, seed, folder):
-    """(row, what is wrong with it in words) of a run."""
+    """Returns (row, description of what is wrong) of a run."""
     words = [ogc, "run", scene, "--scale", "smoke", "--audit", "every", "--jitter", JITTER, "--seed", str(seed),
              "--json", "--out", str(folder)]
     done = subprocess.run(words, capture_output=True, text=True, check=False)
@@ -34,7 +34,7 @@ def made(ogc, scene, seed, folder):
 
 
 def repeats_of(ogc, scene, repeats, folder):
-    """(rows, faults in words) of the scene's runs."""
+    """Returns (rows, descriptions of faults) of the scene's runs."""
     rows, faults = [], []
     for seed in range(1, repeats + 1):
         row, wrong = made(ogc, scene, seed, folder / str(seed))

@@ -12,7 +12,7 @@ int main() {
                                                    {0.12f, 0.02f, 0.003f}, {0.02f, 0.12f, 0.003f}};
   const auto vertex_count = static_cast<ogc::compare::Index>(positions.size());
 
-  // With positions in device memory: use Backend::cuda here, and find_resident(device_pointer, query) below.
+  // For positions in device memory use Backend::cuda here and find_resident(device_pointer, query) below.
   ogc::fast::ContactFinder finder(vertex_count, triangles, {}, ogc::fast::Backend::cpu);
   const ogc::fast::ContactSets sets = finder.find(positions, {.contact_radius = 0.005f, .query_radius = 0.01f});
 

@@ -18,7 +18,8 @@ struct Activation {
   float energy, slope, curvature;
 };
 
-// Returns both stages; `inner` is k'_c. The quadratic part holds at d = tau, too; d squared could underflow.
+// Returns both stages of Eq. 18; `inner` is k'_c. At d = tau the quadratic part applies. No term squares d, because d
+// squared could underflow.
 Activation two_stages(float d, float r, float k, float tau, float inner) {
   if (d >= tau) return {0.5f * k * (r - d) * (r - d), -k * (r - d), k};
   return {0.5f * k * (r - tau) * (r - tau) + inner * std::log(tau / d), -inner / d, inner / d / d};
@@ -29,7 +30,7 @@ Activation activation_at(int64_t kind, float d, float r, float k) {
   switch (kind) {
     case OGC_ACTIVATION_OGC_AS_PRINTED: return two_stages(d, r, k, tau, tau * k * (tau - r) * (tau - r));
     case OGC_ACTIVATION_QUADRATIC: return {0.5f * k * depth * depth, -k * depth, k};
-    case OGC_ACTIVATION_IPC_LOG: {  // log1p, because r/d tends to 1
+    case OGC_ACTIVATION_IPC_LOG: {  // log1p, because r/d approaches 1
       const float log = std::log1p(share);
       return {k * depth * (depth * log), -k * depth * (2 * log + share), k * (2 * log + share * (4 + share))};
     }

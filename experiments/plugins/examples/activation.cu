@@ -16,7 +16,8 @@ struct Activation {
   float energy, slope, curvature;
 };
 
-// Returns both stages; `inner` is k'_c. The quadratic part holds at d = tau, too; d squared could underflow.
+// Returns both stages of Eq. 18; `inner` is k'_c. At d = tau the quadratic part applies. No term squares d, because d
+// squared could underflow.
 __device__ Activation two_stages(float d, float r, float k, float tau, float inner) {
   if (d >= tau) return {0.5f * k * (r - d) * (r - d), -k * (r - d), k};
   return {0.5f * k * (r - tau) * (r - tau) + inner * logf(tau / d), -inner / d, inner / d / d};
@@ -27,7 +28,7 @@ __device__ Activation activation_at(int64_t kind, float d, float r, float k) {
   switch (kind) {
     case OGC_ACTIVATION_OGC_AS_PRINTED: return two_stages(d, r, k, tau, tau * k * (tau - r) * (tau - r));
     case OGC_ACTIVATION_QUADRATIC: return {0.5f * k * depth * depth, -k * depth, k};
-    case OGC_ACTIVATION_IPC_LOG: {  // log1p, because r/d tends to 1
+    case OGC_ACTIVATION_IPC_LOG: {  // log1p, because r/d approaches 1
       const float log = log1pf(share);
       return {k * depth * (depth * log), -k * depth * (2 * log + share), k * (2 * log + share * (4 + share))};
     }
@@ -51,7 +52,7 @@ __global__ void activation(ogc_activation_in in, ogc_activation_out out) {
 int ogc_activation(const ogc_activation_in* in, ogc_activation_out* out) {
   constexpr unsigned threads = 256;
   const auto blocks = static_cast<unsigned>((in->n + threads - 1) / threads);
-  // the two structures are in host memory, and are copied as arguments
+  // both structures are in host memory; the launch copies them as arguments
   if (blocks > 0) activation<<<blocks, threads>>>(*in, *out);
   return cudaGetLastError();
 }

@@ -1,5 +1,5 @@
-// Stage barrier in double: IPC's barrier over the squared distance with a thickness, its slope and its curvature. It is
-// correct.
+// A correct plug-in in double precision for the stage barrier: IPC's barrier over the squared distance with a
+// thickness, its slope and its curvature.
 //
 //     g++ -O2 -shared -fPIC -I INCLUDE barrier.cpp -o barrier.so
 //     ogc compare barrier --plugin ./barrier.so

@@ -1,5 +1,6 @@
-// Stage ccd in double: conservative advancement (as Li et al. 2021, Algorithm 1). A step is nine tenths of the time in
-// which no motion can close the gap, or in which the slab between the closest points stays empty. It is correct.
+// A correct plug-in in double precision for the stage ccd, by conservative advancement (like Li et al. 2021, Algorithm
+// 1). Each advance is nine tenths of the longest time that is known to be safe. One such time is the gap divided by the
+// sum of both sides' largest speeds; the others are those for which the slab between the closest points stays empty.
 //
 //     g++ -O2 -shared -fPIC -I INCLUDE ccd.cpp -o ccd.so
 //     ogc compare ccd --plugin ./ccd.so
@@ -53,9 +54,9 @@ double time_of(const ogc_ccd_case& c) {
   for (int step = 0; step < 1000; ++step) {
     for (int k = 0; k < 4; ++k) x[k] = mix(from[k], t, way[k]);
     const Vector d = shortest(edges, x);
-    const double gap = length(d) - 1e-13 * size;  // minus what rounding may add
+    const double gap = length(d) - 1e-13 * size;  // minus the largest rounding error
     if (gap <= 0 || gap < 0.1 * (first = step == 0 ? gap : first)) break;
-    double slab[2] = {2, 2};  // how long the slab stays empty, seen along d and against it
+    double slab[2] = {2, 2};  // time for which the slab stays empty, seen along d and against it
     for (int i = 0; i < split; ++i)
       for (int j = split; j < 4; ++j)
         for (int k = 0; k < 2; ++k) {

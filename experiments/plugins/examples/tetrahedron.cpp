@@ -1,5 +1,5 @@
-// Stage tetrahedron in double: stable Neo-Hookean of one corner, damping of strain or by vertex. It is correct. A
-// library that has this stage is asked about scenes with solids in its other stages, too.
+// A correct plug-in in double precision for the stage tetrahedron: stable Neo-Hookean energy of one corner, with
+// damping of strain or by vertex. If a library has this stage, its other stages also get scenes with solids.
 //
 //     g++ -O2 -shared -fPIC -I INCLUDE tetrahedron.cpp -o tetrahedron.so
 //     ogc compare tetrahedron --plugin ./tetrahedron.so

@@ -1,6 +1,6 @@
-// A plug-in that is subtly wrong. Truncation scales a displacement down to its bound: five lines, found in many codes.
-// By the last bit of the stored position the vertex may leave its ball, so that "penetration-free" no longer follows.
-// The judge finds it within a second; experiments/plugins/README.md mends it.
+// A plug-in that is subtly wrong. Truncation scales a displacement down to its bound in five lines that are found in
+// many codes. The last bit of the stored position may place the vertex outside its ball, so that the step is no longer
+// proven free of penetration. The judge finds the mistake within a second; experiments/plugins/README.md corrects it.
 //
 //   g++ -O2 -shared -fPIC -I INCLUDE truncate.cpp -o truncate.so
 //   ogc compare truncate --plugin ./truncate.so

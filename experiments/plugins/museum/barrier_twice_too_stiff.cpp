@@ -1,5 +1,5 @@
-// A barrier twice too stiff: each of the two sides of a contact adds the whole pair, so that it acts twice. On one pair
-// alone nothing looks wrong.
+// A barrier that is twice too stiff: each side of a contact adds the whole pair, so that the pair acts twice. A single
+// pair alone shows nothing.
 #include "experiments/plugins/museum/activation.h"
 
 OGC_PLUGIN("barrier twice too stiff", OGC_HOST_MEMORY)

@@ -1,6 +1,6 @@
 // Contacts dropped beyond a cap: each vertex has a fixed number of slots, and contacts that do not fit are dropped
 // without a message. (The public code has 32 slots; here there are 4, so that small meshes overflow.) Where cloth
-// folds, layers that nothing holds apart pass through each other.
+// folds, layers pass through each other because nothing separates them.
 #include <vector>
 
 #include "experiments/plugins/museum/geometry.h"
@@ -13,33 +13,33 @@ using namespace museum;
 
 constexpr int slots = 4;
 
-// The face of a triangle that holds the point closest to a vertex, by the corner or edge of the triangle (-1: neither),
-// and its distance.
+// The point of a triangle that is closest to a vertex: the corner or edge that contains it (-1: none), and its
+// distance.
 struct Nearest {
   int corner = -1, edge = -1;
   double distance = INFINITY;
 };
 
-// Decides faces and blocks. Every side of a plane is decided in one way, whichever face needs it, so that no point
-// falls between two blocks by a rounding.
+// Decides faces and blocks. Each side of a plane is computed by one function for all faces, so that rounding can't
+// place a point between two blocks.
 struct Question {
   const ogc_detect_in& in;
   const ogc_topology& mesh;
 
   Vec at(int v) const { return vec(in.positions[v]); }
-  // Returns whether p lies beyond w, seen from its neighbour.
+  // Returns whether p lies on the far side of the plane through w, as seen from the neighbour of w.
   bool is_beyond(Vec p, int w, int neighbour) const { return dot(p - at(w), at(neighbour) - at(w)) <= 0; }
-  // Returns whether p lies on the side of the edge on which the vertex o lies.
+  // Returns whether p and the vertex o lie on the same side of the edge.
   bool is_beside(Vec p, int edge, int o) const {
     const Vec a = at(mesh.edges[edge][0]), e = at(mesh.edges[edge][1]) - a, to = at(o) - a;
-    return dot(cross(to, e), cross(p - a, e)) > 0;  // parts along the edge cancel before they are multiplied
+    return dot(cross(to, e), cross(p - a, e)) > 0;  // components along the edge cancel before they are multiplied
   }
   static bool has(const ogc_rows& rows, int row, int item) {
     return std::find(rows.items + rows.offsets[row], rows.items + rows.offsets[row + 1], item) !=
            rows.items + rows.offsets[row + 1];
   }
-  // Returns whether the pair is none: the vertex belongs to the triangle, all are of one rigid group, or a stitch joins
-  // them.
+  // Returns whether the pair is excluded: the vertex belongs to the triangle, all four vertices are in one rigid group,
+  // or a stitch joins them.
   bool is_left_out(int v, const int32_t* t) const {
     const int group = in.rigid_groups[v];
     bool rigid = group >= 0, excluded = false;

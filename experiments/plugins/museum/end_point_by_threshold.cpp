@@ -1,6 +1,6 @@
-// An end point chosen by an absolute threshold: an epsilon meant for parallel edges is held against squared lengths, so
-// that every edge shorter than 3.2 mm counts as its first end. Distances come out too large, and contacts of fine
-// meshes are missed.
+// An end point chosen by an absolute threshold: an epsilon for parallel edges is compared with squared lengths, so that
+// every edge shorter than 3.2 mm counts as its first end. Distances come out too large, and contacts of fine meshes are
+// missed.
 #include "experiments/plugins/museum/edges.h"
 
 OGC_PLUGIN("end point by an absolute threshold", OGC_HOST_MEMORY)

@@ -1,5 +1,5 @@
-// Eq. 19 of the paper taken as it is printed: k'_c = tau k_c (tau - r)^2 has one length too many. In metres that makes
-// the logarithmic stage r/2 times too weak: a contact that comes closer than tau = r/2 is hardly held.
+// Eq. 19 of the paper as printed: k'_c = tau k_c (tau - r)^2 has one factor of length too many. In metres the
+// logarithmic stage then is weaker by the factor r/2, so that contacts closer than tau = r/2 are hardly held.
 #include "experiments/plugins/museum/activation.h"
 
 OGC_PLUGIN("Eq. 19 as printed", OGC_HOST_MEMORY)

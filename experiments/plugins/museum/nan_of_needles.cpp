@@ -1,5 +1,5 @@
-// Weights over an area that may be 0: they are not-a-number then, and the test for weights below 0 lets NaN pass.
-// Triangles whose corners lie on one line, or nearly so, spoil all that touches them.
+// Weights divided by an area that may be 0: the weights are then NaN, and the test for weights below 0 accepts NaN.
+// Triangles whose corners lie on one line, or nearly so, spoil everything that they touch.
 #include "experiments/plugins/museum/triangle.h"
 
 OGC_PLUGIN("weights over an area of 0", OGC_HOST_MEMORY)

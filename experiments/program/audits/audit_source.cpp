@@ -62,7 +62,7 @@ class RunSource : public AuditSource {
   std::shared_ptr<const compare::Topology> topology_;
 };
 
-/// Throws compare::InputError if a face names a vertex twice, because it then has no topology. Degenerate shapes are
+/// Throws compare::InputError if a face names a vertex twice; such a mesh has no topology. Degenerate shapes are
 /// allowed.
 void check_corners(const compare::Mesh& mesh, const std::string& name) {
   const auto check = [&](const char* kind, const auto& faces) {
@@ -106,7 +106,7 @@ class SequenceSource : public AuditSource {
   }
 
  private:
-  /// Logs the remarks about the first frame that has any; those about the others are most likely the same.
+  /// Logs the remarks about the first frame that has any. Other frames most likely have the same ones.
   void say(const compare::LoadedMesh& loaded) {
     if (has_spoken_) return;
     const std::vector<std::string> words = words_about(loaded, "judged as they stand");
@@ -114,7 +114,7 @@ class SequenceSource : public AuditSource {
     has_spoken_ = !words.empty();
   }
 
-  /// Builds the frame's topology, unless it equals that of the frame before, as in most sequences.
+  /// Builds the frame's topology, unless it equals the topology of the frame before, as in most sequences.
   void take_topology(const compare::Mesh& mesh, const std::string& its_name) {
     const bool is_known = topology_ && static_cast<std::size_t>(topology_->vertex_count) == mesh.positions.size() &&
                           topology_->triangles == mesh.triangles && loose_edges_ == mesh.loose_edges;
@@ -131,8 +131,8 @@ class SequenceSource : public AuditSource {
   bool has_spoken_ = false;
 };
 
-/// Returns the type of a file without throwing for loops of links and names that are too long; the code that opens the
-/// path reports these.
+/// Returns the type of a file. Does not throw for loops of links or for names that are too long; the code that opens
+/// the path reports these.
 fs::file_type type_of(const fs::path& path) {
   std::error_code error;
   return fs::status(path, error).type();
@@ -145,8 +145,8 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
-/// Adds the path itself, or the files that it matches as a pattern, because a shell may be told not to expand patterns,
-/// or refuse so many words.
+/// Adds the path, or the files that match it as a pattern. A shell may not expand patterns, or may refuse so many
+/// words.
 void add_matching(const std::string& path, std::vector<fs::path>& files) {
   if (type_of(path) != fs::file_type::not_found || path.find_first_of("*?[") == std::string::npos) {
     files.emplace_back(path);
@@ -165,7 +165,7 @@ std::unique_ptr<compare::MeshSequence> npy_alone(const fs::path& file, const com
   return compare::npy_sequence({file}, topology);
 }
 
-/// Returns the reader of a format that holds many frames; null for other formats.
+/// Returns the reader of a format with several frames; null for other formats.
 FrameReader reader_of(const std::string& path) {
   static const std::map<std::string, FrameReader> readers{
       {".npz", compare::npz_sequence}, {".npy", npy_alone}, {".pc2", compare::pc2_sequence}};
@@ -173,8 +173,8 @@ FrameReader reader_of(const std::string& path) {
   return found == readers.end() ? nullptr : found->second;
 }
 
-/// Returns the options for a mesh that gives the positions of other files their faces: it keeps every vertex, because
-/// those files count all of them.
+/// Returns the options for the mesh that provides the faces of files with positions alone. The mesh keeps every vertex,
+/// because those files have a position for each.
 compare::MeshOptions of_frames(compare::MeshOptions options) {
   options.keep_unused = true;
   options.weld = false;

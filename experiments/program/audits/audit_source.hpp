@@ -1,5 +1,5 @@
-// Provides the states that `ogc audit` checks, whichever program computed them. States are read one after the other and
-// judged in parallel.
+// Provides the states that `ogc audit` checks, from any program. States are read one after the other and judged in
+// parallel.
 #pragma once
 
 #include <filesystem>
@@ -19,55 +19,55 @@
 
 namespace ogc::experiments {
 
-/// Holds one state and, once it is judged, what the audit found.
+/// Holds one state and, after it was judged, the result of the audit.
 struct AuditedState {
   std::string name;                                     ///< "step 12", a file, or "frame 3"
-  std::shared_ptr<const compare::Topology> topology;    ///< of its mesh
+  std::shared_ptr<const compare::Topology> topology;    ///< topology of the state's mesh
   std::vector<compare::Vec3> positions;                 ///< [m]
-  compare::AuditResult result;                          ///< its intersections
-  compare::SmallestDistances distances;                 ///< how near it is to an intersection
+  compare::AuditResult result;                          ///< intersections of the state
+  compare::SmallestDistances distances;                 ///< smallest distances between primitives
   compare::ElementNames names;                          ///< element names with the numbers of the mesh's file
   std::string text;                                     ///< the listed intersections in words, one line each
-  std::optional<compare::VolumePenetration> volumes{};  ///< where the scene has volumes
+  std::optional<compare::VolumePenetration> volumes{};  ///< empty if the scene has no volumes
   std::string in_volumes{};                             ///< describes `volumes` in words
   bool is_solid = false;                                ///< the mesh has tetrahedra
   std::filesystem::path file{};                         ///< the file of this state alone; empty if there is none
-  std::optional<RoundingDoubt> doubt{};                 ///< what the digits of the file leave undecided
+  std::optional<RoundingDoubt> doubt{};                 ///< what the file's printed digits leave undecided
 };
 
-/// The states to audit, from a run or from files of other programs.
+/// Provides the states to audit, from a run or from files of other programs.
 class AuditSource {
  public:
   virtual ~AuditSource() = default;
   /// Returns the number of states.
   virtual std::size_t size() const = 0;
-  /// Returns the name of state i in messages.
+  /// Returns the name of state i for messages.
   virtual std::string name(std::size_t i) const = 0;
-  /// Reads the next state. Throws compare::InputError if it can't be read; then no further state can be read.
+  /// Reads the next state. Throws compare::InputError if the state can't be read; then no later state can be read.
   virtual AuditedState next() = 0;
-  /// Judges a state exactly. Several threads may judge different states while another one reads.
+  /// Judges a state exactly. Several threads may judge different states while another thread reads.
   virtual void judge(AuditedState& state) const = 0;
   /// Returns the scene of the states; null if they are meshes.
   virtual const compare::Scene* scene() const { return nullptr; }
-  /// Returns in words what besides `ogc audit` proves the motion between the states; empty if nothing does.
+  /// Returns in words which proof besides `ogc audit` covers the motion between the states; empty if there is none.
   virtual std::string proof_of_ways() const { return ""; }
   /// Returns the pairs that the audit leaves out.
   virtual compare::ExclusionView exclusions() const { return {}; }
-  /// Returns in words what is left out besides faces that share a vertex; empty if nothing is.
+  /// Returns in words what the audit leaves out besides faces that share a vertex; empty if nothing.
   virtual std::string left_out() const { return ""; }
 };
 
-/// Says what is audited and how.
+/// Selects what is audited and how.
 struct AuditRequest {
   std::vector<std::string>
-      paths;             ///< a run folder, a folder of meshes, meshes, patterns of them, or one .npz, .npy or .pc2
-  std::string topology;  ///< mesh with the triangles of files that hold positions alone; may be empty
-  compare::MeshOptions meshes;                        ///< how mesh files are read
-  std::size_t limit = compare::AuditOptions{}.limit;  ///< intersections listed for each state
+      paths;                    ///< run folder, folder of meshes, meshes, patterns of meshes, or one .npz, .npy or .pc2
+  std::string topology;         ///< mesh with the triangles for files that hold positions alone; may be empty
+  compare::MeshOptions meshes;  ///< how mesh files are read
+  std::size_t limit = compare::AuditOptions{}.limit;  ///< number of intersections listed for each state
 };
 
-/// Opens what the paths name. Several meshes are taken in natural order. Throws compare::InputError that lists what can
-/// be named.
+/// Opens the paths. Several meshes are taken in natural order. Throws compare::InputError that lists the kinds of paths
+/// that are accepted.
 std::unique_ptr<AuditSource> open_audit(const AuditRequest& request);
 
 }  // namespace ogc::experiments

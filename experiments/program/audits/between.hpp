@@ -1,5 +1,5 @@
-// Finds what happens between two audited states: which faces meet while every vertex moves straight from one state to
-// the other (compare/meetings.md).
+// Finds what happens between two audited states: which faces meet if every vertex moves straight from one state to the
+// next (compare/meetings.md).
 #pragma once
 
 #include <string>
@@ -11,27 +11,27 @@
 
 namespace ogc::experiments {
 
-/// Holds the straight way from one state to the next.
+/// Holds the result for the straight way from one state to the next.
 struct Way {
-  std::string from, to;           ///< names of the states
-  compare::MeetingsResult found;  ///< the meetings on it
-  Json json;                      ///< the same data for --json
-  std::string text;               ///< the listed meetings in words, one line each
+  std::string from, to;  ///< names of the states
+  compare::MeetingsResult found;
+  Json json;         ///< the same result for --json
+  std::string text;  ///< the listed meetings in words, one line each
 };
 
-/// Checks the ways between states in the order in which the states come.
+/// Checks the ways between consecutive states.
 class WaysBetween {
  public:
-  /// `limit`: meetings listed for each way. The source must outlive this object.
+  /// `limit`: number of meetings listed for each way. The source must outlive this object.
   WaysBetween(const AuditSource& source, std::size_t limit) : source_(source), limit_(limit) {}
-  /// Checks the way from the state before to this one; at the first way it logs the estimated cost of all. Throws
-  /// compare::InputError if the two states have different triangles.
+  /// Checks the way from the previous state to this one. Before the first way, logs the estimated time for all ways.
+  /// Throws compare::InputError if the two states have different triangles.
   void look_at(const AuditedState& state);
   /// Returns the ways checked so far.
   const std::vector<Way>& ways() const { return ways_; }
   /// Returns the number of meetings on all ways.
   std::size_t meetings() const;
-  /// Returns "5 straight ways between them, 12 meetings on 1 of them, the first from frame 3 to frame 4".
+  /// Returns a summary: "5 straight ways between them, 12 meetings on 1 of them, the first from frame 3 to frame 4".
   std::string headline() const;
 
  private:

@@ -20,7 +20,7 @@ void sort_once(std::vector<Index>& numbers) {
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-/// Returns all vertices of the offenders, ascending.
+/// Returns the vertices of all offenders, ascending.
 std::vector<Index> corners_of(const Offenders& offenders, const compare::Topology& topology) {
   std::vector<Index> corners = offenders.vertices;
   for (const Index e : offenders.edges)
@@ -35,7 +35,7 @@ std::string point_text(const compare::Vec3& p) {
   return "(" + number(p.x, 4) + ", " + number(p.y, 4) + ", " + number(p.z, 4) + ")";
 }
 
-/// Makes names of files from "frame 3" and "out/frame_12.obj".
+/// Makes the name of a file from a state's name, such as "frame 3" or "out/frame_12.obj".
 std::string file_name(const std::string& name) {
   std::string stem = std::filesystem::path(name).filename().string();
   if (const std::size_t dot = stem.rfind('.'); dot != std::string::npos && dot > 0) stem.resize(dot);

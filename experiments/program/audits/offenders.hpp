@@ -1,4 +1,4 @@
-// Cuts out the part of a mesh that an audit reports, for ParaView and plots/offenders.py.
+// Cuts the intersecting part out of an audited mesh, for ParaView and plots/offenders.py.
 #pragma once
 
 #include <filesystem>
@@ -9,29 +9,29 @@
 
 namespace ogc::experiments {
 
-/// Holds the elements of the listed intersections, ascending, by number in the topology.
+/// Holds the elements of the listed intersections, by number in the topology, ascending.
 struct Offenders {
-  std::vector<compare::Index> vertices;   ///< that lie on a triangle
-  std::vector<compare::Index> edges;      ///< that meet a triangle, or each other where they belong to none
-  std::vector<compare::Index> triangles;  ///< that are met, or that contain one of these edges or vertices
-  compare::Intersection first;            ///< the first one in the order of the audit
+  std::vector<compare::Index> vertices;  ///< vertices that lie on a triangle
+  std::vector<compare::Index> edges;     ///< edges that meet a triangle, or, if they belong to no triangle, each other
+  /// triangles that are met, and triangles that contain one of these edges or vertices
+  std::vector<compare::Index> triangles;
+  compare::Intersection first;  ///< first intersection in the audit's order
 };
 
-/// Returns the offenders of an audit's listed intersections.
+/// Returns the elements of the listed intersections.
 Offenders offenders_of(const compare::AuditResult& result, const compare::Topology& topology);
 
-/// Returns the box of the offenders in words: "between (0.1, 0, 0.2) and (0.3, 0.1, 0.2) m". It contains all corners of
-/// the triangles, edges and vertices.
+/// Returns the box around all corners of the offenders in words: "between (0.1, 0, 0.2) and (0.3, 0.1, 0.2) m".
 std::string region_of(const Offenders& offenders, const compare::Topology& topology,
                       const std::vector<compare::Vec3>& positions);
 
-/// Returns a .vtp file of the offenders alone. Its point data are the numbers of the corners (`vertex`); its cell data
-/// are the number of the edge or triangle (`number`) and the number of listed intersections that name the cell
-/// (`intersections`; 0 for the neighbour of a named edge or vertex).
+/// Returns a .vtp file with only the offenders. Point data: the numbers of the corners (`vertex`). Cell data: the
+/// number of the edge or triangle (`number`), and how many listed intersections name it (`intersections`; 0 for
+/// neighbours of a named edge or vertex).
 std::string offenders_vtp(const compare::AuditResult& result, const compare::Topology& topology,
                           const std::vector<compare::Vec3>& positions);
 
-/// Writes NAME.vtp to the folder, which it creates if necessary. Returns one line that names the file and the place of
+/// Writes NAME.vtp to the folder, which is created if necessary. Returns one line with the file's name and the place of
 /// the intersections. Throws compare::ResourceError.
 std::string show_offenders(const std::filesystem::path& folder, const std::string& name,
                            const compare::AuditResult& result, const compare::Topology& topology,

@@ -30,7 +30,8 @@ double to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   return length(minus(p, along(a, s, e)));
 }
 
-/// Returns the distance of two segments: from the ends, or between the lines if both closest points lie inside.
+/// Returns the distance of two segments: between an end and a segment or, if both closest points lie inside, between
+/// the lines.
 double of_segments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const double ends = std::min({to_segment(a, c, d), to_segment(b, c, d), to_segment(c, a, b), to_segment(d, a, b)});
   const Vec3 e = minus(b, a), f = minus(d, c), n = cross(e, f), r = minus(c, a);
@@ -50,9 +51,9 @@ double to_triangle(const Vec3& p, const std::array<Vec3, 3>& t) {
   return is_over ? std::min(nearest, std::abs(dot(minus(p, t[0]), n)) / length(n)) : nearest;
 }
 
-/// Returns how far a vertex has to move until the edge leaves the triangle: an end of it through the triangle, or the
-/// edge past an edge of the triangle. Shared vertices stay. In double, because a distance of 1e-16 of the coordinates
-/// is below what any text prints.
+/// Returns how far a vertex must move until the edge leaves the triangle: one of its ends through the triangle, or the
+/// edge past a side of the triangle. Vertices that both share do not move. Double precision suffices, because its error
+/// of 1e-16 of the coordinates is below the digits of any text.
 double depth(const Intersection& pair, const compare::Topology& topology, std::span<const Vec3> positions) {
   if (pair.kind != compare::IntersectionKind::edge_triangle) return 0;
   const compare::Edge& edge = topology.edges[static_cast<std::size_t>(pair.first)];

@@ -1,5 +1,5 @@
-// Finds what an audit of a text file can't decide: whether an intersection, or a distance below the last digit, comes
-// from the simulation or from the printed digits.
+// Finds what the audit of a text file can't decide: whether an intersection, or a distance below the last printed
+// digit, comes from the simulation or from the rounding of the text.
 #pragma once
 
 #include <optional>
@@ -13,25 +13,24 @@
 
 namespace ogc::experiments {
 
-/// √3: the distance of two points can change by this many units if each of their coordinates is off by at most half a
-/// unit.
+/// √3: if each coordinate is off by at most half a unit, the distance of two points changes by at most this many units.
 inline constexpr double units_of_a_distance = 1.7320508075688773;
 
 /// Holds what the digits of a file leave undecided.
 struct RoundingDoubt {
   compare::PrintedDigits printed;
-  std::size_t listed = 0, doubtful = 0;  ///< listed intersections, and those that rounding may have made
-  double smallest = 0;                   ///< smallest distance, which matters if nothing intersects [m]
+  std::size_t listed = 0, doubtful = 0;  ///< number of listed intersections, and of those that rounding may have caused
+  double smallest = 0;                   ///< smallest distance [m]; it matters only if nothing intersects
 };
 
-/// Returns nothing if the file's digits decide all that was found.
+/// Returns empty if the file's digits decide everything that was found.
 std::optional<RoundingDoubt> rounding_doubt(const std::optional<compare::PrintedDigits>& printed,
                                             const compare::AuditResult& result,
                                             const compare::SmallestDistances& distances,
                                             const compare::Topology& topology,
                                             std::span<const compare::Vec3> positions);
 
-/// Returns a sentence about the state of this name, with a remedy.
+/// Returns a sentence about the state `name`, with a remedy.
 std::string describe(const RoundingDoubt& doubt, const std::string& name);
 nlohmann::ordered_json to_json(const RoundingDoubt& doubt);
 

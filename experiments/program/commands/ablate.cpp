@@ -1,5 +1,5 @@
-// `ogc ablate`: runs a grid of settings, each point from several jittered starts if requested. It writes a folder for
-// each run, a table over all runs, medians and ranges, and statements that compare the settings.
+// `ogc ablate`: runs a grid of settings, each point from several jittered starts if requested. Writes a folder for each
+// run, a table of all runs, medians and ranges, and sentences that compare the settings.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -40,8 +40,8 @@ struct AblateOptions {
   bool slurm = false;
 };
 
-/// Returns the options of a run at a point. `solver` and `backend` are options of a run; all other keys are settings.
-/// `repeat`: the number of the run at this point.
+/// Returns the options of one run at a point. The keys `solver` and `backend` are options; all other keys are settings.
+/// `repeat`: number of the run at this point.
 RunOptions options_at(const AblateOptions& ablation, const RunOptions& base, const std::vector<Axis>& axes,
                       const Point& point, std::int64_t repeat) {
   RunOptions options = base;
@@ -78,8 +78,8 @@ struct PlannedRun {
   RunOptions options;
 };
 
-/// Returns the runs ordered by seed, then by setting. So a temporary slowdown of the machine affects all settings, and
-/// an interrupted grid has about as many runs of each setting.
+/// Returns the runs ordered by seed, then by setting. A temporary slowdown of the machine then affects all settings,
+/// and an interrupted grid has about as many runs of each setting.
 std::vector<PlannedRun> planned_runs(const AblateOptions& options, const RunOptions& base,
                                      const std::vector<Axis>& axes, const std::vector<Point>& points) {
   std::vector<PlannedRun> runs;
@@ -92,7 +92,7 @@ std::vector<PlannedRun> planned_runs(const AblateOptions& options, const RunOpti
   return runs;
 }
 
-/// Returns the scene that a run of this request stores in its folder.
+/// Returns the scene that this run stores in its folder.
 compare::Scene stored_scene(const RunRequest& request) {
   compare::Scene scene = request.scene;
   compare::round_to_single(scene);
@@ -107,8 +107,8 @@ void check_scene(const RunRequest& request, const std::string& name) {
   if (!problems.empty()) throw compare::InputError("the point " + name + " can't be run:\n" + problems);
 }
 
-/// Throws compare::InputError if a folder holds another run than the one requested, because a grid that continues must
-/// not mix two experiments, or two programs.
+/// Throws compare::InputError if the folder holds a run of another experiment or program, because a continued grid must
+/// not mix them.
 void check_same_question(const compare::RunReader& run, const RunRequest& request) {
   const compare::Provenance& theirs = run.provenance();
   const BuildInfo build = build_info();
@@ -141,19 +141,19 @@ void check_same_question(const compare::RunReader& run, const RunRequest& reques
                               "own runs alone: give another --out");
 }
 
-/// Returns whether a run is over. A failure of its computation is a result; run.json then has the hash of the last good
-/// state.
+/// Returns whether a run is complete. A failed computation is a result, too; run.json then has the hash of the last
+/// good state.
 bool is_over(const compare::Provenance& run) {
   return run.status == "finished" || (run.status.starts_with("failed") && !text_in(run, "final_hash").empty());
 }
 
-/// Returns whether the folder holds a run with a checkpoint. Without one the run was killed before its first step.
+/// Returns whether the folder holds a run with a checkpoint. Without a checkpoint the run was killed before its first
+/// step.
 bool is_begun(const std::filesystem::path& folder) {
   return std::filesystem::exists(folder / "run.json") && std::filesystem::exists(folder / "checkpoint.h5");
 }
 
-/// Returns whether the folder holds only files that a run writes before its first checkpoint; such a folder may be
-/// removed.
+/// Returns whether the folder holds only files that precede a run's first checkpoint, so that it may be removed.
 bool is_cut_beginning(const std::filesystem::path& folder) {
   constexpr std::array<std::string_view, 6> names{"frames",    "scene",          "run.json",
                                                   "steps.csv", "iterations.csv", "trajectory.vtkhdf"};
@@ -164,14 +164,14 @@ bool is_cut_beginning(const std::filesystem::path& folder) {
   });
 }
 
-/// Returns whether the folder holds a run that is over.
+/// Returns whether the folder holds a complete run.
 bool is_done(const std::filesystem::path& folder) {
   return is_begun(folder) && is_over(compare::read_manifest(folder).provenance);
 }
 
 enum class Made { found, made, interrupted };
 
-/// Makes the run, continues it if it was interrupted, or finds it done.
+/// Makes the run, continues it if it was interrupted, or reads its result if it is complete.
 Made make(const PlannedRun& planned, const std::string& progress, CommandContext& context) {
   RunRequest request = request_of(planned.options, context);
   const std::filesystem::path folder = request.folder;
@@ -222,8 +222,8 @@ std::vector<std::string> row_of(const Point& point, const std::string& seed, con
   return row;
 }
 
-/// Returns a table with one row for each setting and metric that every finished run measured. `digits`: of numbers; 0:
-/// all digits.
+/// Returns a table with one row for each setting and each metric that every finished run measured. `digits`:
+/// significant digits of numbers; 0: all.
 std::vector<std::vector<std::string>> median_rows(const std::vector<Axis>& axes, const std::vector<Point>& points,
                                                   const std::vector<SettingRows>& settings, int digits) {
   std::vector<std::string> names{"metric"};
@@ -256,15 +256,15 @@ std::string csv(const std::vector<std::vector<std::string>>& rows) {
   return text;
 }
 
-/// Holds the results of the runs so far: ablation.csv, ablation_medians.csv, ablation_findings.txt.
+/// Holds the results so far: ablation.csv, ablation_medians.csv, ablation_findings.txt.
 struct Results {
   std::vector<std::vector<std::string>> runs;
-  std::vector<SettingRows> settings;  ///< settings that have a run
+  std::vector<SettingRows> settings;  ///< settings with at least one run
   std::vector<Point> points;          ///< points of these settings
   std::vector<std::string> sentences;
 };
 
-/// Returns the results. `done`: rows of the completed runs, which are the first ones of `planned`.
+/// Returns the results of the first runs of `planned`, whose rows are `done`.
 Results results_of(const std::vector<Axis>& axes, const std::vector<Point>& points,
                    const std::vector<PlannedRun>& planned, const std::vector<RunRow>& done, bool has_seeds) {
   Results results;
@@ -353,8 +353,8 @@ std::string counted_run(const std::string& name, std::size_t i, std::size_t coun
   return name + " (" + std::to_string(i + 1) + " of " + std::to_string(count) + ")";
 }
 
-/// Makes the runs of the grid in `folder` that are not done yet, each in a process of its own. A run that fails there
-/// fails again, or continues, when the grid is tabulated.
+/// Makes the missing runs of the grid in `folder`, each in a separate process. If a run fails there, it fails again or
+/// continues when the grid is tabulated.
 void make_side_by_side(const AblateOptions& options, const std::vector<PlannedRun>& planned, const CLI::App& command,
                        const std::string& folder) {
   std::vector<OwnCommand> commands;
@@ -369,7 +369,7 @@ void make_side_by_side(const AblateOptions& options, const std::vector<PlannedRu
   run_side_by_side(commands, static_cast<int>(options.jobs));
 }
 
-/// Writes an array job for Slurm with one run for each task. `command`: the command of this grid.
+/// Writes an array job for Slurm with one run for each task. `command`: the command line of this grid.
 void write_slurm(const std::string& out, std::size_t count, const std::string& command) {
   const std::filesystem::path folder = std::filesystem::absolute(out);
   std::filesystem::create_directories(folder);
@@ -397,7 +397,7 @@ void write_slurm(const std::string& out, std::size_t count, const std::string& c
                "is missing, and the tables:\n  " + command + "\n");
 }
 
-/// Runs the grid. The tables are written after each run, so that an interrupted grid keeps its results.
+/// Runs the grid. Writes the tables after each run, so that an interrupted grid keeps its results.
 void ablate(const AblateOptions& options, const CLI::App& command, CommandContext& context) {
   check_repeats(options);
   if (options.vary.empty() && options.points.empty())
@@ -409,8 +409,8 @@ void ablate(const AblateOptions& options, const CLI::App& command, CommandContex
   if (!is_named) base.out = "runs/ablate-" + base.scene.substr(base.scene.rfind('/') + 1) + "-" + utc_stamp();
   const auto& [axes, points] = grid;
   const std::vector<PlannedRun> planned = planned_runs(options, base, axes, points);
-  // All points are checked before the first run starts, because a wrong value late in the grid must not cost the
-  // earlier runs.
+  // All points are checked before the first run, because a wrong value late in the grid must not waste the earlier
+  // runs.
   for (std::size_t p = 0; p < points.size(); ++p)
     check_scene(request_of(planned[p].options, context), name_of(axes, points[p]));
   if ((options.slurm || options.only != every_run) && !is_named)

@@ -1,5 +1,4 @@
-// `ogc audit`: checks exactly whether anything intersects, in a mesh of any origin or in each frame of a run of any
-// program.
+// `ogc audit`: checks exactly whether anything intersects in a mesh, or in each frame of a run, from any program.
 #include <algorithm>
 #include <functional>
 #include <memory>
@@ -33,10 +32,10 @@ struct Options {
   AuditRequest request;
   std::string show;               ///< folder of the .vtp files; empty: none
   std::optional<double> deepest;  ///< depth inside a volume above which a state fails [m]; empty: no limit
-  bool between = false;           ///< also checks the straight ways between states
+  bool between = false;           ///< also check the straight ways between states
 };
 
-/// Largest number of states that get a file: the first ones show what the others would.
+/// Largest number of states with a file of their own; further states would show much the same.
 constexpr std::size_t most_shown = 8;
 
 struct State {
@@ -49,7 +48,7 @@ struct State {
   SmallestDistances distances;
   std::optional<compare::VolumePenetration> volumes;
   std::string in_volumes;
-  std::string doubt{};  ///< what the file's digits leave undecided, in words
+  std::string doubt{};  ///< what the file's printed digits leave undecided, in words
 };
 
 Json to_json(const SmallestDistances& distances, const compare::Topology& topology,
@@ -85,8 +84,8 @@ const char* name_of(compare::IntersectionKind kind) {
   return "";
 }
 
-/// Returns the vertices of intersecting faces in the form in which a scene file excludes them. A mesh is one body with
-/// the name that `ogc run MESH` gives it.
+/// Returns the vertices of intersecting faces as a scene file excludes them. A mesh counts as one body with the name
+/// that `ogc run MESH` uses.
 Json excluded_json(const AuditedState& audited, const compare::Scene* scene) {
   std::vector<compare::Edge> pairs = vertex_pairs(audited.result, *audited.topology);
   if (scene != nullptr) {
@@ -144,17 +143,17 @@ State state_of(const AuditedState& audited, const compare::Scene* scene) {
   return state;
 }
 
-/// Holds all audits before the end, an interruption, or a state that can't be read.
+/// Holds all audits up to the end, an interruption, or a state that can't be read.
 struct Audits {
   std::vector<State> states;
-  std::vector<std::string> shown;   ///< what --show wrote, one line each
+  std::vector<std::string> shown;   ///< one line for each file that --show wrote
   std::optional<WaysBetween> ways;  ///< empty without --between
   std::string proof_of_ways;        ///< AuditSource::proof_of_ways
   std::size_t planned = 0;
-  std::string stopped;  ///< why the remaining states can't be read; empty if all could
+  std::string stopped;  ///< why the remaining states can't be read; empty if all were read
 };
 
-/// Holds a state on its way from the file to the report, or the reason why it can't be read.
+/// Holds a state between reading and report, or the reason why it can't be read.
 struct Item {
   std::optional<AuditedState> state;
   std::string problem;
@@ -162,7 +161,7 @@ struct Item {
 };
 using Handle = std::shared_ptr<Item>;
 
-/// Reads the states one after the other, until the end, an interruption, or a state that can't be read.
+/// Reads the states one after the other, up to the end, an interruption, or a state that can't be read.
 class Reading {
  public:
   explicit Reading(AuditSource& source) : source_(source) {}
@@ -189,7 +188,7 @@ class Reading {
   bool failed_ = false;
 };
 
-/// Judges as many states in parallel as there are threads, because most of the work on a state is done by one thread.
+/// Judges as many states in parallel as there are threads, because a single thread does most of the work on a state.
 /// Ways are checked one after the other, each by all threads.
 Audits audit_all(AuditSource& source, const Options& options) {
   const std::string& show = options.show;
@@ -201,7 +200,8 @@ Audits audit_all(AuditSource& source, const Options& options) {
   Progress progress(0, static_cast<std::int64_t>(source.size()), "frame");
   Reading reading(source);
   const auto judge = [&](const Handle& item) {
-    if (!item->state || interrupted()) return item;  // a large state takes a minute: an interruption starts no more
+    // after an interruption no state is begun, because a large state takes a minute
+    if (!item->state || interrupted()) return item;
     source.judge(*item->state);
     item->judged = true;
     return item;
@@ -233,7 +233,7 @@ Audits audit_all(AuditSource& source, const Options& options) {
   return audits;
 }
 
-/// Returns the smallest distances of all states in words; of equal ones that of the first state.
+/// Returns the smallest distances over all states in words. If distances are equal, the first state is named.
 std::string describe_distances(const std::vector<State>& states) {
   const auto describe_pair = [&](const std::string& what, const State& state, const char* key) {
     const Json& pair = state.json.at("smallest_distances").at(key);
@@ -251,7 +251,7 @@ std::string describe_distances(const std::vector<State>& states) {
          describe_pair("two edges without a common vertex", edges, "edge_edge");
 }
 
-/// Warns that the motion was not checked: two states prove nothing about the way between them (method.md §5.5).
+/// Warns that the motion was not checked, because two states prove nothing about the way between them (method.md §5.5).
 std::string unseen_ways(const Audits& audits) {
   if (audits.states.size() < 2 || audits.ways) return "";
   return "what happened between these states was not looked at: surfaces may have passed through each other there; " +
@@ -272,7 +272,7 @@ std::string unseen_curves(const std::vector<State>& states) {
          "--audit-meetings)";
 }
 
-/// Returns what the digits of the first undecided file leave open; empty if they decide everything.
+/// Returns what the printed digits leave undecided in the first such file; empty if there is none.
 std::string in_doubt(const std::vector<State>& states) {
   const auto has = [](const State& state) { return !state.doubt.empty(); };
   const auto first = std::ranges::find_if(states, has);
@@ -281,7 +281,7 @@ std::string in_doubt(const std::vector<State>& states) {
   return first->doubt + (others == 0 ? "" : " (likewise " + counted(others, "further state") + ")");
 }
 
-/// Names the state with the most vertices inside volumes and the one with the deepest; empty without volumes.
+/// Names the state with the most vertices inside volumes and the state with the deepest vertex; empty without volumes.
 std::string describe_volumes(const std::vector<State>& states) {
   std::string text;
   const State *fullest = nullptr, *deepest = nullptr;
@@ -298,8 +298,8 @@ std::string describe_volumes(const std::vector<State>& states) {
 
 struct Totals {
   std::size_t intersections = 0, intersecting = 0;
-  double deepest = 0;         ///< largest depth inside a volume, of all states [m]
-  std::string first;          ///< name of the first state that intersects
+  double deepest = 0;         ///< largest depth inside a volume over all states [m]
+  std::string first;          ///< name of the first intersecting state
   bool says_nothing = false;  ///< no state has a triangle
 };
 

@@ -1,4 +1,4 @@
-// `ogc bench`: runs Google Benchmark over stages, steps and their parts, writes its own JSON, and compares two such
+// `ogc bench`: runs Google Benchmark over stages, steps and parts of steps, writes its JSON, and compares two such
 // files by rank.
 #include <algorithm>
 #include <optional>
@@ -32,7 +32,7 @@ struct CommandOptions {
   int threads = 0, processes = 8;
 };
 
-/// Prints one line when the last repetition of a benchmark is done: median, spread, counters.
+/// Prints one line (median, spread, counters) after the last repetition of a benchmark.
 class LineReporter : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context&) override { return true; }
@@ -79,7 +79,7 @@ void say_context(const CommandOptions& options) {
       "threads", std::to_string(options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency()));
 }
 
-/// Passes options to Google Benchmark, which takes them as a command line.
+/// Passes the options to Google Benchmark in the form of a command line.
 void initialize(const CommandOptions& options) {
   std::vector<std::string> words{"ogc"};
   if (!options.json.empty())
@@ -103,7 +103,7 @@ void run_benchmarks(const CommandOptions& options) {
   if (!reporter.failed.empty()) throw std::runtime_error(reporter.failed.front());
 }
 
-/// Returns the measuring options as words for a process of its own.
+/// Returns the options of a measurement as words of the command line for a separate process.
 std::vector<std::string> words_of(const CommandOptions& options) {
   std::vector<std::string> words{"bench",
                                  "--processes",

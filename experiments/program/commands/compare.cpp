@@ -1,5 +1,5 @@
-// `ogc compare`: judges the fast path's stages against the reference, on generated cases, real states, single problems
-// and saved failures.
+// `ogc compare`: judges stages of the fast path or of a plug-in against the reference: on generated cases, real states,
+// single problems and saved failures.
 #include <algorithm>
 #include <limits>
 #include <memory>
@@ -33,9 +33,9 @@ using compare::InputError;
 using compare::Stage;
 using compare::StageReport;
 
-// Mismatches printed for each generator, so that one which fails everywhere does not hide the others.
+// Mismatches printed for each generator, so that a generator that always fails does not hide the others.
 constexpr std::size_t printed_mismatches = 3;
-// 10⁷ cases a second take more than a day for this number.
+// 10⁷ cases a second would take more than a day.
 constexpr std::uint64_t most_cases = 1'000'000'000'000;
 
 struct CompareOptions {
@@ -52,7 +52,7 @@ fast::Backend backend_of(const std::string& name) {
   throw InputError("--backend " + name + ": there is no such backend; known: cpu, cuda");
 }
 
-/// Holds the contestant that is judged: our backend, or a plug-in, beside which our backend is timed.
+/// Holds the contestant under test: our backend, or a plug-in beside which our backend is timed.
 struct Judged {
   compare::Contestant contestant;
   std::shared_ptr<PluginProcess> plugin;  ///< null without a plug-in
@@ -71,8 +71,8 @@ Judged judged_of(const CompareOptions& options) {
   return judged;
 }
 
-/// Selects the stages that the plug-in has if none is named. Throws InputError if it lacks a named stage, or has none
-/// at all.
+/// Selects all stages of the plug-in if no stage is named. Throws InputError if the plug-in lacks a named stage, or has
+/// none at all.
 void choose_stages_of_plugin(CompareOptions& options, const Judged& judged) {
   if (judged.plugin->offered().empty())
     throw InputError(options.plugin +
@@ -86,8 +86,8 @@ void choose_stages_of_plugin(CompareOptions& options, const Judged& judged) {
     if (judged.plugin->has(compare::stage_name(stage))) options.stages.emplace_back(compare::stage_name(stage));
 }
 
-/// Returns the requested stages in the order of all_stages; without names, all stages that the generator and both sides
-/// have.
+/// Returns the requested stages in the order of all_stages. If no stage is named, returns all stages that the
+/// generators, the contestant and the reference have.
 std::vector<Stage> stages_of(const CompareOptions& options) {
   std::vector<Stage> stages;
   for (const std::string& name : options.stages) {
@@ -115,7 +115,7 @@ void check_stages(const CompareOptions& options, const Judged& judged, const com
                        "; a kernel of your own may: --plugin FILE (compare/plugin.h)");
 }
 
-/// Returns the cases that were given one by one: --problem, --batch, --replay.
+/// Returns the cases that the command line names one by one: --problem, --batch, --replay.
 std::vector<compare::TestCase> given_cases(const CompareOptions& options, OpenStates& states) {
   std::vector<compare::TestCase> cases;
   if (!options.replay.empty()) cases.push_back(compare::load_case(options.replay));
@@ -163,7 +163,7 @@ int list_stages(const CompareOptions& options) {
   return exit_success;
 }
 
-/// Checks only whether bits are repeatable, not whether they are right (--determinism).
+/// Checks whether bits are repeatable, not whether they are right (--determinism).
 int judge_bits(const CompareOptions& options, const CommandContext& context) {
   const auto reports = determinism_of(backend_of(options.backend), stages_of(options), options.cases, options.seed);
   if (context.json)
@@ -202,7 +202,8 @@ void print_reports(const std::vector<StageReport>& reports, const std::optional<
 int run(CompareOptions options, const CommandContext& context) {
   if (options.list) return list_stages(options);
   if (!options.report.empty())
-    std::filesystem::create_directories(options.report);  // a wrong path is reported before the cases are judged
+    // created first, so that a wrong path is reported before the cases are judged
+    std::filesystem::create_directories(options.report);
   if (options.determinism) return judge_bits(options, context);
   const Judged judged = judged_of(options);
   if (judged.plugin) choose_stages_of_plugin(options, judged);
@@ -215,7 +216,7 @@ int run(CompareOptions options, const CommandContext& context) {
     throw InputError(options.batch + ": holds no problem; write one problem string a line");
   std::vector<StageReport> reports = is_given ? compare::judge_cases(given, judged.contestant, authority)
                                               : judge_generated(options, states, judged.contestant, authority);
-  if (judged.plugin)  // the judge's clock also ran while the question travelled and while our backend answered
+  if (judged.plugin)  // the judge's times include the transfer of the question and our backend's answer
     for (StageReport& report : reports)
       report.tally.contestant_seconds = judged.plugin->seconds(compare::stage_name(report.tally.stage));
   std::optional<PluginSeen> plugin;

@@ -1,5 +1,5 @@
-// `ogc contacts`: prints the contact sets and bounds of a mesh, for inspection, for another program, or to compare
-// engines.
+// `ogc contacts`: prints the contact sets and bounds of a mesh, to inspect them, to pass them to another program, or to
+// compare engines.
 #include <chrono>
 #include <map>
 #include <memory>
@@ -20,11 +20,11 @@ namespace ogc::experiments {
 
 namespace {
 
-/// Default of r_q in r: the ratio at which Settings caps it.
+/// Default of r_q in multiples of r: the ratio at which Settings caps it.
 constexpr double default_query_ratio = 4;
-/// Limits of lengths as in settings: of r, and of r_q, whose cap is given in r.
+/// Limits of r as in settings, and of r_q, whose limit in settings is a multiple of r.
 constexpr double least_radius = 0x1p-20, most_radius = 0x1p20, most_query_radius = 0x1p30;
-/// Default of r in edges: the paper's cloth scenes lie between a fifth of an edge (twist) and a whole one
+/// Default of r in edge lengths. The paper's cloth scenes lie between a fifth of an edge (twist) and a whole edge
 /// (large_radius_twist).
 constexpr double default_radius_ratio = 0.2;
 
@@ -37,7 +37,7 @@ struct Options {
   bool schema = false, margins = true, squares = false;
 };
 
-/// Returns the file's numbers of vertices and triangles, which the JSON numbers from 0.
+/// Returns the file's numbers of the vertices and triangles, which the JSON numbers from 0.
 Json numbers_in_file(const MeshInput& input) {
   const compare::MeshSource& source = input.source;
   const auto listed = [&](const std::vector<compare::Index>& numbers, std::size_t count) {
@@ -51,7 +51,7 @@ Json numbers_in_file(const MeshInput& input) {
   return json;
 }
 
-/// Throws compare::ResourceError if there is no such engine, before a large mesh is read in vain.
+/// Throws compare::ResourceError if the engine is not available, before a large mesh is read in vain.
 void expect_engine(const std::string& engine) {
   if (engine != "cuda") return;
   const fast::BackendInfo device = fast::backend_info(fast::Backend::cuda);

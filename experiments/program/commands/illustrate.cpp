@@ -1,5 +1,4 @@
-// `ogc illustrate`: writes the data of the paper's drawings as JSON, one file each, for
-// paper_figures/figures/illustrations.py.
+// `ogc illustrate`: writes the data of the paper's drawings as JSON files, for paper_figures/figures/illustrations.py.
 #include <filesystem>
 #include <memory>
 

@@ -31,8 +31,8 @@ void check(const Options& options) {
 }
 
 /// Returns the solvers that the options select. Without options: vbd on the CPU with both bounds, newton, ipc.
-/// --backend selects vbd alone. The bounds of newton affect only the way to its motion, not the motion, so that balls
-/// suffice if no bounds are named.
+/// --backend selects vbd alone. For newton balls suffice if no bounds are named, because bounds change the iterates of
+/// newton but not the resulting motion.
 std::vector<LawAsked> asked_by(const Options& options) {
   check(options);
   const auto is_asked = [&](const char* solver) {

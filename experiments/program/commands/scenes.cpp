@@ -1,4 +1,4 @@
-// `ogc scenes`: lists the built-in scenes, and writes them to files that can be changed.
+// `ogc scenes`: lists the built-in scenes, and writes them to editable files.
 #include <algorithm>
 #include <memory>
 
@@ -85,7 +85,7 @@ void show(const std::string& name, const CommandContext& context) {
                "\nsettings at small\n" + table(settings, 3));
 }
 
-/// Moves the files of `from` to `folder`. Throws, and moves none, if the folder already holds one of them and `force`
+/// Moves the files of `from` to `folder`. Throws and moves no file if the folder already holds one of them and `force`
 /// is false.
 void move_files(const std::filesystem::path& from, const std::filesystem::path& folder, bool force) {
   std::string there;
@@ -100,8 +100,8 @@ void move_files(const std::filesystem::path& from, const std::filesystem::path& 
   for (const auto& name : names) std::filesystem::rename(from / name, folder / name);
 }
 
-/// Writes the files to a folder beside their place first, because the names of a scene's files are known only after
-/// writing.
+/// Writes the files of the scene. They first go to a folder beside the destination, because their names are known only
+/// after writing.
 std::filesystem::path write_files(const Options& options) {
   const compare::Scene scene = make_scene(options.scene, parse_scale(options.scale), data_folder(options.assignments));
   const std::filesystem::path folder(options.folder), partial = compare::partial_name(folder / options.scene);

@@ -1,4 +1,4 @@
-// `ogc suggest`: suggests settings for a mesh, with their reasons.
+// `ogc suggest`: suggests settings for a mesh and gives the reason for each.
 #include <algorithm>
 #include <cctype>
 #include <memory>
@@ -26,14 +26,14 @@ struct Options {
   std::optional<double> fall;
 };
 
-/// Holds one suggested number under its name in --set.
+/// Holds one suggested number and the setting's name for --set.
 struct Row {
   std::string setting, unit;
   SuggestedNumber suggested;
 };
 
 std::vector<Row> rows_of(const Suggestion& found) {
-  // r_q is set by its cap, in multiples of r.
+  // r_q is set by its cap, a multiple of r.
   const SuggestedNumber cap{found.query_radius.value / found.contact_radius.value,
                             "r_q up to " + number(found.query_radius.value) + " m, " + found.query_radius.reason};
   return {{"contact_radius", "m", found.contact_radius},
@@ -43,7 +43,7 @@ std::vector<Row> rows_of(const Suggestion& found) {
           {"iterations", "1", found.iterations}};
 }
 
-/// Quotes any text as one word for a shell.
+/// Quotes a text as one word for a shell.
 std::string quoted(const std::string& word) {
   const auto is_plain = [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '/' || c == '.' || c == '_' || c == '-';
@@ -54,8 +54,8 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-/// Returns the command that runs the mesh with these settings and with the ground at the depth that gives the requested
-/// fall.
+/// Returns the command that runs the mesh with these settings. The ground lies so deep that the mesh falls by the
+/// requested height.
 std::string command_line(const std::string& mesh, double ground, const std::vector<Row>& rows) {
   std::string text = "ogc run " + quoted(mesh) + " --ground " + compare::shortest(ground);
   for (const Row& row : rows) text += " --set " + row.setting + "=" + compare::shortest(row.suggested.value);

@@ -23,10 +23,11 @@ Axis parse_axis(const std::string& text) {
   return axis;
 }
 
-/// The name of the point whose values are all the scene's.
+/// Name of the point that keeps all values of the scene.
 constexpr const char* unchanged = "default";
 
-/// Returns the points of --point over an axis for each key that occurs in them; without --point one point without axes.
+/// Returns the points of --point, with one axis for each key that occurs in them. Without --point returns one point
+/// without axes.
 std::vector<Point> listed_points(const std::vector<std::string>& texts, std::vector<Axis>& axes) {
   std::vector<Point> points;
   for (const std::string& text : texts) {

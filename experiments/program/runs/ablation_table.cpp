@@ -30,7 +30,7 @@ std::vector<double> values_of(const Rows& rows, const std::function<double(const
   return values;
 }
 
-/// Returns the median; not-a-number if the values contain one, like the functions below.
+/// Returns the median. Like the functions below, returns not-a-number if the values contain it.
 double median_of(const std::vector<double>& values) {
   return std::ranges::any_of(values, [](double value) { return std::isnan(value); }) ? nan : median(values);
 }
@@ -65,7 +65,7 @@ double energy(const StepMetrics& row) {
   return row.kinetic_energy + row.elastic_energy + row.contact_energy + row.gravity_energy;
 }
 
-/// A metric computed from steps.csv: a number of each step, and how the steps are combined.
+/// Defines a metric of steps.csv: the value for each step, and how the values of all steps are combined.
 struct StepMetric {
   Metric metric;
   double (*value)(const StepMetrics& row);
@@ -103,7 +103,7 @@ const std::array<StepMetric, 21>& step_metrics() {
   return metrics;
 }
 
-/// Metrics of the residual at the end of each step with the contacts of the last detection: the last row of a step in
+/// Metrics of the residual that each step leaves, with the contacts of its last detection: the last row of each step in
 /// iterations.csv.
 constexpr std::array stale_residuals{Metric{"median_stale_residual", "1"}, Metric{"largest_stale_residual", "1"}};
 
@@ -114,7 +114,7 @@ std::array<double, stale_residuals.size()> stale_residuals_of(const std::filesys
   std::string line;
   std::getline(file, line);
   while (std::getline(file, line)) {
-    std::array<std::string, 4> cells;  // step, iteration, wall, residual
+    std::array<std::string, 4> cells;  // step, iteration, wall time, residual
     std::size_t begin = 0;
     for (std::string& cell : cells) {
       const std::size_t end = std::min(line.find(',', begin), line.size());
@@ -132,7 +132,7 @@ std::array<double, stale_residuals.size()> stale_residuals_of(const std::filesys
 
 std::string text(double value) { return number(value, 3); }
 
-/// Returns a ratio; one near 1 gets more digits, so that it does not read as 1.
+/// Returns a ratio as text. A ratio near 1 gets more digits, so that it is not printed as 1.
 std::string ratio(double value) { return number(value, std::abs(value - 1) < 0.01 ? 6 : 3); }
 
 std::string with_unit(double value, const Metric& metric) {

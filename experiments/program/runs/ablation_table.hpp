@@ -1,6 +1,6 @@
-// Tabulates the runs of an ablation: the metrics of each run, their medians and ranges for each setting, and the
-// statements that compare two settings. A run is read from its folder alone, so that a grid that was interrupted, or
-// was computed by many jobs, is tabulated like any other.
+// Tabulates the runs of an ablation: the metrics of each run, their medians and ranges for each setting, and sentences
+// that compare two settings. Each run is read from its folder alone, so that an interrupted grid, or one computed by
+// several jobs, needs no special code.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace ogc::experiments {
 
-/// Holds name and unit of a column of the table.
+/// Holds name and unit of a metric.
 struct Metric {
   std::string_view name, unit;
 };
@@ -23,7 +23,7 @@ struct RunRow {
   std::string status;           ///< run.json's status up to the first colon
   std::int64_t steps = 0;       ///< number of rows of steps.csv
   std::vector<double> metrics;  ///< in the order of ablation_metrics; not-a-number if not measured
-  /// as in run.json; `guarantee_kept` is "not checked" if run.json has none
+  /// values of run.json; `guarantee_kept` is "not checked" if run.json has none
   std::string guarantee_kept, audited_states, final_hash, device, folder;
 };
 
@@ -36,28 +36,28 @@ struct SettingRows {
   std::vector<RunRow> rows;
 };
 
-/// Holds median and range of a metric over the finished runs of a setting.
+/// Holds median and range of one metric over the finished runs of a setting.
 struct MetricRange {
-  std::size_t runs = 0;                          ///< finished runs
+  std::size_t runs = 0;
   double median = 0, smallest = 0, largest = 0;  ///< not-a-number unless all of these runs measured it
 };
 /// Returns the range of a metric. The median of an even number of runs is the mean of the middle two.
 MetricRange range_of(const SettingRows& setting, std::size_t metric);
 
-/// Returns one sentence that compares `one` with `other` in a metric: "is 1.8 times …, range 1.6 to 2.1" if every run
-/// of one lies above, or below, every run of the other; otherwise that no difference is shown. The range is that of the
-/// ratios of any two runs, or of their differences if a value is not positive. Empty if one of the two did not measure
-/// the metric.
+/// Returns one sentence that compares `one` with `other` in a metric. If every run of one lies above, or below, every
+/// run of the other, the sentence gives the ratio: "is 1.8 times …, range 1.6 to 2.1". Otherwise it states that no
+/// difference is shown. The range covers the ratios of all pairs of runs, or their differences if a value is not
+/// positive. Empty if a setting did not measure the metric.
 std::string sentence(const Metric& metric, const SettingRows& one, const MetricRange& range_of_one,
                      const SettingRows& other, const MetricRange& range_of_other);
 
-/// Returns lines that compare every setting with the first one, metric by metric, and state how often such sentences
-/// arise by chance.
+/// Returns lines that compare every setting with the first one, metric by metric, and a line that states how often such
+/// differences arise by chance.
 std::vector<std::string> findings(const std::vector<SettingRows>& settings);
 
 /// Returns the probability that the ranges of `n` and `m` values of one continuous distribution do not overlap: 2 / C(n
-/// + m, n), because all orders of the n + m values are equally likely, and in two of them all values of one group come
-/// first.
+/// + m, n). All orders of the n + m values are equally likely; in two of them all values of one group precede the other
+/// group.
 double apart_by_chance(std::size_t n, std::size_t m);
 
 }  // namespace ogc::experiments

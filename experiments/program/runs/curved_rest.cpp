@@ -13,11 +13,11 @@ namespace ogc::experiments {
 
 namespace {
 
-/// Holds the hinges of a body that are not flat at rest.
+/// Holds a body's hinges that are not flat at rest.
 struct Bent {
   std::size_t hinges = 0;
-  double degrees = 0;        ///< the largest |θ₀|
-  compare::Edge edge{0, 0};  ///< edge of that hinge, by vertices of the scene
+  double degrees = 0;        ///< largest |θ₀|
+  compare::Edge edge{0, 0};  ///< edge of the hinge with the largest angle, by vertices of the scene
 };
 
 bool is_isometric(const compare::Body& body) {
@@ -25,7 +25,7 @@ bool is_isometric(const compare::Body& body) {
          body.material.bending_stiffness > 0;
 }
 
-/// Returns the bent hinges by body. The rest state has no hinges of fixed bodies.
+/// Returns the bent hinges of each body. The rest state has no hinges of fixed bodies.
 std::vector<Bent> bent_hinges(const compare::Scene& scene) {
   const compare::Topology topology = build_topology(scene);
   std::vector<Bent> bent(scene.bodies.size());

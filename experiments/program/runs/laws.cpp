@@ -14,7 +14,7 @@
 namespace ogc::experiments {
 namespace {
 
-/// In the order of compare::Verdict.
+/// by compare::Verdict
 constexpr std::array<std::string_view, 3> verdict_names{"holds", "limit", "broken"};
 std::string name_of(compare::Verdict verdict) { return std::string(verdict_names[static_cast<std::size_t>(verdict)]); }
 
@@ -26,7 +26,7 @@ std::string solver_of(const LawRow& row) {
 
 std::string backend_of(const LawRow& row) { return row.asked.on_device ? "cuda" : "cpu"; }
 
-/// Returns the name of the bounds. IPC has bounds of its own, found by continuous detection.
+/// Returns the name of the bounds; "ccd" for IPC, which bounds its steps by continuous detection.
 std::string bounds_of(const LawRow& row) {
   if (row.asked.solver == Solver::ipc) return "ccd";
   return std::string(name_of(row.asked.bounds));
@@ -42,7 +42,7 @@ compare::LawState state_of(const compare::Snapshot& snapshot) {
           is_exact ? snapshot.exact_velocities : compare::to_double(snapshot.velocities)};
 }
 
-/// Returns why a run ended before its last step.
+/// Returns the reason why a run ended before its last step.
 std::string failure_of(const compare::StepMetrics& row) {
   std::string text = "step " + std::to_string(row.step);
   if ((row.status & compare::step_not_converged) != 0) text += " did not converge";
@@ -56,8 +56,8 @@ std::string failure_of(const compare::StepMetrics& row) {
 constexpr std::uint32_t ends_run = compare::step_not_finite | compare::step_bound_violated |
                                    compare::step_not_converged | compare::step_indefinite | compare::step_met;
 
-/// Sets what a solver needs beyond the law's scene. IPC's barriers get the range of contacts, so that a body on a floor
-/// starts at its equilibrium.
+/// Adapts the law's scene to the solver. IPC's barriers get the range of contacts, so that a body on a floor starts at
+/// its equilibrium.
 void prepare(compare::Scene& scene, const LawAsked& asked) {
   scene.settings.bounds = asked.bounds;
   if (asked.solver == Solver::ipc) compare::set_setting(scene.settings, "ipc_distance", scene.settings.contact_radius);

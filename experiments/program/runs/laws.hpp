@@ -1,4 +1,4 @@
-// Runs laws of motion (compare/laws) with solvers: the solvers to run, the verdicts, and the report as text and JSON.
+// Runs laws of motion (compare/laws) with several solvers, and reports the verdicts as text and JSON.
 #pragma once
 
 #include <optional>
@@ -11,39 +11,40 @@
 
 namespace ogc::experiments {
 
-/// Names a solver and its bounds. Bounds affect the motion of vbd alone.
+/// Selects a solver and its bounds. Bounds affect only the motion of vbd.
 struct LawAsked {
   Solver solver = Solver::vbd;                     ///< one of vbd, newton, ipc
-  bool on_device = false;                          ///< vbd on CUDA
+  bool on_device = false;                          ///< vbd runs on CUDA
   compare::Bounds bounds = compare::Bounds::ball;  ///< ball or planes
 };
 
-/// Holds a law and the answer of one solver.
+/// Holds the result of one law for one solver.
 struct LawRow {
-  const compare::Law* law = nullptr;  ///< the law
-  LawAsked asked;                     ///< the solver
-  bool was_asked = true;              ///< false: the law does not apply, and `why` names what this solver lacks
-  /// The verdict of the readings. A run that ends early, or that the solver refuses, is broken; `why` then says how.
+  const compare::Law* law = nullptr;
+  LawAsked asked;
+  bool was_asked = true;  ///< false: the law does not apply; `why` then names what the solver lacks
+  /// Verdict on the readings. It is broken if the run ends early or the solver refuses the scene; `why` then gives the
+  /// reason.
   compare::Verdict verdict = compare::Verdict::holds;
-  std::string why;                         ///< a reason for `was_asked` or `verdict`; the derivation of a limit
+  std::string why;                         ///< reason for `was_asked` or `verdict`, or the derivation of a limit
   std::vector<compare::Reading> readings;  ///< in the law's order
-  double seconds = 0;                      ///< duration [s]
+  double seconds = 0;                      ///< duration of the runs [s]
 };
 
 /// Runs the law's scenes and reads the results.
 LawRow ask(const compare::Law& law, compare::LawSize size, const LawAsked& asked);
 
-/// Returns whether any row's law is broken.
+/// Returns whether any verdict is broken.
 bool any_broken(const std::vector<LawRow>& rows);
 
-/// Returns a table of rows with the worst reading of each, and a line with the number of each verdict.
+/// Returns a table of the rows with the worst reading of each, and a line that counts the verdicts.
 std::string describe(const std::vector<LawRow>& rows);
-/// Returns the report "ogc laws 1", whose schema is experiments/laws.schema.json.
+/// Returns the report "ogc laws 1" (schema: experiments/laws.schema.json).
 Json law_json(const std::vector<LawRow>& rows, compare::LawSize size);
-/// Returns that schema as text.
+/// Returns the schema of the report.
 std::string laws_schema();
 
-/// Returns the laws by group, with what they prove and their closed answers, for `--list`.
+/// Returns the laws by group for `--list`, with what they test and their closed solutions.
 std::string list_laws();
 
 }  // namespace ogc::experiments

@@ -24,9 +24,10 @@ using compare::StepMetrics;
 
 constexpr double not_asked = std::numeric_limits<double>::quiet_NaN();
 
-/// Splits the time of a step into its events.
+/// Holds the times of the events of a step.
 struct EventTimes {
-  double begin = 0, detection = 0, sweep = 0;  ///< before the first event; of one event [ms]
+  /// time before the first event; time of each detection; time of each sweep [ms]
+  double begin = 0, detection = 0, sweep = 0;
 };
 
 EventTimes event_times(const StepMetrics& row, const std::vector<std::string>& stages) {
@@ -95,8 +96,9 @@ class MeasuredSimulation : public compare::Simulation {
   std::string device() const override { return inner_->device(); }
 
  private:
-  /// Returns the scene whose first step is the one after `before`, because a trace starts at the first step. Each
-  /// motion becomes two keyframes, its targets at the step's begin and end, which rotate frames as the motion does.
+  /// Returns the scene whose first step is the step after `before`, because a trace covers a first step. Each motion
+  /// becomes two keyframes: its targets at the begin and the end of the step. Rotating motions keep their axis and
+  /// angular velocity, by which they rotate frames.
   compare::Scene scene_at(const Snapshot& before) const {
     compare::Scene scene = scene_;
     const double h = scene.settings.time_step, now = static_cast<double>(before.step) * h;
@@ -137,8 +139,8 @@ class MeasuredSimulation : public compare::Simulation {
     return states;
   }
 
-  /// Adds the meetings along the states at which a step detected, up to its end. Bounds hold between two of them, so
-  /// that a meeting violates them.
+  /// Adds the meetings along the states at which a step detected, and from the last of them to the step's end. Bounds
+  /// hold between two such states, so that each meeting violates them.
   void add_meetings(const std::vector<std::vector<compare::Vec3f>>& states, const std::vector<compare::Vec3f>& end,
                     StepMetrics& step) {
     for (std::size_t k = 0; k < states.size(); ++k)
@@ -158,7 +160,7 @@ class MeasuredSimulation : public compare::Simulation {
       step.notes.push_back("further meetings are counted, not named");
   }
 
-  /// Returns the contacts that the contestant's own detections find.
+  /// Returns the contacts that the contestant detects at these positions.
   reference::ContactSets contacts_at(const std::vector<compare::Vec3f>& positions) const {
     const auto radius = static_cast<float>(scene_.settings.contact_radius);
     const compare::DetectIn in{&topology_, exclusions_, positions, radius, radius};
@@ -208,15 +210,16 @@ class MeasuredSimulation : public compare::Simulation {
   compare::Topology topology_;
   compare::Exclusions exclusions_;
   std::unique_ptr<Simulation> inner_;
-  compare::WayTeller* teller_;  ///< inner_, if it is a teller; else null
+  compare::WayTeller* teller_;  ///< inner_ if it is a WayTeller; otherwise null
   compare::Contestant contestant_;
   bool has_rows_;
   std::optional<StepRange> meetings_;
-  static constexpr std::size_t most_named = 10;  ///< a baseline may have thousands
-  std::size_t named_ = 0;                        ///< number of meetings named in notes so far
+  /// limit of meetings that notes name, because a baseline may have thousands
+  static constexpr std::size_t most_named = 10;
+  std::size_t named_ = 0;  ///< number of meetings named so far
   std::optional<reference::ResidualMeter> meter_;
   std::optional<reference::LedgerWriter> ledger_;
-  reference::ContactSets contacts_;       ///< of the trace's last detection
+  reference::ContactSets contacts_;       ///< contacts of the trace's last detection
   std::vector<compare::Vec3f> previous_;  ///< positions at that detection
 };
 

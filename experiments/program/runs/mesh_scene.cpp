@@ -19,9 +19,9 @@ namespace {
 
 using compare::Vec3;
 
-constexpr double ground_widths = 3;  ///< width of the ground in widths of the mesh
+constexpr double ground_widths = 3;  ///< width of the ground over that of the mesh
 constexpr double ground_edges =
-    10;  ///< length of the ground's edges in edges of the cloth: its triangles are at most a hundred times as large
+    10;  ///< length of the ground's edges over that of the cloth's; its triangles are at most a hundred times as large
 constexpr double most_ground_cells = 100;
 
 struct Box {
@@ -40,7 +40,7 @@ Box box_of(const compare::Mesh& mesh) {
   return box;
 }
 
-/// Makes a name from that of the file, because names of bodies become names of files.
+/// Makes a body's name from the file's name, with characters that are allowed in names of files.
 std::string usable_name(const std::string& file) {
   std::string name = std::filesystem::path(file).stem().string();
   const auto is_usable = [](char c) {
@@ -51,7 +51,7 @@ std::string usable_name(const std::string& file) {
   return name.empty() ? "mesh" : name;
 }
 
-/// Returns the height relative to `origin`, like the box; `ground` is in the file's coordinates.
+/// Returns the height of the ground relative to `origin`, like the box. `ground` is in the file's coordinates.
 double height_of_ground(const std::string& file, const Box& box, std::optional<double> ground, double origin) {
   if (!ground) return box.low.y - box.fall();
   if (!std::isfinite(*ground)) throw compare::InputError("--ground " + number(*ground) + ": give a height [m]");

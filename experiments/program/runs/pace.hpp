@@ -1,6 +1,6 @@
-// Decides how many steps a run requests of its simulation in one call. Between two calls the run checks for signals,
-// writes rows, shows progress and saves a checkpoint, so a call must be short. Each call costs a device one
-// synchronisation and a copy of its rows, so that several fast steps share a call.
+// Decides how many steps a run requests from its simulation in one call. Between two calls the run checks for signals,
+// writes rows, shows progress and saves checkpoints, so calls must be short. On a device each call costs a
+// synchronisation and a copy of its rows, so several fast steps share a call.
 #pragma once
 
 #include <algorithm>
@@ -8,18 +8,19 @@
 
 namespace ogc::experiments {
 
-/// Counts the steps until signals and clocks are checked again.
+/// Computes the number of steps for the next call.
 class Pace {
  public:
-  /// Duration of a call [s]. Even if steps become four times slower from one call to the next, as when contacts begin,
-  /// the call ends within a second.
+  /// Target duration of a call [s]. If steps become four times slower between two calls, for example when contacts
+  /// begin, the call still ends within a second.
   static constexpr double seconds_a_call = 0.25;
-  /// Largest number of steps in a call: what a resident simulation enqueues at once (fast/stages/simulation.hpp).
+  /// Largest number of steps in a call: the number that a resident simulation enqueues at once
+  /// (fast/stages/simulation.hpp).
   static constexpr std::int64_t most_steps = 64;
 
-  /// Returns the number of steps of the next call; 1 before the first measurement.
+  /// Returns the number of steps for the next call; 1 before the first measurement.
   std::int64_t steps() const { return steps_; }
-  /// Records that the last call did so many steps in so much time.
+  /// Records the steps and the duration of the last call.
   void measured(std::int64_t steps, double seconds) {
     const double whole = seconds > 0 ? seconds_a_call * static_cast<double>(steps) / seconds : most_steps;
     steps_ = static_cast<std::int64_t>(std::clamp(whole, 1.0, static_cast<double>(most_steps)));

@@ -26,8 +26,8 @@ void check_end(const std::string& folder, const compare::RunReader& run) {
                             "/frames/" + compare::frame_name(run.frame_step(run.frame_count() - 1)) + ".h5");
 }
 
-/// Throws if commit, compiler or toolkit differ, because these may compute other bits. It can only warn of uncommitted
-/// changes, because these have no name.
+/// Throws if commit, compiler or toolkit differ, because other versions may compute other bits. Only warns of
+/// uncommitted changes, because they have no version to compare.
 void check_program(const std::string& folder, const Provenance& run) {
   const BuildInfo build = build_info();
   const auto same = [&](const std::string& what, const std::string& theirs, const std::string& ours) {
@@ -47,7 +47,7 @@ void check_program(const std::string& folder, const Provenance& run) {
         "be checked");
 }
 
-/// Throws if the CUDA device differs. The CPU and its number of threads may differ, because no bit depends on them.
+/// Throws if the CUDA device differs. The CPU and its number of threads may differ, because they change no bit.
 void check_device(const std::string& folder, const Provenance& run) {
   if (run.backend != "cuda") return;
   const fast::BackendInfo here = fast::backend_info(fast::Backend::cuda);
@@ -61,8 +61,8 @@ void check_device(const std::string& folder, const Provenance& run) {
                               ": another device or driver may give other bits. Resume it there, or " + remedy);
 }
 
-/// Throws unless there is a row for each step up to the checkpoint's. The totals of the summary are counted from these
-/// rows.
+/// Throws unless there is a row for each step up to the checkpoint, because the totals of the summary are counted from
+/// these rows.
 void check_rows(const std::filesystem::path& folder, std::int64_t step) {
   const std::vector<compare::StepMetrics> rows = compare::read_steps(folder, step).rows;
   bool whole = rows.empty() || rows.back().step == step;

@@ -1,6 +1,6 @@
-// Continues an interrupted run (`ogc run --resume RUN`) with the bits that it would have computed. The folder has all
-// that this needs: run.json the program and options, scene/ the scene with its settings, checkpoint.h5 the state.
-// Everything that could change a bit is compared before anything is computed, the cheapest first; a difference is
+// Continues an interrupted run (`ogc run --resume RUN`) with the bits of an uninterrupted one. The folder has all that
+// this needs: program and options in run.json, the scene with its settings in scene/, the state in checkpoint.h5.
+// Before anything is computed, everything that could change a bit is compared, the cheapest item first. A difference is
 // refused.
 #pragma once
 
@@ -8,18 +8,18 @@
 
 namespace ogc::experiments {
 
-/// Returns the text of run.json under a key that only `ogc` uses; `otherwise` if the key is missing.
+/// Returns the text of run.json under a key that only `ogc` uses, or `otherwise` if the key is missing.
 std::string text_in(const compare::Provenance& provenance, const std::string& key, const std::string& otherwise = "");
 
-/// Holds what continues a run.
+/// Holds the data with which a run continues.
 struct ResumedRun {
   RunOptions options;  ///< for contestant_of
   RunRequest request;  ///< for RunSession
 };
 
-/// Reads the run of the folder. Throws compare::InputError with a remedy: no run; a run that is finished, still
-/// running, or of another program or device; a scene, checkpoint or rows that were changed or damaged. Throws
-/// compare::ResourceError if the device does not exist. Changes nothing in the folder.
+/// Reads the run in the folder and changes nothing there. Throws compare::InputError with a remedy if there is no run;
+/// if the run is finished, still active, or from another program or device; or if its scene, checkpoint or rows were
+/// changed or damaged. Throws compare::ResourceError if the device does not exist.
 ResumedRun resumed_run(const std::filesystem::path& folder);
 
 }  // namespace ogc::experiments

@@ -49,7 +49,7 @@ void check_scene_options(const RunOptions& options, const std::string& data) {
     throw compare::InputError("--scale belongs to the built-in scenes (" + scene_names() + "); a file has one size");
 }
 
-/// Returns the scene before --set, and its scale; logs what was taken differently from its files.
+/// Returns the scene before --set is applied, and its scale. Logs what was changed while its files were read.
 compare::SceneFile load_scene(const RunOptions& options, std::string& scale) {
   const std::string data = data_folder(options.assignments);
   check_scene_options(options, data);
@@ -64,7 +64,7 @@ compare::SceneFile load_scene(const RunOptions& options, std::string& scale) {
   return {make_scene(options.scene, parse_scale(scale), data), {}, {}};
 }
 
-/// Sets the model of that name for every body that has a model; returns false if `key` names no model.
+/// Sets the named model for every body that has such a model. Returns false if `key` is not `wanted_key`.
 template <class Model>
 bool set_model(compare::Scene& scene, const std::string& key, std::string_view wanted_key, const std::string& value,
                std::span<const std::string_view> names, Model compare::Material::*model) {
@@ -76,7 +76,7 @@ bool set_model(compare::Scene& scene, const std::string& key, std::string_view w
   return true;
 }
 
-/// Throws if --set has no such key.
+/// Throws if --set has no key of this name.
 void expect_setting(const std::string& key) {
   std::vector<std::string_view> names{"membrane", "bending", "body_contact"};
   for (const MaterialSetting& constant : material_settings()) names.push_back(constant.name);
@@ -94,7 +94,7 @@ void set(compare::Scene& scene, const std::string& key, const std::string& value
     compare::set_setting(scene.settings, key, value);
 }
 
-/// Sets the kind of contact. It comes before all settings, because it changes one of them.
+/// Sets the kind of contact. This precedes all settings, because it changes one of them.
 void apply_contact(compare::Scene& scene, const std::string& value) {
   const auto names = compare::choice_names<compare::BodyContact>;
   const auto found = std::ranges::find(names, value);
@@ -250,8 +250,9 @@ std::string settings_help() {
   return text;
 }
 
-/// Returns the steps whose meetings are counted. Two states of curves prove nothing about the motion between them, so
-/// an audit of every step counts meetings, too; at paper scale, where traces are slow, only on request.
+/// Returns the steps whose meetings are counted. For scenes with curves, audits of every step count meetings by
+/// default, because two states of curves prove nothing about the motion between them. At paper scale, where traces are
+/// slow, meetings are counted only on request.
 std::optional<StepRange> meetings_of(const RunOptions& options, const RunRequest& request) {
   if (options.audit_meetings == "off") return std::nullopt;
   try {

@@ -10,18 +10,16 @@
 
 namespace ogc::experiments {
 
-/// Holds the options as typed.
+/// Holds the options as given on the command line.
 struct RunOptions {
-  /// the options of these names
   std::string scene, solver = "vbd", backend = "cpu", scale, audit = "frame", audit_meetings, from_state, out, show;
-  std::vector<std::string> assignments;  ///< "key=value" of --set, applied in order
-  std::int64_t steps = 0;                ///< 0: the steps of the scene
-  /// the options of these names
+  std::vector<std::string> assignments;  ///< "key=value" of each --set, applied in order
+  std::int64_t steps = 0;                ///< 0: number of steps of the scene
   bool profile = false, iterations = false, condition = false, residual = false, ledger = false;
-  bool tolerate_start = false;                             ///< --tolerate-start
-  Jitter jitter;                                           ///< --jitter and --seed
-  compare::MeshOptions mesh;                               ///< how a mesh file in place of a scene is read
-  std::optional<double> ground;                            ///< height of the ground below that mesh [m]
+  bool tolerate_start = false;
+  Jitter jitter;
+  compare::MeshOptions mesh;                               ///< how a mesh file is read, if it replaces a scene
+  std::optional<double> ground;                            ///< y of the ground below such a mesh [m]
   std::optional<double> deepest;                           ///< --deepest [m]
   int threads = 0;                                         ///< 0: all
   double checkpoint_seconds = default_checkpoint_seconds;  ///< least time between two checkpoints [s]
@@ -35,13 +33,13 @@ std::string scene_names();
 /// Returns the table of settings for the help text.
 std::string settings_help();
 
-/// Returns the folder of the last "data=DIR" of --set, empty if there is none. It is a property of a scene, not a
-/// setting.
+/// Returns the folder of the last "data=DIR" among the assignments; empty if there is none. "data" is a property of the
+/// scene, not a setting.
 std::string data_folder(const std::vector<std::string>& assignments);
 
-/// Returns the request of these options. Throws compare::InputError that says what to give instead.
+/// Returns the run that these options request. Throws compare::InputError with a remedy if an option is not valid.
 RunRequest request_of(const RunOptions& options, const CommandContext& context);
-/// Returns the contestant that computes the run. `meetings`: those of the request.
+/// Returns the contestant that computes the run. `meetings`: steps of the request whose meetings are counted.
 compare::Contestant contestant_of(const RunOptions& options, const std::optional<StepRange>& meetings);
 
 }  // namespace ogc::experiments

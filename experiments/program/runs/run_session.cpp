@@ -30,7 +30,7 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 
 constexpr std::int64_t any_step = std::numeric_limits<std::int64_t>::max();
 
-/// Returns the steps between frames: 60 frames in a second of the scene's time, unless the scene sets the number.
+/// Returns the number of steps between frames. Unless the scene sets it, a second of the scene's time has 60 frames.
 std::int64_t frame_steps(const compare::Settings& settings) {
   if (settings.frame_steps > 0) return settings.frame_steps;
   return std::max<std::int64_t>(1, std::llround(1 / (60 * settings.time_step)));
@@ -38,7 +38,7 @@ std::int64_t frame_steps(const compare::Settings& settings) {
 
 RunRequest checked(RunRequest request) {
   compare::round_to_single(request.scene);
-  // A scene from a file has no dust left; the positions of a frame keep theirs.
+  // A scene from a file has no dust left. Dust in the positions of a stored frame is kept.
   if (const std::string dust = describe(clear_dust(request.scene)); !dust.empty())
     log_line("ogc: " + request.scene.name + ": " + dust);
   const std::string problems = compare::describe(
@@ -157,13 +157,13 @@ void RunSession::begin_folder() {
       request_.profile ? simulation_->stage_names() : std::vector<std::string>{});
 }
 
-/// Continues the folder. Totals of the earlier run are counted from its rows.
+/// Continues the existing folder. The totals of the earlier part are counted from its rows.
 void RunSession::reopen_folder() {
   writer_ = std::make_unique<compare::RunWriter>(request_.folder, request_.scene, step_,
                                                  request_.backend == "cpu" ? ", " + summary_.device : "");
   const std::vector<StepMetrics> rows = compare::read_steps(request_.folder).rows;
   if (!rows.empty()) summary_.first_step = rows.front().step - 1;
-  // An interruption stores a frame that an uninterrupted run does not have.
+  // An interruption may have stored a frame that an uninterrupted run does not have.
   writer_->keep_frames([this](std::int64_t step) {
     return step == summary_.first_step || step % frame_steps_ == 0 || step == settings_.steps;
   });
@@ -174,7 +174,7 @@ void RunSession::reopen_folder() {
   log_line("goes on after step " + std::to_string(step_) + " of " + std::to_string(settings_.steps));
 }
 
-/// Reads the starts of steps whose loss counts from the frames; reading all frames would take long.
+/// Reads the start velocities of those steps whose loss counts; reading every frame would take long.
 void RunSession::remember_starts(const std::vector<StepMetrics>& rows) {
   const compare::RunReader reader(request_.folder);
   for (std::size_t i = 0; i < reader.frame_count(); ++i) {
@@ -199,14 +199,14 @@ RunSummary RunSession::run() {
     try {
       writer_->give_up(summary_.status);
     } catch (const std::exception&) {
-      // The first error is the one to report; finished frames are readable whatever run.json contains.
+      // The first error is the one to report. Finished frames are readable whatever run.json contains.
     }
     throw;
   }
   return summary_;
 }
 
-/// Returns the number of steps until something is due. No bit depends on where the simulation pauses.
+/// Returns the number of steps until the next frame, audit, end or pause. Pauses change no bit.
 std::int64_t RunSession::chunk() const {
   const std::int64_t to_state = request_.audit == AuditMode::every ? 1 : frame_steps_ - step_ % frame_steps_;
   return std::min({to_state, settings_.steps - step_, pace_.steps()});
@@ -214,8 +214,8 @@ std::int64_t RunSession::chunk() const {
 
 bool RunSession::is_frame(std::int64_t step) const { return step % frame_steps_ == 0 || step == settings_.steps; }
 
-/// Returns whether every run offers the state of this step for an audit, also an uninterrupted one. A checkpoint or an
-/// early end offers further states.
+/// Returns whether every run, also an uninterrupted one, submits the state of this step for an audit. Checkpoints and
+/// early ends submit further states.
 bool RunSession::is_planned(std::int64_t step) const { return request_.audit == AuditMode::every || is_frame(step); }
 
 bool RunSession::is_checkpoint_due() const { return seconds_since(saved_at_) >= request_.checkpoint_seconds; }
@@ -254,10 +254,11 @@ bool RunSession::one_chunk() {
   const std::string broken = rows.empty() ? "the simulation did no step; please report it" : step_failure(rows.back());
   if (broken.empty()) {
     step_ = rows.back().step;
-    // While a state waits for its verdict no other is offered: that one is saved as soon as the verdict arrives.
+    // A checkpoint offers no state while another state waits for its verdict; that state is saved when its verdict
+    // arrives.
     if (is_planned(step_) || (is_checkpoint_due() && offered_.empty())) offer_state(any_step);
   } else if (!rows.empty()) {
-    // A broken step may be committed or not: its state is not a good one.
+    // A failed step may or may not be committed, so its own state is not offered.
     offer_state(rows.back().step);
   }
   collect(auditor_->take());
@@ -266,13 +267,13 @@ bool RunSession::one_chunk() {
   return !failed();
 }
 
-/// Offers the current state if it is new, finite and of a step before `before`.
+/// Offers the current state for an audit if it is new, finite and from a step before `before`.
 void RunSession::offer_state(std::int64_t before) {
   Snapshot snapshot = simulation_->snapshot();
   step_ = snapshot.step;
   if (step_ <= offered_step_ || step_ >= before || !finite(snapshot)) return;
   offered_step_ = step_;
-  // Only at frames, which an interrupted run has, too, so that both report the same loss.
+  // Only at frames: an interrupted run has the same frames, so both report the same loss.
   if (is_frame(step_)) momentum_.begin_after(step_, snapshot.velocities);
   offer(std::move(snapshot));
 }
@@ -305,7 +306,7 @@ void RunSession::count(const std::vector<StepMetrics>& rows) {
     summary_.largest_share_cut = std::max(summary_.largest_share_cut, row.share_cut);
     summary_.largest_lag = std::max(summary_.largest_lag, row.largest_lag);
     summary_.most_unresolved = std::max(summary_.most_unresolved, row.depth_unresolved);
-    // larger than all floats if no vertex has a bound, as in scenes with volumes only
+    // larger than all floats if no vertex has a bound, as in scenes with only volumes
     if (row.smallest_distance < double{std::numeric_limits<float>::max()})
       summary_.smallest_distance = std::min(summary_.smallest_distance, row.smallest_distance);
     if (row.status & (compare::step_bound_violated | compare::step_met)) summary_.guarantee_kept = false;
@@ -322,8 +323,8 @@ void RunSession::offer(Snapshot snapshot) {
   offered_.push_back(std::move(snapshot));
 }
 
-/// Submits a state for its audit. On the CPU the audit is complete when this returns; beside a device it may wait for
-/// an earlier one.
+/// Submits a state for its audit. On the CPU the audit is complete when this function returns. Beside a device the
+/// function may wait for an earlier audit.
 void RunSession::submit(const Snapshot& snapshot) {
   const Clock::time_point begin = Clock::now();
   auditor_->submit(snapshot);
@@ -336,7 +337,7 @@ void RunSession::accept(Snapshot snapshot) {
   if (is_checkpoint_due()) save_checkpoint();
 }
 
-/// Saves after the rows and frames up to its step, so that a run that continues from it misses none.
+/// Saves a checkpoint after the rows and frames up to its step, so that a run that continues from it misses none.
 void RunSession::save_checkpoint() {
   if (last_good_.step == saved_step_) return;
   writer_->save({last_good_, static_cast<std::int64_t>(summary_.audited_states)});
@@ -399,7 +400,7 @@ void RunSession::store_frame(const Snapshot& snapshot) {
 
 double RunSession::since_begun() const { return seconds_since(request_.begun); }
 
-/// Takes the times for the summary and for run.json; they exclude the last writing of run.json.
+/// Copies the times to the summary and to run.json. The times exclude the last writing of run.json.
 void RunSession::take_times() {
   RunSeconds& seconds = summary_.seconds;
   seconds.writing = writer_->waited_seconds();
@@ -414,7 +415,8 @@ void RunSession::take_times() {
 void RunSession::finish() {
   store_frame(last_good_);
   save_checkpoint();
-  // A complete run counts the audits that it planned, however often it was interrupted; one that ends early counts all.
+  // A complete run counts only planned audits, so that interruptions do not change the count. A run that ends early
+  // counts all.
   if (last_good_.step < settings_.steps) summary_.audited_states += unplanned_audits_;
   summary_.last_step = last_good_.step;
   summary_.final_hash = state_hash(last_good_.positions);

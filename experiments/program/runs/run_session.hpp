@@ -1,6 +1,6 @@
 // Runs one simulation from its scene to its run folder. If states are audited, a state is stored only after its audit,
 // so that the last frame of a folder is the last good state. When an audit fails, the simulation may be a few states
-// ahead, and is stopped.
+// ahead; it is then stopped.
 #pragma once
 
 #include <chrono>
@@ -24,103 +24,105 @@
 
 namespace ogc::experiments {
 
-/// The most computing time that an interrupted run loses, apart from the steps in progress [s].
+/// Largest computing time that an interruption may lose, apart from the steps in progress [s].
 inline constexpr double default_checkpoint_seconds = 60;
 
-/// Splits the duration of a run [s].
+/// Divides the duration of a run into parts [s].
 struct RunSeconds {
   double whole = 0;    ///< since the command began
   double start = 0;    ///< until the first step: scene, its audit, device, folder
   double steps = 0;    ///< sum of StepMetrics::wall_ms
-  double audits = 0;   ///< in which the run waited for audits
-  double writing = 0;  ///< in which the run waited for the disk
+  double audits = 0;   ///< time in which the run waited for audits
+  double writing = 0;  ///< time in which the run waited for the disk
 };
 
-/// Holds what a run is to do.
+/// Describes the requested run.
 struct RunRequest {
   std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< when the command began
   compare::Scene scene;                                                            ///< with all settings applied
-  compare::MeshSources sources;                     ///< of the bodies' meshes, for messages
-  compare::Vec3 origin{};                           ///< see compare::SceneFile::origin
-  std::string scale;                                ///< "smoke", …; empty for a scene file
-  std::string solver = "vbd";                       ///< value of --solver
-  std::string backend = "cpu";                      ///< value of --backend
-  AuditMode audit = AuditMode::frame;               ///< which states are audited
+  compare::MeshSources sources;  ///< sources of the bodies' meshes, for messages
+  compare::Vec3 origin{};        ///< see compare::SceneFile::origin
+  std::string scale;             ///< "smoke", …; empty for a scene file
+  std::string solver = "vbd";    ///< value of --solver
+  std::string backend = "cpu";   ///< value of --backend
+  AuditMode audit = AuditMode::frame;
   bool audit_beside = false;                        ///< see Auditor
-  std::optional<std::filesystem::path> from_state;  ///< a frame with whose state the run begins
+  std::optional<std::filesystem::path> from_state;  ///< frame whose state is the start of the run
   Jitter jitter;                                    ///< offsets of the start
-  bool tolerate_start = false;                ///< leaves faces that intersect at the start out until they are apart
+  bool tolerate_start = false;                      ///< exclude pairs that intersect at the start until they separate
   std::optional<compare::Checkpoint> resume;  ///< the checkpoint of `folder` from which the run continues (resume.hpp)
   double checkpoint_seconds = default_checkpoint_seconds;  ///< least time between two checkpoints [s]
   std::optional<double> deepest;               ///< depth inside a volume above which a state fails [m]; empty: no limit
   bool profile = false;                        ///< records times by stage
   bool iterations = false, condition = false;  ///< see compare::SimulationOptions
-  /// what the contestant was wrapped to measure (experiments/program/runs/measured_simulation.hpp); for run.json
+  /// what the wrapped contestant measures (experiments/program/runs/measured_simulation.hpp), for run.json
   bool residual = false, ledger = false;
   std::optional<StepRange> meetings;  ///< steps whose meetings the wrapped contestant counts
   std::filesystem::path folder;
-  std::filesystem::path show;  ///< folder for .vtp files of what an audit refuses; empty: none
+  std::filesystem::path show;  ///< folder for .vtp files of intersections; empty: none
   std::string command_line;
 };
 
-/// Holds the results of a run. Times of steps in ms; not-a-number if no step was done.
+/// Holds the results of a run. Times of steps are in ms, or not-a-number if no step was done.
 struct RunSummary {
-  /// as in run.json
+  /// values of run.json
   std::string scene, scale, solver, backend, device, folder, status;
-  /// about settings that are hardly intended (experiments/program/runs/warnings.hpp)
+  /// warnings of settings that are hardly intended (experiments/program/runs/warnings.hpp)
   std::vector<std::string> warnings;
-  std::string left_out_of_audits;              ///< in words; empty where nothing is
-  AuditMode audit = AuditMode::off;            ///< which states were to be audited
-  std::string failure;                         ///< what failed, with the names of primitives; empty if nothing did
-  bool was_interrupted = false;                ///< Ctrl-C ended it
-  bool is_unbounded = false;                   ///< bounds=off: nothing is guaranteed
+  std::string left_out_of_audits;    ///< in words; empty if nothing is left out
+  AuditMode audit = AuditMode::off;  ///< which states were requested for audits
+  std::string failure;           ///< description of the failure, with the names of primitives; empty if there was none
+  bool was_interrupted = false;  ///< Ctrl-C ended it
+  bool is_unbounded = false;     ///< bounds=off: nothing is guaranteed
   std::int64_t first_step = 0, last_step = 0;  ///< numbers of the first and the last state
-  double median_ms = 0, worst_ms = 0;          ///< of a step
-  std::int64_t worst_step = 0;                 ///< the step of the largest time
-  /// most contacts of both kinds in one step, and contacts of each kind in the last step
+  double median_ms = 0, worst_ms = 0;          ///< times of a step
+  std::int64_t worst_step = 0;                 ///< step with the largest time
+  /// largest number of contacts of both kinds in one step; contacts of each kind in the last step
   std::int64_t most_contacts = 0, last_vertex_facet_contacts = 0, last_edge_edge_contacts = 0;
-  /// broad phases, then detections as counted by StepMetrics
+  /// broad phases, and the detections counted in StepMetrics
   std::int64_t detections = 0, discrete_detections = 0, continuous_detections = 0;
   std::int64_t guess_rounds = 0, iterations = 0, repeats = 0;
   double largest_share_cut = 0, largest_lag = 0, smallest_distance = 0;
-  /// largest MomentumShare of the steps that follow a frame; empty if none of these did all rounds of its guess
+  /// largest MomentumShare among steps that follow a frame; empty if none of these steps did all guess rounds
   std::optional<double> largest_momentum_lost;
-  /// ForcesLeft: number of steps that count, and the medians of Eq. 29 [1] and of the vertices that a bound holds
+  /// results of ForcesLeft: number of steps that count, median residual of Eq. 29 [1], median number of vertices held
+  /// by a bound
   std::size_t measured_steps = 0;
   double left_residual = 0, left_held = 0;
   std::size_t audited_states = 0, failed_states = 0, intersections = 0, certificate_violations = 0, unsafe_bounds = 0;
-  bool has_volumes = false;  ///< the scene has volumes; the next members are those of this command's audited states
-  std::size_t most_inside = 0, most_edges_meeting = 0, inside_at_start = 0;  ///< vertices, edges, vertices
-  double deepest = 0;                                                        ///< inside a volume [m]
-  std::int64_t deepest_step = 0;                                             ///< state of the largest depth
-  std::int64_t most_unresolved = 0;  ///< largest StepMetrics::depth_unresolved of all steps
-  bool asks_meetings = false;        ///< meetings were counted; the next two members are those of the counted steps
-  std::int64_t meetings = 0, first_meeting = -1;  ///< pairs that met on the way; the step of the first one
+  bool has_volumes = false;  ///< the next members describe the states that this command audited, if there are volumes
+  /// largest numbers of vertices inside and of edges that meet a surface; vertices inside at the start
+  std::size_t most_inside = 0, most_edges_meeting = 0, inside_at_start = 0;
+  double deepest = 0;                ///< largest depth inside a volume [m]
+  std::int64_t deepest_step = 0;     ///< step of the largest depth
+  std::int64_t most_unresolved = 0;  ///< largest StepMetrics::depth_unresolved
+  bool asks_meetings = false;        ///< whether meetings were counted; the next two members cover the counted steps
+  std::int64_t meetings = 0, first_meeting = -1;  ///< pairs that met during steps; step of the first meeting
   std::optional<bool> guarantee_kept;             ///< empty if nothing was audited and no violation is known
-  /// StartPairs: pairs that the guarantee leaves out, and those of them that are open at the end
+  /// results of StartPairs: pairs that the guarantee excludes, and those still open at the end
   std::size_t start_pairs = 0, open_pairs = 0;
   std::string final_hash;  ///< state_hash of the last good state
-  RunSeconds seconds;      ///< of this command alone, which may have continued an earlier run
+  RunSeconds seconds;      ///< times of this command alone, which may have continued an earlier run
 };
 
-/// Returns the summary for programs.
+/// Returns the summary as JSON.
 Json to_json(const RunSummary& summary);
-/// Returns the summary for people.
+/// Returns the summary as text.
 std::string describe(const RunSummary& summary);
-/// Returns the text for run.json: "yes", "no", "not checked", "but for 12 pairs, 3 still open".
+/// Returns the value of `guarantee_kept` in run.json: "yes", "no", "not checked", "but for 12 pairs, 3 still open".
 std::string guarantee_text(const RunSummary& summary);
 
-/// Runs one simulation, from its folder to its summary.
+/// Runs one simulation and writes its folder.
 class RunSession {
  public:
-  /// Checks the scene, the folder and the start. A run that continues was checked by resumed_run, and its state when it
-  /// was stored. Throws compare::InputError for an invalid scene, a folder that can't take a run, or an intersection at
-  /// the start, each pair named.
+  /// Checks the scene, the folder and the start. A run that continues was checked by resumed_run, and its state before
+  /// it was stored. Throws compare::InputError for an invalid scene, an unusable folder, or intersections at the start,
+  /// which the message lists.
   RunSession(RunRequest request, compare::Contestant contestant);
   RunSession(const RunSession&) = delete;
   RunSession& operator=(const RunSession&) = delete;
-  /// Runs to the end, to a failure (RunSummary::failure), or until interrupted. Throws compare::ResourceError if the
-  /// disk is full; as far as possible the folder then records that.
+  /// Runs to the end, to a failure (RunSummary::failure), or to an interruption. Throws compare::ResourceError if the
+  /// disk is full; if possible, the folder records this.
   RunSummary run();
 
  private:
@@ -164,9 +166,9 @@ class RunSession {
   RunRequest request_;
   const compare::Settings& settings_;
   compare::Contestant contestant_;
-  std::optional<StartPairs> pairs_;  ///< pairs of a start that is tolerated
+  std::optional<StartPairs> pairs_;  ///< open pairs of a start that is tolerated
   std::string pairs_csv_;            ///< rows of start_pairs.csv
-  /// the scene with open pairs excluded; null if nothing is tolerated
+  /// the scene with open pairs excluded; null if no pair is tolerated
   std::unique_ptr<compare::Scene> tolerant_scene_;
   std::unique_ptr<compare::Simulation> simulation_;
   std::unique_ptr<StateJudge> judge_;
@@ -174,7 +176,7 @@ class RunSession {
   MomentumShare momentum_;
   std::unique_ptr<Auditor> auditor_;
   std::unique_ptr<compare::RunWriter> writer_;
-  std::deque<compare::Snapshot> offered_;  ///< states that wait for their verdict
+  std::deque<compare::Snapshot> offered_;  ///< states whose verdict is not yet known
   compare::Snapshot start_, last_good_;
   std::int64_t step_ = 0, last_frame_ = -1, frame_steps_ = 1;
   std::int64_t offered_step_ = 0;  ///< step of the last offered state

@@ -1,4 +1,4 @@
-// Prepares the start of a run: its state, and the faces that intersect there.
+// Prepares the start of a run: its state, and pairs of faces that intersect there.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ using compare::Snapshot;
 
 namespace {
 
-constexpr std::size_t most_told = 20;  ///< intersections that are listed of a tolerated start
+constexpr std::size_t most_told = 20;  ///< largest number of intersections that are listed for a tolerated start
 
 }  // namespace
 
@@ -87,7 +87,7 @@ void RunSession::tell_pairs() const {
            judge_->describe(listed));
 }
 
-/// Returns where the intersections of a state are, and their file or how to get one.
+/// Returns where a state's intersections are, and the file with them or the option that writes one.
 std::string RunSession::show(const std::string& name, const Snapshot& state, const compare::AuditResult& result) const {
   const compare::Topology topology = build_topology(request_.scene);
   const std::vector<compare::Vec3> positions = compare::to_double(state.positions);
@@ -96,7 +96,7 @@ std::string RunSession::show(const std::string& name, const Snapshot& state, con
   return where + "\n" + show_offenders(request_.show, name, result, topology, positions);
 }
 
-/// Finds the pairs of the start. A run that continues keeps those that its frames leave open.
+/// Finds the pairs of the start. If a run continues, its frames then close those pairs that have separated.
 void RunSession::name_pairs() {
   if (!request_.resume) {
     pairs_.emplace(request_.scene, start_.positions);
@@ -135,7 +135,7 @@ void RunSession::start_simulation() {
                                    .condition = request_.condition});
 }
 
-/// Closes pairs after a frame. Faces that have come apart are held apart from the next step on.
+/// Closes the pairs that have separated at this frame. Their faces are held apart from the next step on.
 void RunSession::close_pairs() {
   const Snapshot now = simulation_->snapshot();
   if (pairs_->close_apart(now.positions)) {
@@ -150,7 +150,7 @@ void RunSession::close_pairs() {
   write_pairs();
 }
 
-/// Writes the whole file each time, so that it stays readable however the run ends.
+/// Writes the whole file each time, so that it is readable if the run is killed.
 void RunSession::write_pairs() const {
   compare::write_bytes(request_.folder / "start_pairs.csv", "step,open_pairs\n" + pairs_csv_);
 }

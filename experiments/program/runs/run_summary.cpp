@@ -1,4 +1,4 @@
-// Describes the end of a run, for people and for programs.
+// Describes the result of a run as text and as JSON.
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -11,13 +11,13 @@ namespace {
 
 std::string integer(std::int64_t value) { return std::to_string(value); }
 
-/// Returns why nothing was checked: a run may end before it reaches a state that is to be audited.
+/// Returns the reason why no state was audited; a run may end before its first state to audit.
 std::string not_checked(const RunSummary& summary) {
   if (summary.audit == AuditMode::off) return "not checked (audit off)";
   return "not checked (audit " + name_of(summary.audit) + ", but the run came to no state to audit)";
 }
 
-/// Returns what the guarantee leaves out because vertices met at the start; empty if nothing.
+/// Returns in words which pairs the guarantee excludes because they intersected at the start; empty if none.
 std::string but_for(const RunSummary& summary) {
   if (summary.start_pairs == 0) return "";
   return "but for " + counted(summary.start_pairs, "pair") + " of vertices that met at the start, " +

@@ -16,14 +16,15 @@ namespace {
 using compare::Material;
 using compare::MaterialInfo;
 
-/// E and ν are not in the table, because the Lamé constants contain the same information.
+/// E and ν are missing in material_table, because the Lamé constants contain the same information.
 constexpr MaterialInfo young{
     "solid_young", "Pa", "bodies with tetrahedra: Young's modulus", compare::least_young, compare::most_young, nullptr},
     poisson{"solid_poisson", "1", "bodies with tetrahedra: Poisson's ratio", 0, compare::most_poisson, nullptr};
 
 bool is_of_solids(std::string_view name) { return name.starts_with("solid_"); }
 
-/// Returns whether --set offers the constant. Constants of cloth differ from body to body, so the scene sets them.
+/// Returns whether --set accepts the constant. Constants of cloth differ between bodies, so that only the scene sets
+/// them.
 bool is_offered(const MaterialInfo& info) {
   return is_of_solids(info.name) || info.name == "contact_stiffness" || info.name == "friction";
 }

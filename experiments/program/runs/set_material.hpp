@@ -1,5 +1,5 @@
-// Declares the constants of materials that --set accepts: those of contact for every body, those of solids for every
-// body with tetrahedra.
+// Declares the material constants that --set accepts: constants of contact for every body, constants of solids for
+// every body with tetrahedra.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace ogc::experiments {
 
-/// Holds one constant, for lists and help.
+/// Describes one constant for lists and help texts.
 struct MaterialSetting {
   std::string_view name, unit;
   std::string range;  ///< "0 to 1024"
@@ -19,13 +19,13 @@ struct MaterialSetting {
 /// Returns all constants.
 std::vector<MaterialSetting> material_settings();
 
-/// Sets the constant of that name for the scene's bodies; returns false if there is no such constant. Setting Young's
-/// modulus keeps Poisson's ratio, and vice versa. Throws compare::InputError for a value that is not a number or out of
-/// range, and for a constant of solids if the scene has none.
+/// Sets the named constant for the scene's bodies. Returns false if there is no such constant. Setting Young's modulus
+/// keeps Poisson's ratio, and vice versa. Throws compare::InputError if the value is no number or out of range, or if a
+/// constant of solids is set for a scene without solids.
 bool set_material(compare::Scene& scene, const std::string& key, const std::string& value);
 
-/// Sets those "key=value" that name a constant of solids and leaves the others alone. The material of a solid must be
-/// known before settings are derived from it.
+/// Sets the constants of solids among the assignments ("key=value") and ignores the others. Settings are derived from a
+/// solid's material, so this comes first.
 void set_solid_constants(compare::Scene& scene, const std::vector<std::string>& assignments);
 
 }  // namespace ogc::experiments

@@ -1,4 +1,4 @@
-// Lists the solvers of `ogc run` and the options that each of them has.
+// Lists the solvers of `ogc run` and the options that each solver has.
 #pragma once
 
 #include <span>
@@ -13,27 +13,27 @@ namespace ogc::experiments {
 /// The method that computes a step.
 enum class Solver { vbd, newton, reference_vbd, ipc, penalty };
 
-/// Returns the names for `--solver`, in the order of the enumeration.
+/// Returns the values of `--solver`, in the order of the enumeration.
 std::span<const std::string_view> solver_names();
-/// Throws compare::InputError that lists the names.
+/// Parses a value of `--solver`. Throws compare::InputError that lists the values.
 Solver parse_solver(std::string_view name);
 
-/// Says which options belong to a solver.
+/// Describes which options a solver has.
 struct SolverOptions {
-  bool has_backends = false;           ///< --backend; the others run on the CPU
+  bool has_backends = false;           ///< --backend; without it the solver runs on the CPU
   bool has_condition = false;          ///< --condition
   bool has_measured_residual = false;  ///< --residual: the column holds Eq. 29
-  bool has_traced_rows = false;        ///< --iterations writes rows of a trace that runs beside the simulation
-  bool is_penalty = false;             ///< bounds=off and contact_activation=quadratic, whatever the scene says
+  bool has_traced_rows = false;        ///< --iterations writes rows from a trace beside the simulation
+  bool is_penalty = false;             ///< always bounds=off and contact_activation=quadratic
 };
 /// Returns the options of one solver.
 SolverOptions options_of(Solver solver);
 
-/// Sets what the solver needs in the settings, which run.json then has. Throws compare::InputError if `assigned`, the
-/// key=value of --set, contradicts it.
+/// Changes the settings to those that the solver requires; run.json then contains them. Throws compare::InputError if
+/// `assigned`, the key=value of --set, contradicts them.
 void require_settings(Solver solver, std::span<const std::string> assigned, compare::Settings& settings);
 
-/// Returns the contestant of the solver. `on_device`: for solvers with backends.
+/// Returns the solver's contestant. `on_device`: for solvers with backends.
 compare::Contestant contestant_of(Solver solver, bool on_device);
 
 }  // namespace ogc::experiments

@@ -1,7 +1,7 @@
 // Tracks pairs of vertices whose faces intersect at the start of a run, for `ogc run --tolerate-start`. While a pair is
-// open, a face of one vertex and a face of the other are no contact, no bound holds them apart, and they are not
-// audited. A pair closes for good once no two of its faces intersect. So two faces that intersect always have an open
-// pair, and all other faces are held apart.
+// open, the faces of its first vertex and the faces of its second vertex make no contacts, are not separated by bounds,
+// and are not audited against each other. A pair closes for good when no two of its faces intersect. Faces that
+// intersect therefore always have an open pair, and all other faces are held apart.
 #pragma once
 
 #include <vector>
@@ -14,12 +14,12 @@ namespace ogc::experiments {
 /// Holds the pairs of one run.
 class StartPairs {
  public:
-  /// Finds all pairs that intersect at these positions [m], apart from those that the scene itself leaves out. The
-  /// scene must outlive this object.
+  /// Finds all pairs that intersect at these positions [m], except those that the scene itself excludes. The scene must
+  /// outlive this object.
   StartPairs(const compare::Scene& scene, const std::vector<compare::Vec3f>& start);
-  /// Closes the open pairs of which no two faces intersect at these positions; returns whether there was any.
+  /// Closes the open pairs that have no intersecting faces at these positions. Returns whether any pair was closed.
   bool close_apart(const std::vector<compare::Vec3f>& positions);
-  /// Return the number of pairs at the start, and of open pairs.
+  /// Return the number of pairs at the start, and the number of open pairs.
   std::size_t named() const { return named_; }
   std::size_t open() const { return open_.size(); }
   /// Returns the intersections at the start.

@@ -1,4 +1,4 @@
-// Each number has a function that solves a condition for it and then rounds to the safe side.
+// For each suggested number a function solves a condition, then rounds to the safe side.
 #include "experiments/program/runs/suggestion.hpp"
 
 #include <algorithm>
@@ -19,37 +19,37 @@ namespace {
 using compare::Vec3;
 
 constexpr double gravity = 9.81;  ///< [m/s²]
-/// r is a quarter of an edge; in the paper's cloths it lies between a fifth of an edge (twist) and a whole one.
+/// An edge over r. The paper's cloths have an r between a fifth of an edge (twist) and a whole edge.
 constexpr double edges_a_radius = 4;
-/// smallest r: a twentieth of an edge, below which contacts are thinner than any mesh resolves
+/// An edge over the smallest r. Thinner contacts are below the resolution of any mesh.
 constexpr double least_edges_a_radius = 20;
-/// largest r_q in r, whatever the edges: the lists of candidates grow with its square
+/// Largest r_q over r, because lists of candidates grow with its square.
 constexpr double most_radii = 16;
-constexpr double weights_held = 10;         ///< layers that press a vertex's contact to half its radius
-constexpr double detections_a_step = 4;     ///< detections that a step at the speed of the fall may take
-constexpr double longest_step = 1.0 / 100;  ///< the longest of the paper's scenes [s]
+constexpr double weights_held = 10;         ///< number of layers whose weight presses a contact to half of its radius
+constexpr double detections_a_step = 4;     ///< largest number of detections in a step at the speed of the fall
+constexpr double longest_step = 1.0 / 100;  ///< longest step of the paper's scenes [s]
 constexpr double fewest_iterations = 10, most_iterations = 100;
-/// Share by which sweeps that end early may leave an extension under weight too large.
+/// Largest excess of an extension under weight that an incomplete convergence of the sweeps may leave, as a share.
 constexpr double most_excess = 0.01;
-/// The exponent of method.md §7.7 is right to 0.9 to 1.2 times, because modes are not quite smooth and colours are not
-/// rows (tests/experiments/program/runs/suggestion.cpp).
+/// Factor on the exponent of method.md §7.7. Measured rates are 0.9 to 1.2 times that exponent, because modes are not
+/// quite smooth and colours are not rows (tests/experiments/program/runs/suggestion.cpp).
 constexpr double least_rate = 0.9;
-/// Sweeps in a step of a stack at rest, for each of its layers and each r that they fall in the step, g h². A step
-/// begins after all layers have fallen, and sweeps propagate the ground's support up layer by layer. Stacks of 10 to 50
-/// aligned sheets keep their gaps with 16 where g h² is from r/64 to r/4; with 12 they are squeezed until they tremble.
-/// If a layer falls by r or more, contacts hold it back at the step's start, and 8 for each layer are enough
-/// (tests/experiments/stacks.cpp).
+/// Sweeps in each step of a resting stack. A step begins after all layers have fallen by g h², and each sweep passes
+/// the ground's support up. The first number is for each layer and each r of this fall: with 16, stacks of 10 to 50
+/// aligned sheets keep their gaps for g h² from r/64 to r/4; with 12 they are squeezed until they tremble. The second
+/// number is the limit for each layer: if a layer falls by r or more, contacts stop it at the start of the step, and 8
+/// sweeps suffice (tests/experiments/stacks.cpp).
 constexpr double sweeps_a_layer_and_radius = 20, most_sweeps_a_layer = 8;
 
 struct Measures {
-  double edge = 0;  ///< length that stands for all edges [m]
+  double edge = 0;  ///< representative edge length [m]
   std::string edge_name;
-  double gap = 0;     ///< smallest distance of primitives without a common vertex [m]; infinite where there is no pair
-  double mass = 0;    ///< mean mass of a vertex; of a solid, that of a surface vertex [kg]
-  double speed = 0;   ///< speed at the end of the fall [m/s]
-  double layers = 1;  ///< layers on top of one another, averaged over the area below them
-  double stiffness = 0;  ///< q, stiffness of vertices over mass; see stiffness_by_mass [1/s²]
-  double slowest = 0;    ///< ω² of the slowest stretch of the mesh hung by an end; see slowest_stretch [1/s²]
+  double gap = 0;        ///< smallest distance of primitives without a common vertex [m]; infinite if there is no pair
+  double mass = 0;       ///< mean mass of a vertex; for a solid, of a surface vertex [kg]
+  double speed = 0;      ///< speed at the end of the fall [m/s]
+  double layers = 1;     ///< mean number of layers over the covered area
+  double stiffness = 0;  ///< q of stiffness_by_mass [1/s²]
+  double slowest = 0;    ///< ω² of slowest_stretch, for the mesh hung by one end [1/s²]
 };
 
 double distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
@@ -59,7 +59,7 @@ double area(const Vec3& a, const Vec3& b, const Vec3& c) {
   return std::hypot(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x) / 2;
 }
 
-/// Returns the area of all triangles, seen from above, divided by that of the rectangle around them; at least 1.
+/// Returns the area of all triangles as seen from above, divided by the area of their bounding rectangle; at least 1.
 double layers_of(const compare::Mesh& mesh) {
   const auto flat = [&](compare::Index v) {
     const Vec3& p = mesh.positions[static_cast<std::size_t>(v)];
@@ -83,7 +83,7 @@ double volume(const Vec3& o, const Vec3& p, const Vec3& q, const Vec3& r) {
   return std::abs(u.x * (v.y * w.z - v.z * w.y) + u.y * (v.z * w.x - v.x * w.z) + u.z * (v.x * w.y - v.y * w.x)) / 6;
 }
 
-/// Returns the mass: ρ A of cloth, ρ V of a solid [kg].
+/// Returns the mass [kg]: ρ A for cloth, ρ V for a solid.
 double mass_of(const compare::Mesh& mesh, const compare::Material& material) {
   const auto at = [&](compare::Index v) { return mesh.positions[static_cast<std::size_t>(v)]; };
   double mass = 0;
@@ -101,8 +101,8 @@ std::size_t surface_vertices(const compare::Topology& topology) {
   return count;
 }
 
-/// Returns Σ size ‖∇N‖² over the corners of a simplex, with ‖∇N‖ = G/(dimension · size) and G the size of the face
-/// opposite to a corner.
+/// Returns Σ size ‖∇N‖² over the corners of a simplex. ‖∇N‖ = G/(dimension · size), where G is the size of the face
+/// opposite to the corner.
 template <std::size_t n>
 double gradients(double size, const std::array<double, n>& opposite) {
   constexpr double dimension = n - 1;
@@ -111,9 +111,9 @@ double gradients(double size, const std::array<double, n>& opposite) {
   return sum;
 }
 
-/// Returns q = Σ size ‖∇N‖² (μ + (λ + μ)/dimension) divided by the mass [1/s²]: the stiffness of a vertex whose
-/// neighbours stand still, averaged over directions. Stiffness and mass are summed over all vertices first, because
-/// sweeps treat a smooth mode as such an average.
+/// Returns q = Σ size ‖∇N‖² (μ + (λ + μ)/dimension) divided by the mass [1/s²]. This is the stiffness of a vertex with
+/// fixed neighbours over its mass, averaged over directions. Stiffness and mass are summed over all vertices before the
+/// division, because sweeps average a smooth mode in this way.
 double stiffness_by_mass(const compare::Mesh& mesh, const compare::Material& material) {
   const auto at = [&](compare::Index v) { return mesh.positions[static_cast<std::size_t>(v)]; };
   const auto over = [](double mu, double lambda, double dimension) { return mu + (lambda + mu) / dimension; };
@@ -131,8 +131,8 @@ double stiffness_by_mass(const compare::Mesh& mesh, const compare::Material& mat
   return over(material.lame_mu, material.lame_lambda, 2) * sum / mass_of(mesh, material);
 }
 
-/// Returns ω² of a strip as long as the mesh is at most along an axis, L, with one end held: ω = π/(2L) √(E/ρ), with
-/// Young's modulus E in plane stress, or in space for a solid.
+/// Returns ω² of a strip with one end held, whose length L is the mesh's largest extent along an axis: ω = π/(2L)
+/// √(E/ρ). E is Young's modulus in plane stress, or in space for a solid.
 double slowest_stretch(const compare::Mesh& mesh, const compare::Material& material) {
   Vec3 low = mesh.positions[0], high = low;
   for (const Vec3& p : mesh.positions) {
@@ -151,7 +151,8 @@ Measures measure(const compare::Mesh& mesh, const compare::Material& material, d
   const compare::Topology topology = compare::build_topology(mesh);
   std::vector<double> lengths;
   for (const auto& [a, b] : topology.edges) lengths.push_back(distance(at(a), at(b)));
-  // If a tenth of the edges is far shorter than most, like those around a can, these decide which distances are near.
+  // If a tenth of the edges is far shorter than the others, as around a can's rim, these edges decide which distances
+  // are small.
   std::ranges::sort(lengths);
   const double middle = lengths[lengths.size() / 2], shortest = 2 * lengths[lengths.size() / 10];
   const compare::SmallestDistances gaps = compare::smallest_distances(topology, mesh.positions);
@@ -165,13 +166,13 @@ Measures measure(const compare::Mesh& mesh, const compare::Material& material, d
           slowest_stretch(mesh, material)};
 }
 
-/// Returns `value` rounded down to two digits.
+/// Returns `value` rounded down to two significant digits.
 double two_digits(double value) {
   const double units = std::pow(10, 1 - std::floor(std::log10(value)));
   return std::floor(value * units) / units;
 }
 
-/// Returns the smallest number that is not below `value` and is 1, 2 or 5 times a power of ten.
+/// Returns the smallest number of the form 1, 2 or 5 times a power of ten that is at least `value`.
 double round_number_above(double value) {
   const double power = std::pow(10, std::floor(std::log10(value)));
   for (const double step : {1.0, 2.0, 5.0})
@@ -179,7 +180,7 @@ double round_number_above(double value) {
   return 10 * power;
 }
 
-/// Returns `value` limited to the range that the program accepts.
+/// Limits `value` to the range that the program accepts.
 SuggestedNumber within(double minimum, double maximum, SuggestedNumber suggested) {
   const double value = std::clamp(suggested.value, minimum, maximum);
   if (value != suggested.value)
@@ -230,7 +231,7 @@ SuggestedNumber stiffness_of(const Measures& mesh, double contact_radius) {
                                            " m/s, the end of the fall, is stopped within half of r: k_c (r/2)² ≥ m v²"};
 }
 
-/// Returns the number of sweeps that the layers need.
+/// Returns the number of sweeps that the layers require.
 double layer_sweeps(const Measures& mesh, double contact_radius, double step) {
   const double fallen = gravity * step * step / contact_radius;
   return mesh.layers * std::min(sweeps_a_layer_and_radius * fallen, most_sweeps_a_layer);
@@ -256,12 +257,14 @@ struct Sweeping {
   double block, mode;
   Sweeping(const Measures& mesh, double step)
       : block(1 + step * step * mesh.stiffness), mode(1 + step * step * mesh.slowest) {}
-  /// Returns the share by which so many sweeps leave an extension too large; `enough`: sweeps that leave 1 % or less.
+  /// Returns the share by which this number of sweeps leaves an extension too large. `enough`: number of sweeps that
+  /// leave at most 1 %.
   double excess(double iterations) const { return mode / std::expm1(2 * iterations * mode / block); }
   double enough() const { return block / (2 * mode * least_rate) * std::log1p(mode / most_excess); }
 };
 
-/// Returns the longest step below `step` in which so many iterations leave 1 %; enough() grows with the step.
+/// Returns the longest step up to `step` for which `iterations` sweeps leave at most 1 %. Bisection works because
+/// enough() grows with the step.
 double step_for(const Measures& mesh, double iterations, double step) {
   double low = 0, high = step;
   for (int halving = 0; halving < 50; ++halving) {
@@ -271,7 +274,8 @@ double step_for(const Measures& mesh, double iterations, double step) {
   return low;
 }
 
-/// Says by how much the sweeps leave a hanging mesh too long, and, if that exceeds the limit, what would help.
+/// Describes by how much the sweeps leave a hanging mesh too long. If this exceeds the limit, also describes what
+/// helps.
 std::string hanging(const Measures& mesh, double iterations, double step) {
   const Sweeping sweeping(mesh, step);
   const std::string text = "hung by an end the mesh stretches about " + number(100 * sweeping.excess(iterations)) +

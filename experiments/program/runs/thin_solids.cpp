@@ -16,10 +16,10 @@ namespace {
 using compare::Index;
 using compare::Vec3;
 
-/// Holds a solid's contacts with itself at rest.
+/// Holds the contacts of a resting solid with itself.
 struct Thinness {
   std::size_t pairs = 0;
-  double thickness = std::numeric_limits<double>::infinity();  ///< of the thinnest place [m]
+  double thickness = std::numeric_limits<double>::infinity();  ///< thickness at the thinnest place [m]
 };
 
 Vec3 from(const Vec3& a, const Vec3& b) { return {b.x - a.x, b.y - a.y, b.z - a.z}; }
@@ -29,7 +29,7 @@ Vec3 outer(const Vec3& a, const Vec3& b) {
 }
 double length(const Vec3& a) { return std::sqrt(inner(a, a)); }
 
-/// Returns the distance of a vertex from a face in whose block it lies: from its plane, its line, or its vertex.
+/// Returns the distance of a vertex from the plane, line or vertex of a face. The vertex must lie in the face's block.
 double distance(const compare::Topology& topology, const std::vector<Vec3>& x, Index vertex,
                 const compare::Face& face) {
   const auto at = [&](Index v) { return x[static_cast<std::size_t>(v)]; };

@@ -7,8 +7,8 @@
 
 namespace ogc::experiments {
 
-/// Returns a warning about the thinnest solid whose own faces are in contact at rest, by the contact sets of its rest
-/// shape alone: the number of pairs and the thickness there [m]. Empty if there is none.
+/// Returns a warning about the thinnest solid among those whose rest shape is in contact with itself: the number of
+/// pairs and the thickness there [m]. Empty if there is none.
 std::string thin_solid_warning(const compare::Scene& scene);
 
 }  // namespace ogc::experiments

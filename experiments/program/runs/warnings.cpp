@@ -15,7 +15,8 @@ namespace {
 
 using compare::Vec3;
 
-/// Share of the speed that gravity adds in a step which a solver may leave out, where nothing better is known.
+/// Speed at the end of a step for which the warning suggests a tolerance, as a share of the speed that gravity adds in
+/// the step. It is a rough choice.
 constexpr double share_of_gravity = 0.1;
 
 double length(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
@@ -40,7 +41,7 @@ std::string box_warning(const compare::Scene& scene) {
          " m: lengths are metres; a mesh in millimetres is to be scaled by 0.001, one in centimetres by 0.01";
 }
 
-/// Returns the median edge of the body's triangles, counting an edge of two triangles twice; 0 if there is none.
+/// Returns the median edge length of the body's triangles, where shared edges count twice; 0 if there is no triangle.
 double median_edge(const compare::Scene& scene, const compare::Body& body) {
   std::vector<double> lengths;
   const auto at = [&](compare::Index v) { return scene.mesh.positions[static_cast<std::size_t>(v)]; };
@@ -54,7 +55,7 @@ double median_edge(const compare::Scene& scene, const compare::Body& body) {
   return *middle;
 }
 
-/// Warns of a large r for the body with the shortest edges, which has the most contacts.
+/// Warns of a large r. Names the body with the shortest edges, which has the most contacts.
 std::string radius_warning(const compare::Scene& scene) {
   const double contact_radius = scene.settings.contact_radius;
   const compare::Body* finest = nullptr;
@@ -70,7 +71,7 @@ std::string radius_warning(const compare::Scene& scene) {
          " m, one edge, or a coarser mesh (ogc suggest says more)";
 }
 
-/// Warns if a step may leave out all that gravity changes in it: then a body at rest and one that begins to slide look
+/// Warns if a step may leave out all that gravity changes. A body at rest and a body that begins to slide then look
 /// alike.
 std::string tolerance_warning(const compare::Scene& scene, Solver solver) {
   if (solver != Solver::ipc) return "";
@@ -84,8 +85,8 @@ std::string tolerance_warning(const compare::Scene& scene, Solver solver) {
          " m/s in a step: what should begin to move may stay; take " + setting + "=" + number(least, 1);
 }
 
-/// Returns where keyframes place the k-th vertex of their motion at t = 0: between two keys, or at the first or last
-/// one.
+/// Returns the position that keyframes give the k-th vertex of their motion at t = 0: between two keys, or at the first
+/// or last key.
 Vec3 at_start(const compare::PrescribedMotion& motion, std::size_t k) {
   const std::vector<double>& times = motion.keyframes.times;
   const auto key = [&](std::size_t frame) {
@@ -99,7 +100,7 @@ Vec3 at_start(const compare::PrescribedMotion& motion, std::size_t k) {
   return {from.x + s * (to.x - from.x), from.y + s * (to.y - from.y), from.z + s * (to.z - from.z)};
 }
 
-/// Warns of the motion whose keyframes begin farthest from their vertices.
+/// Warns of the motion whose first keyframe is farthest from its vertices.
 std::string keys_warning(const compare::Scene& scene) {
   double farthest = most_radii_from_keys * scene.settings.contact_radius;
   const compare::PrescribedMotion* of = nullptr;

@@ -1,5 +1,5 @@
-// Warns of input that is legal but hardly intended, such as millimetres in place of metres, or a step in which bounds
-// stop every motion. Each kind of warning appears once in a run, with its number and a remedy.
+// Warns of input that is valid but hardly intended, for example millimetres in place of metres, or a step in which
+// bounds stop every motion. A run prints each kind of warning once, with a number and a remedy.
 #pragma once
 
 #include <optional>
@@ -11,32 +11,33 @@
 
 namespace ogc::experiments {
 
-/// Diagonal of a scene's box above which its lengths are hardly metres [m]; a house is smaller.
+/// Largest plausible diagonal of a scene's bounding box [m]; a house is smaller. Longer ones suggest another unit than
+/// metres.
 inline constexpr double largest_diagonal = 20;
-/// Largest r in median edges of a body. Above it a vertex is in contact with neighbours in the mesh that are several
-/// rings away.
+/// Largest r without a warning, in median edges of a body. With a larger r, vertices are in contact with mesh
+/// neighbours that are several rings away.
 inline constexpr double most_edges_a_radius = 2;
-/// Distance in contact radii that keyframes may have from their body at the start. A smaller one is no motion that
-/// contact could miss, and this is far above the rounding of files.
+/// Largest distance without a warning between keyframes and their body at the start, in multiples of r. Contact can't
+/// miss so small a motion, and the rounding of files is far smaller.
 inline constexpr double most_radii_from_keys = 0.01;
-/// Share of a step's motion that truncation may take (MomentumShare).
+/// Largest share of a step's motion that truncation may take without a warning (MomentumShare).
 inline constexpr double most_momentum_lost = 0.5;
 
-/// Number of consecutive steps that end with every free vertex cut by its bound, from which on it is no accident.
+/// Number of consecutive steps, each ending with every free vertex cut by its bound, that causes a warning.
 inline constexpr std::int64_t most_held_steps = 10;
 
-/// Share of the force (Eq. 29) that the median step may leave on free vertices; above it a run warns.
+/// Largest share of the force (Eq. 29) that the median step may leave on free vertices without a warning.
 inline constexpr double most_force_left = 0.1;
 
-/// Collects the forces that the steps of a run leave. A step does not count if rounding may account for more than
-/// most_force_left in Eq. 29: then there was hardly any force, as in free fall.
+/// Collects the forces that the steps of a run leave. A step counts only if rounding explains at most most_force_left
+/// in Eq. 29. Otherwise there was hardly any force, as in free fall.
 class ForcesLeft {
  public:
-  /// Takes a step's row, if the row has these numbers.
+  /// Adds a step's row if it has these numbers.
   void look_at(const compare::StepMetrics& row);
   /// Returns the number of steps that count.
   std::size_t steps() const { return residuals_.size(); }
-  /// Returns the residual of Eq. 29 in the median step; not-a-number if no step counts.
+  /// Returns the residual (Eq. 29) of the median step; not-a-number if no step counts.
   double median_residual() const;
   /// Returns the number of free vertices that a bound holds in the median step; not-a-number if no step counts.
   double median_held() const;
@@ -45,27 +46,27 @@ class ForcesLeft {
   std::vector<double> residuals_, held_;
 };
 
-/// Collects the warnings of a run, each at most once.
+/// Collects the warnings of a run, each kind at most once.
 class Warnings {
  public:
-  /// Checks the scene at its start, which must be rounded and valid: bounds=off, its box, r against the edges of each
-  /// body with triangles and against the thickness of each solid at rest, rest shapes that isometric bending does not
-  /// support, for IPC the speed at which a step ends against the speed that gravity adds in one, and keyframes that
-  /// begin away from their body.
+  /// Checks the scene's start; the scene must be rounded and valid. Warns of bounds=off, the size of the bounding box,
+  /// r against the edges of each body and against the thickness of each solid, and curved rest shapes with isometric
+  /// bending. Also warns of a large tolerated speed at the end of IPC's steps, and of keyframes that begin away from
+  /// their body.
   explicit Warnings(const compare::Scene& scene, Solver solver = Solver::vbd);
   /// Checks a step: the loss of a guess loop that did all its rounds (MomentumShare; empty: not known), the lag of
   /// prescribed vertices, and whether bounds end most_held_steps in a row. Returns a warning for the first step of each
-  /// kind; the list keeps the worst step.
+  /// kind; `list` names the worst step.
   std::vector<std::string> look_at(const compare::StepMetrics& row, std::optional<double> momentum_lost);
-  /// Returns the forces that the steps so far left.
+  /// Returns the forces that the steps left so far.
   const ForcesLeft& forces_left() const { return forces_left_; }
-  /// Returns the warnings about the steps as a whole, for the end of the run.
+  /// Returns the warnings about all steps together, for the end of the run.
   std::vector<std::string> look_back() const;
-  /// Returns all warnings so far, one text for each kind: what, where, how much, what to do.
+  /// Returns all warnings so far, one text for each kind: what, where, how much, and the remedy.
   std::vector<std::string> list() const;
 
  private:
-  /// Holds the worst step of a kind.
+  /// Holds the worst step of one kind of warning.
   struct Worst {
     std::int64_t step = 0;
     double value = 0;
@@ -77,8 +78,9 @@ class Warnings {
   std::vector<std::string> of_scene_;
   double radius_ = 0;
   std::int64_t guess_rounds_ = 0, iterations_ = 0;
-  std::int64_t free_ = 0;                     ///< vertices that only forces move
-  std::int64_t held_ = 0, longest_held_ = 0;  ///< consecutive steps that end with all of them cut
+  std::int64_t free_ = 0;  ///< number of vertices that only forces move
+  /// current and longest number of consecutive steps that end with all free vertices cut
+  std::int64_t held_ = 0, longest_held_ = 0;
   std::optional<Worst> momentum_, lag_;
   ForcesLeft forces_left_;
 };

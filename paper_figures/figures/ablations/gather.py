@@ -1,8 +1,7 @@
 """One table of the studies that were run, as results keep it: `python3 -m paper_figures.figures.ablations.gather
-FOLDER... --out ablations_SCALE.csv`, with the FOLDERs that study.py wrote; a long table is compressed, as .csv.gz.
-`--keep TABLE`: an older table, which keeps its scenes that the folders lack. A metric with one value in every run of a
-scene is left out, because it does not distinguish settings; the number of runs of a point that kept the guarantee
-stays."""
+FOLDER... --out ablations_SCALE.csv`, where study.py wrote the FOLDERs. Long tables are compressed, as .csv.gz. `--keep
+TABLE` takes scenes that the folders lack from an older table. A metric with the same value in every run of a scene is
+left out, because it does not distinguish settings. The number of runs that kept the guarantee is always kept."""
 
 import argparse
 import csv
@@ -19,7 +18,7 @@ NUMBERS = ("median", "smallest", "largest")
 
 
 def told(rows):
-    """Returns the rows of one study's scene whose metric differs between any two runs."""
+    """Returns the rows of one scene of a study whose metrics differ between at least two runs."""
     values = {}
     for row in rows:
         values.setdefault(row["metric"], set()).update(row[name] for name in NUMBERS if row[name] not in ("", "nan"))
@@ -27,7 +26,7 @@ def told(rows):
 
 
 def by_scene(path):
-    """Returns (study, scene) -> rows of a table, compressed or not."""
+    """Returns (study, scene) -> rows of a table, which may be compressed."""
     data, scenes = path.read_bytes(), {}
     for row in csv.DictReader(io.StringIO((gzip.decompress(data) if path.suffix == ".gz" else data).decode())):
         scenes.setdefault((row["study"], row["scene"]), []).append(row)

@@ -1,15 +1,14 @@
-"""Runs one study of the method's parts, points x scenes x seeds, tabulates and draws it. Usage: python3 -m
+"""Runs one study of the method's parts (points x scenes x seeds), tabulates and draws it. Usage: python3 -m
 paper_figures.figures.ablations.study FOLDER --study NAME --ogc OGC --scale SCALE --backend BACKEND.
 
-NAME.yaml beside this file defines the study. `study` has `jitter` [m], `repeat`, `audit`, and `scenes`, each with
-`points` (of `ogc ablate --point`; the others are compared with the first; one list for each scale if they differ by
-scale), and by scale `set` (settings of all points) and `options` (further options of `ogc ablate`); `scales` names the
-scales at which the scene is run, if it is not run at all of them. If `study` has `solver`, that solver runs it, on the
-CPU.
+NAME.yaml beside this file defines the study. Keys of `study`: `jitter` [m], `repeat`, `audit`, `solver` (optional; it
+runs on the CPU) and `scenes`. Keys of a scene: `points` (as for --point of `ogc ablate`; all others are compared with
+the first; one list for each scale if they differ), `scales` (optional: the scales at which the scene is run), and by
+scale `set` (settings of all points) and `options` (further options of `ogc ablate`).
 
 FOLDER then holds a folder of `ogc ablate` for each scene, ablations.csv (a row for each scene, metric and point),
-NAME.txt (findings), NAME.png and NAME.pdf. If it is interrupted and called again, it continues with the interrupted
-run; with --made it tabulates and draws the existing scenes."""
+NAME.txt (findings), NAME.png and NAME.pdf. An interrupted study continues with the interrupted run if it is called
+again. With --made it only tabulates and draws existing scenes."""
 
 import argparse
 import csv
@@ -29,14 +28,14 @@ from plots import ablation, style
 
 HERE = Path(__file__).parent
 TABLE = "ablations.csv"
-KEPT = "guarantee_kept"  # the metric whose number is how many runs of a point kept the guarantee
-JUDGED = ("yes", "no")  # an audit's answers about a run's guarantee
+KEPT = "guarantee_kept"  # metric: number of a point's runs that kept the guarantee
+JUDGED = ("yes", "no")  # values of a run whose guarantee was audited
 KEYS = {"jitter", "repeat", "audit", "scenes", "panels", "solver"}
 SCENE_KEYS = {"points", "set", "options", "scales"}
-CAME_TO_AN_END = (0, 1)  # exit statuses of ogc ablate; 1: a run failed, which is a result
-AXES = 2.8  # inches for a column's axes and their titles beside the names of points
-LETTER = 0.06  # inches of a letter of a name
-LETTERS = 14  # letters of the title to an inch
+CAME_TO_AN_END = (0, 1)  # exit statuses of ogc ablate; 1 means that a run failed, which is a result
+AXES = 2.8  # width of a column's axes and titles beside the points' names [inches]
+LETTER = 0.06  # width of a letter in a name [inches]
+LETTERS = 14  # letters of the title in an inch
 PANELS = ("median_step", "detections_a_step", "contacts_a_step", "largest_momentum_lost_end", "smallest_distance",
           "last_energy")
 
@@ -46,7 +45,7 @@ class StudyError(Exception):
 
 
 def load(name):
-    """Returns the part `study` of NAME.yaml. Throws StudyError if it has a key that nothing reads."""
+    """Returns the part `study` of NAME.yaml. Throws StudyError if it has an unknown key."""
     path = HERE / f"{name}.yaml"
     if not path.is_file():
         there = ", ".join(sorted(path.stem for path in HERE.glob("*.yaml")))
@@ -70,8 +69,8 @@ def points_at(body, scale):
 
 
 def command(study, scene, scale, backend, data=""):
-    """Returns the words of `ogc ablate` after the program, without --out. `data`: folder of the published dress;
-    without it a stand-in is used."""
+    """Returns the words of `ogc ablate` after the program, without --out. `data`: folder of the published dress; None:
+    the stand-in is used."""
     body = study["scenes"][scene]
     points = [word for point in points_at(body, scale) for word in ("--point", point)]
     chosen = [*body.get("set", {}).get(scale, []), *([f"data={data}"] if data and scene == "dress" else [])]
@@ -83,14 +82,14 @@ def command(study, scene, scale, backend, data=""):
 
 
 def program():
-    """Returns what distinguishes the runs of different programs, if the workflow names it."""
+    """Returns what distinguishes runs of different programs, if the workflow provides it."""
     stamp = Path(os.environ.get("OGC_STAMP", ""))
     return stamp.read_text() if stamp.is_file() else ""
 
 
 def run(ogc, words, folder, jobs=1):
-    """Makes the runs of a scene, `jobs` at a time, after removing those of another program or question. Throws
-    StudyError if they do not finish."""
+    """Makes the runs of a scene, `jobs` at a time, after it removed runs of another program or request. Throws
+    StudyError if the runs do not finish."""
     question = json.dumps({"program": program(), "words": words})
     note = folder.with_suffix(".json")
     if folder.is_dir() and not (note.is_file() and note.read_text() == question):
@@ -119,7 +118,7 @@ def membrane(folder, point):
 
 
 def rows(folder, study, scene):
-    """Returns the rows of a scene in the study's table: one for each metric and point."""
+    """Returns a scene's rows of the study's table: one for each metric and point."""
     made_by = origin(folder)
     with (folder / ablation.TABLE).open(newline="") as file:
         for row in csv.DictReader(file):
@@ -131,7 +130,7 @@ def rows(folder, study, scene):
                    "membrane": membrane(folder, point)}
     for point, runs in of_points(folder).items():
         if not any(run["guarantee_kept"] in JUDGED for run in runs):
-            continue  # nothing was audited: whether a run kept it is not known
+            continue  # without an audit it is not known whether a run kept the guarantee
         kept = sum(run["guarantee_kept"] == "yes" for run in runs)
         ended = sum(run["status"] == "finished" for run in runs)
         yield {"study": study, "scene": scene, "metric": KEPT, "point": point, "unit": "1", "runs": len(runs),

@@ -1,13 +1,14 @@
 """§5.5.3's two energies held side by side in three ways: at one k_c, at one curvature, at one smallest distance; under
 three loads. Runs, tables and picture.
 
-Fig. 21's cloth falls with each energy. VBD in double then solves its last step again from the energy's own state before
-it, and the iterations to three residuals are counted. IPC's energy is −κ k_c (d − r)² ln(d/r) with κ from 0.1 to 40.
-The load of a row is the median force of OGC's contacts at the end, in units of k_c r. From OGC's row and those of IPC's
-energy follow, by interpolation over ln κ, the κ at which both keep the same smallest distance, and the κ at which the
-logarithm's curvature at the force of the load is that of OGC's, which is k_c in the quadratic stage and f²/(k_c r²/4)
-in the other. Under a high load this κ does not exist, and the table then gives the least ratio of the logarithm's
-curvature to OGC's.
+Fig. 21's cloth falls with each energy. VBD in double precision then repeats the last step from the energy's own state
+before it, and the iterations to three residuals are counted. IPC's energy is −κ k_c (d − r)² ln(d/r) with κ from 0.1 to
+40. The load of a row is the median force of OGC's contacts at the end, in units of k_c r.
+
+Two values of κ follow by interpolation over ln κ between the rows of IPC's energy. At the first, both energies keep the
+same smallest distance. At the second, IPC's curvature at the force of the load equals OGC's, which is k_c in the
+quadratic stage and f²/(k_c r²/4) in the other. Under a high load the second κ does not exist, and the table gives the
+smallest ratio of IPC's curvature to OGC's.
 """
 
 import math
@@ -25,9 +26,9 @@ from plots import style
 from plots.run_folder import Run, RunError
 
 NAME = "activation_load"
-STIFFNESSES = (10, 1, 0.2)  # k_c [N/m]: the printed one, and softer ones, which press contacts harder
+STIFFNESSES = (10, 1, 0.2)  # k_c [N/m]: the paper's value, and softer ones, which compress contacts more
 RATIOS = (0.1, 0.25, 0.5, 1, 2, 3, 7, 40)  # κ
-SEEDS = {"smoke": 1, "small": 1}  # solved to convergence: nothing is chaotic
+SEEDS = {"smoke": 1, "small": 1}  # solved to convergence, so one seed suffices
 JITTER = 1e-6  # [m]
 OTHERS = ("quadratic", "cubic")
 WAYS = ("contact stiffness", "curvature at the load", "smallest distance")
@@ -35,7 +36,7 @@ WAYS = ("contact stiffness", "curvature at the load", "smallest distance")
 
 @dataclass(frozen=True)
 class Point:
-    """Holds an energy, the k_c of OGC's beside it, κ and a seed."""
+    """Holds an energy, the k_c of OGC's energy beside it, κ and a seed."""
 
     energy: str
     stiffness: float
@@ -72,7 +73,7 @@ def chains(scale):
 
 
 def measured(point, folder, ogc, scale):
-    """Returns {quantity: number} of a point; an insufficient number of iterations becomes infinity."""
+    """Returns {quantity: number} of a point. If the iterations did not suffice, their number is infinity."""
     run, last = Run(folder / point.name), Run(folder / f"{point.name}_last")
     rows = iterations(last, commands.ACTIVATION_STEPS[scale])
     sweeps = {f"iterations to {name} [1]": first_below(rows, level) for name, level in LEVELS.items()}
@@ -109,17 +110,17 @@ def table(scale, folder, ogc):
 
 
 def log_force(u):
-    """Returns the force of IPC's energy with κ = 1, over k_c r; u = d/r."""
+    """Returns the force of IPC's energy with κ = 1 in units of k_c r; u = d/r."""
     return 2 * (u - 1) * math.log(u) + (u - 1)**2 / u
 
 
 def log_curvature(u):
-    """Returns the second derivative of that energy over k_c."""
+    """Returns the second derivative of that energy in units of k_c."""
     return -2 * math.log(u) - 4 * (u - 1) / u + (u - 1)**2 / u**2
 
 
 def distance_at(force):
-    """Returns d/r at which IPC's energy with κ = 1 pushes with `force` k_c r: the force falls with the distance."""
+    """Returns d/r at which IPC's energy with κ = 1 pushes with `force` k_c r. The force decreases with the distance."""
     near, far = 1e-12, 1.0
     for _ in range(200):
         halfway = (near + far) / 2
@@ -134,8 +135,8 @@ def stiffer(force, ratio):
 
 
 def crossing(values, wanted):
-    """Returns the largest ln κ at which the piecewise linear `values` over ln κ of RATIOS equal `wanted`; None if there
-    is none."""
+    """Returns the largest ln κ at which `values`, linear between the ln κ of RATIOS, equal `wanted`; None if there is
+    none."""
     logs = np.log(RATIOS)
     for left in reversed(range(len(RATIOS) - 1)):
         a, b = values[left] - wanted, values[left + 1] - wanted
@@ -166,7 +167,7 @@ def equal(rows):
                 name = f"iterations to {level} [1]"
                 counts = [number(one, name) for one in logs]
                 ratio = math.nan if place is None else np.interp(place, np.log(RATIOS), counts) / number(ours, name)
-                is_told = 0 < ratio < math.inf  # both reach that residual
+                is_told = 0 < ratio < math.inf  # both energies reach that residual
                 row[f"logarithm's over OGC's iterations to {level} [1]"] = f"{ratio:.3g}" if is_told else ""
             yield row | {key: ours[key] for key in ("device", "commit")}
 

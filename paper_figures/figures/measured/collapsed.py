@@ -19,7 +19,7 @@ METRICS = {"vertices that can't move": 1, "vertices that can't along their large
 
 
 def rows_of(folder):
-    """Returns a row for each point and metric of an ablation."""
+    """Returns a row for each point and each metric of an ablation."""
     for point, found in of_points(folder).items():
         runs = [Run(folder / Path(row["folder"]).name) for row in found if row["status"] == "finished"]
         last = [list(rows(run))[-1] for run in runs]

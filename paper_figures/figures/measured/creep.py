@@ -2,10 +2,10 @@
 ε_v: how far it slides, and how fast it creeps; and the effect of few iterations and of a stiff contact. Runs, table and
 picture.
 
-Friction grows over speeds up to ε_v, so nothing ever sticks: a sheet that static friction would hold creeps at the
-speed at which friction carries it. With f(x) = 2x − x² of Eq. 24 that is v = ε_v (1 − √(1 − tan α/μ)) for μ ≥ tan α;
-below it the sheet accelerates by g (sin α − μ cos α). The measured number is the mean speed of the sheet's centre over
-the second half of the time.
+Friction grows with the speed up to ε_v, so nothing ever sticks: a sheet that static friction would hold creeps at the
+speed at which friction balances its weight. With f(x) = 2x − x² of Eq. 24 this speed is v = ε_v (1 − √(1 − tan α/μ))
+for μ ≥ tan α. For smaller μ the sheet accelerates by g (sin α − μ cos α). Measured is the mean speed of the sheet's
+centre over the second half of the time.
 """
 
 import json
@@ -70,8 +70,8 @@ class Slope:
 
 @dataclass(frozen=True)
 class Case:
-    """Holds one case. `stiffness` k_c [N/m]: with 2 a vertex rests 0.2 mm below r, with 100, m/h² being 3.8 N/m, 4
-    µm."""
+    """Holds one case. `stiffness`: k_c [N/m]. With k_c = 2 a vertex rests 0.2 mm below r; with 100, much stiffer than
+    m/h² = 3.8 N/m, 4 µm."""
 
     over: float
     velocity: float
@@ -86,7 +86,7 @@ class Case:
         return f"friction_{self.over:g}_velocity_{self.velocity:g}{kind}"
 
     def steps(self, scale):
-        """Returns the number of steps; a step of Newton takes a hundred times as long."""
+        """Returns the number of steps. Newton has fewer, because a step takes a hundred times as long."""
         return NEWTON_STEPS if self.solver == "newton" else STEPS[scale]
 
     def words(self, backend):
@@ -110,7 +110,7 @@ def jobs(scale, backend):
 
 
 def ways(run):
-    """Returns (times [s], distances of the sheet's centre down the slope [m]) of the stored states."""
+    """Returns (times [s], distances by which the sheet's centre slid down the slope [m]) of the stored states."""
     frames = [run.frame(path) for path in run.frames]
     sheet = slice(0, SIDE * SIDE)
     start = run.start_positions[sheet, 0].mean()
@@ -132,7 +132,7 @@ def finished(folder):
 
 
 def speed(run):
-    """Returns (speed of the centre over the second half of the time [m/s], begin and end of that [s])."""
+    """Returns (mean speed of the centre in the second half of the time [m/s], begin and end of that half [s])."""
     times, way = ways(run)
     half = len(times) // 2
     return (way[-1] - way[half]) / (times[-1] - times[half]), times[half], times[-1]

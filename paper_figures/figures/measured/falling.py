@@ -1,9 +1,9 @@
 """What falls fast beside something near (Fig. 22b): two triangles side by side, 10 mm apart, and a sheet beside a
-sheet, with each kind of bounds and by IPC. How far they fall in 0.2 s, relative to a free fall, and how many detections
-a step takes. Runs, table and picture.
+sheet, with each kind of bounds and by IPC. Measures how far they fall in 0.2 s, relative to a free fall, and the
+detections in each step. Runs, table and picture.
 
-Nothing ever touches, so the missing distance is what truncation took. A sheet is limited by its own mesh, too: the
-nearest facets without a vertex are an edge away from it.
+Nothing ever touches, so truncation caused any missing distance. A sheet is also limited by its own mesh: the nearest
+facets without a common vertex are an edge away.
 """
 
 import json
@@ -38,7 +38,7 @@ def mirrored(points):
 
 
 def left(kind):
-    """Returns (positions, faces) of the body at negative x; sheets stand in planes of constant x and fall in them."""
+    """Returns (positions, faces) of the body at negative x. Sheets lie in planes of constant x and fall within them."""
     if kind == "triangles":
         return LEFT, layers.face(0, 1, 2)
     level = layers.positions(SIDE, SPACING, 0.0)
@@ -91,7 +91,7 @@ class Case:
 
     @property
     def free_way(self):
-        """Returns the distance of a free fall by backward Euler [m]: the n-th step moves by h (v + n h g)."""
+        """Returns the distance of a free fall by backward Euler [m]. The n-th step moves by h (v + n h g)."""
         return TIME_STEP * sum(self.speed + n * TIME_STEP * GRAVITY for n in range(1, STEPS + 1))
 
 

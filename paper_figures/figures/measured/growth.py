@@ -1,8 +1,8 @@
 """Time a step over the number of vertices at one contact density (layers.py), with the exponent, and over the threads
 of the CPU: runs, table and picture. Not in the paper.
 
-The steps from FIRST on are timed; during those before, lists grow and contacts settle. The exponent is the slope of a
-straight line through the logarithms of the medians, by least squares, over all sizes and over the larger half.
+Steps are timed from FIRST on; before it lists grow and contacts settle. The exponent is the slope of a straight line
+through the logarithms of the medians, by least squares, over all sizes and over the larger half of them.
 """
 
 import argparse
@@ -21,7 +21,7 @@ FIRST = 5
 
 
 def row_of(name, run, memory):
-    """Returns the numbers of one run over its timed steps."""
+    """Returns the numbers of one run, measured over its timed steps."""
     m = run.manifest
     timed = [i for i, step in enumerate(run.column("step")) if step >= FIRST]
     names = ("wall", "discrete_detections", "vertex_facet_contacts", "edge_edge_contacts", "repeats")
@@ -43,7 +43,7 @@ def row_of(name, run, memory):
 
 
 def table(folder):
-    """Returns the rows of the finished runs, sizes and numbers of threads ascending."""
+    """Returns the rows of the finished runs, ordered by size and number of threads."""
     rows = []
     for path in sorted(folder.glob("*/run.json"),
                        key=lambda path: (path.parent.name.partition("_")[0], int(path.parent.name.rpartition("_")[2]))):
@@ -61,7 +61,7 @@ def exponent(rows):
 
 
 def in_words(rows):
-    """Returns a line for each backend and one for the threads."""
+    """Returns a line of text for each backend and one for the threads."""
     lines = []
     for backend in dict.fromkeys(row["backend"] for row in rows if row["over"] == "vertices"):
         line = [row for row in rows if row["over"] == "vertices" and row["backend"] == backend]

@@ -2,9 +2,9 @@
 from entering itself: time a step, the vertices inside and their depth, and the mat at four times. Runs, table and
 picture.
 
-The mat is one body of tetrahedra. As a surface its boundary has balls or planes; as a volume it has no bound, and its
-boundary vertices are tested against its own tetrahedra. The audit counts what is inside, in states every sixth of a
-second at `paper`.
+The mat is one body of tetrahedra. As a surface its boundary has balls or planes. As a volume it has no bounds, and its
+boundary vertices are tested against its own tetrahedra. The audit counts vertices inside, at `paper` in states a sixth
+of a second apart.
 """
 
 import sys
@@ -24,7 +24,7 @@ from plots.scene_figure import bodies_of
 NAME = "mat_volumes"
 ROWS = {commands.MAT_VOLUMES: "volume", commands.MAT: "balls", commands.MAT_PLANES: "planes"}
 SHARES = (25, 50, 75, 100)  # of the run [%]
-EARLY = 2.75  # [s]: before that few vertices are inside
+EARLY = 2.75  # [s]: before this time few vertices are inside
 FROM_AUDIT = {"most vertices inside [1]": "most_vertices_inside", "deepest [m]": "deepest_m",
               "most edges through [1]": "most_edges_meeting_volumes"}
 
@@ -59,7 +59,7 @@ def row_of(kind, run):
 
 
 def frame_at(run, share):
-    """Returns the stored state that is nearest to so many hundredths of the run's steps."""
+    """Returns the stored state nearest to this percentage of the run's steps."""
     wanted = share * int(run.column("step")[-1]) / 100
     return min(run.frames, key=lambda path: abs(int(path.stem.removeprefix("frame_")) - wanted))
 

@@ -1,9 +1,9 @@
 """Time to quality: how long a step takes until its residual (Eq. 29) has fallen to a tenth and to a hundredth of the
-step's start, with the paper's bounds and with planes, from states of Table 1's whole runs. The residual of a step with
-many times the scene's iterations is measured after each iteration. The time up to the k-th of n iterations is k/n of
-the median of five such steps, so that the guess loop and detections are spread over all of them. Not in the paper.
+step's start, with the paper's bounds and with planes, from states of Table 1's whole runs. A step with many times the
+scene's iterations gives the residual after each iteration. The time up to iteration k of n is k/n of the median time of
+five such steps, so that the guess loop and detections are spread evenly over the iterations. Not in the paper.
 
-Runs and table need only Python's own library; the picture needs matplotlib and is left out with --no-picture.
+Runs and table need only Python's standard library. The picture needs matplotlib and is left out with --no-picture.
 """
 
 import csv
@@ -24,7 +24,7 @@ class Watched:
     """Holds one step: milliseconds and residual before its iterations and after each."""
 
     row: str
-    share: int  # place of its begin in the whole run [%]
+    share: int  # percentage of the whole run at which the step begins
     run: object
     times: list
     residuals: list
@@ -35,7 +35,7 @@ class Watched:
 
 
 def table1_of(folder, scale, backend):
-    """Returns the folder of the workflow with Table 1's whole runs, from which everything here begins."""
+    """Returns the workflow's folder with Table 1's whole runs, from whose states all steps here begin."""
     return Path(folder).parent / f"table1-{scale}-{backend}"
 
 
@@ -57,7 +57,7 @@ def watched(folder):
 
 
 def first_at(step, limit):
-    """Returns the milliseconds until the residual is at most `limit`; None if it never is."""
+    """Returns the time until the residual is at most `limit` [ms]; None if it never is."""
     return next((t for t, left in zip(step.times, step.residuals) if left <= limit), None)
 
 
@@ -84,7 +84,7 @@ def write(out, steps):
 
 
 def picture(steps, scale):
-    """Draws a panel for each scene, with a colour for each state."""
+    """Draws a panel for each scene and a colour for each state."""
     from plots import style  # imported here, so that runs and table need no matplotlib
     plt = style.use()
     scenes = list(dict.fromkeys(commands.scene_of(step.row) for step in steps))

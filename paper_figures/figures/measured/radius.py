@@ -1,14 +1,15 @@
 """Three contact sets at five radii (§2.2, Fig. 2): a level sheet that its weight presses on a level plate with other
-vertices, for a hundred steps. How much of the force is tangential, how rough the sheet becomes, how the force
-oscillates and how many contacts there are. Runs, table and picture.
+vertices, for a hundred steps. Measures the tangential share of the force, the sheet's roughness, the oscillation of the
+force and the number of contacts. Runs, table and picture.
 
-All sets have one activation and one k_c, with which a vertex that bears its own weight by one contact rests at 0.9 r.
-Tangential share: Σ‖f_t‖ / Σ‖f‖ over the sheet's vertices at the start, 0.95 r above the plate, of the sum of the
-contact forces on each, computed here from closest points; the method's contacts are those of `ogc contacts`. At the
-sheet's rim the method pushes outwards what lies beside it, so that the share is also given for inner vertices.
-Roughness: the root mean square of the Laplacian of heights (four neighbours) over r at the end. Oscillation: standard
-deviation over mean of the force on the sheet in the last twenty steps, which follows from the acceleration of its
-centre.
+All sets have one activation and one k_c, with which a vertex that a single contact supports rests at 0.9 r.
+
+Tangential share: Σ‖f_t‖ / Σ‖f‖ over the sheet's vertices at the start, 0.95 r above the plate, where f is the sum of a
+vertex's contact forces. Forces are computed here from closest points; the method's contacts come from `ogc contacts`.
+At the sheet's rim the method pushes neighbours outwards, so that the share is also given for inner vertices.
+
+Roughness: root mean square of the Laplacian of heights (four neighbours) over r at the end. Oscillation: standard
+deviation over mean of the force on the sheet in the last twenty steps, from the acceleration of its centre.
 """
 
 import json
@@ -28,14 +29,14 @@ from plots.run_folder import Run
 
 SIDE, PLATE_SIDE = 12, 20  # vertices
 SPACING = 1 / 69  # [m], of fifty_layers
-PLATE_SPACING, PLATE_ANGLE = 1.13 * SPACING, 0.3  # so that no two vertices lie above each other
+PLATE_SPACING, PLATE_ANGLE = 1.13 * SPACING, 0.3  # no two vertices lie above each other
 SHIFT = (0.21 * SPACING, 0.37 * SPACING)
 DENSITY, GRAVITY = 0.2, 9.81  # [kg/m²], [m/s²]
 TIME_STEP, STEPS, LAST = 1 / 300, 100, 20  # [s]
-DEPTH, START = 0.1, 0.95  # share of r that one contact would sink for each vertex, and the height at the start in r
+DEPTH, START = 0.1, 0.95  # depth in r that a vertex would sink with one contact; height at the start in r
 RATIOS = (0.1, 0.25, 0.5, 1, 2)  # r over the sheet's spacing
 SETS = {"ogc": "OGC's", "pairs": "every pair (IPC's)", "distance": "distance field"}
-SEEDS = {"smoke": 1, "small": 10}  # nothing here is chaotic
+SEEDS = {"smoke": 1, "small": 10}  # nothing here is chaotic, so few seeds suffice
 JITTER = 1e-6  # [m]
 
 
@@ -106,8 +107,7 @@ def cases(scale):
 
 
 def on_face(p, corners):
-    """Returns the weights of the corners at the closest point of a closed face: of its interior, or of its nearest
-    side."""
+    """Returns the weights of the corners at the closest point of a triangle: inside it, or on its nearest side."""
     if len(corners) == 1:
         return np.ones(1)
     if len(corners) == 2:
@@ -128,8 +128,8 @@ def on_face(p, corners):
 
 
 def on_edges(p, q):
-    """Returns the weights of the four ends at the closest points of two closed edges: of both interiors, or of the
-    nearest of the four pairs of an end and an edge."""
+    """Returns the weights of the four ends at the closest points of two segments: inside both, or at an end of one of
+    them."""
     d, e, apart = p[1] - p[0], q[1] - q[0], q[0] - p[0]
     gram = np.array([[d @ d, -(d @ e)], [-(d @ e), e @ e]])
     if np.linalg.det(gram) > 1e-12 * (d @ d) * (e @ e):
@@ -151,7 +151,7 @@ def edges_of(triangles):
 
 
 class Start:
-    """Holds both bodies at the start of the runs. A contact is (vertices of one side, of the other)."""
+    """Holds both bodies at the start of the runs. A contact is (vertices of one primitive, vertices of the other)."""
 
     def __init__(self, pressed):
         self.radius = pressed.radius
@@ -161,16 +161,16 @@ class Start:
         self.triangles = np.vstack((face_array(SIDE), face_array(PLATE_SIDE) + self.count))
 
     def near(self, corners, other):
-        """Returns the numbers of the primitives `other` whose boxes are within r of that of `corners`, and that share
-        no vertex."""
+        """Returns the numbers of the primitives in `other` whose boxes are within r of the box of `corners` and that
+        share no vertex with it."""
         low, high = self.x[other].min(axis=1) - self.radius, self.x[other].max(axis=1) + self.radius
         own = self.x[corners]
         near = np.all((own.max(axis=0) >= low) & (own.min(axis=0) <= high), axis=1)
         return np.flatnonzero(near & ~np.isin(other, corners).any(axis=1))
 
     def pairs(self):
-        """Returns pairs of a vertex and a triangle and pairs of edges whose boxes are near, at least one of them the
-        sheet's."""
+        """Yields pairs of a vertex and a triangle, and pairs of edges, whose boxes are near. At least one of each pair
+        belongs to the sheet."""
         edges = edges_of(self.triangles)
         for v in range(len(self.x)):
             for t in self.near([v], self.triangles):
@@ -181,7 +181,7 @@ class Start:
                     yield tuple(ends), tuple(edges[f])
 
     def field(self):
-        """Returns for each vertex the nearest triangle of the other body."""
+        """Yields for each vertex the nearest triangle of the other body."""
         of_plate = self.triangles[:, 0] >= self.count
         for v in range(len(self.x)):
             others = self.triangles[of_plate if v < self.count else ~of_plate]
@@ -189,7 +189,7 @@ class Start:
             yield from sorted(near, key=lambda contact: np.linalg.norm(self.gap(contact)[2]))[:1]
 
     def method(self, ogc, folder):
-        """Returns the contacts that the program finds."""
+        """Yields the contacts that the program finds."""
         with (folder / "start.obj").open("w") as file:
             file.writelines("v {} {} {}\n".format(*point) for point in self.x)
             file.writelines("f {} {} {}\n".format(*(corners + 1)) for corners in self.triangles)
@@ -198,7 +198,7 @@ class Start:
         yield from (tuple(tuple(c[side]["vertices"]) for side in ("first", "second")) for c in found["edge_edge"])
 
     def gap(self, contact):
-        """Returns (weights of the two sides at their closest points, the vector between these)."""
+        """Returns (weights of both primitives at their closest points, the vector between these points)."""
         p, q = (self.x[list(side)] for side in contact)
         if len(p) > 1 and len(q) > 1:
             weights = on_edges(p, q)
@@ -209,7 +209,7 @@ class Start:
         return *weights, weights[0] @ p - weights[1] @ q
 
     def forces(self, contacts):
-        """Returns the forces on the sheet's vertices, in units of k_c r."""
+        """Returns the contact forces on the sheet's vertices, in units of k_c r."""
         force = np.zeros_like(self.x)
         for contact in contacts:
             if min(min(side) for side in contact) >= self.count:
@@ -225,7 +225,7 @@ class Start:
 
 
 def tangential_shares(pressed, ogc, folder):
-    """Yields the tangential share by set, of all vertices and of those that are farther from the rim than the largest
+    """Yields the tangential share for each set: over all vertices, and over those farther from the rim than the largest
     r."""
     start = Start(pressed)
     contacts = {"ogc": start.method(ogc, folder), "pairs": start.pairs(), "distance": start.field()}
@@ -244,7 +244,7 @@ def face_array(side):
 
 
 def heights(run):
-    """Returns the heights of the sheet by stored state [m]."""
+    """Returns the heights of the sheet in each stored state [m]."""
     return np.array([run.frame(path).positions[:SIDE * SIDE, 1].astype(float) for path in run.frames])
 
 
@@ -255,7 +255,7 @@ def roughness(height, radius):
 
 
 def vertex_share():
-    """Returns the share of each vertex of the sheet in its mass."""
+    """Returns the share of the sheet's mass at each of its vertices."""
     share = np.zeros(SIDE * SIDE)
     np.add.at(share, face_array(SIDE).ravel(), 1)
     return share / share.sum()
@@ -282,7 +282,7 @@ def finished(folder, scale):
 
 
 def table(runs, ogc, folder):
-    """Returns a row for each set and radius: median and range over the seeds."""
+    """Returns a row for each set and radius, with median and range over the seeds."""
     for ratio in RATIOS:
         shares = dict(tangential_shares(Pressed(ratio), ogc, folder))
         for contacts in SETS:

@@ -2,9 +2,9 @@
 a quadratic force and without bounds (the baseline, the paper's "Newton"). Pictures at four moments, meetings of threads
 and mean tension over time; runs, table, picture and movie.
 
-Fig. 15's number is the tension at the first meeting over k_c r, the largest force of a contact with the quadratic
-energy. Fig. 16's are the meetings, the distance of each vertex of the twisted cloth from its start, and that of the
-released cloth from the cloth that hangs untwisted. Steps whose meetings were not counted do not enter any number.
+Fig. 15's number is the tension at the first meeting over k_c r, the largest force of a quadratic contact. Fig. 16's
+numbers are the meetings, the distance of each vertex of the twisted cloth from its start, and the distance of the
+released cloth from the cloth that hangs untwisted. Steps whose meetings were not counted are ignored.
 """
 
 import argparse
@@ -27,16 +27,17 @@ PICTURES = {commands.STRETCH: "fig15.png", commands.YARN_TWIST: "fig16.png"}
 JOBS = {commands.STRETCH: commands.yarn_stretched, commands.YARN_TWIST: commands.yarn_twisted}
 KINDS = {"ogc": "OGC", "baseline": "baseline"}
 SHOWN = (0, 1 / 3, 2 / 3, 1)  # as parts of the run
-# Place of the eye, and the upward direction: from above, pulled from left to right; from the front, turned about the
+# Position of the eye, and upward direction: from above, pulled from left to right; from the front, rotated about the
+# vertical.
 # vertical.
 VIEWS = {commands.STRETCH: ((0, 1, 0), (1, 0, 0)), commands.YARN_TWIST: ((0.25, 0.1, 1), (0, 1, 0))}
-AT_REST = 0.01  # m/s: a cloth with a smaller root mean square speed hangs still
+AT_REST = 0.01  # m/s: a cloth with a smaller root mean square speed is at rest
 MARGIN, ANGLE = 1.08, 30  # margin of a picture around the yarn; PyVista's angle of view [degrees]
 SIZE = {commands.STRETCH: (640, 480), commands.YARN_TWIST: (640, 720)}
 
 
 def runs_of(options):
-    """Returns name -> Run with at least one step, made if it does not exist; with --made the existing ones."""
+    """Returns name -> Run with at least one step, and makes missing runs; with --made returns only existing ones."""
     folder, jobs = Path(options.folder), list(chain.from_iterable(JOBS[options.scene](options.scale, options.backend)))
     try:
         for job in () if options.made else jobs:
@@ -57,7 +58,7 @@ def has_steps(folder):
 
 
 def main_runs(scene):
-    """Returns kind -> name of the run that is shown."""
+    """Returns kind -> name of the shown run."""
     return {kind: kind if scene == commands.YARN_TWIST else f"{kind}_{commands.YARN_STIFFNESS[0]}" for kind in KINDS}
 
 
@@ -81,32 +82,32 @@ def tension(run):
 
 
 def meetings(run):
-    """Returns the meetings of each step; not-a-number if they were not counted."""
+    """Returns the number of meetings in each step; not-a-number if they were not counted."""
     return run.steps.get("meetings", np.full(len(run.column("step")), np.nan))
 
 
 def asked_of(parts):
-    """Returns (times [s], meetings) of the steps in which meetings were counted in a run or its windows, each once, in
-    order."""
+    """Returns (times [s], meetings) of the steps, in order and each once, in which meetings were counted in a run or
+    its windows."""
     found = {step: (time, met) for part in parts
              for step, time, met in zip(part.column("step"), seconds(part), meetings(part)) if np.isfinite(met)}
     return np.array([found[step] for step in sorted(found)]).reshape(-1, 2).T
 
 
 def first_meeting(run):
-    """Returns the row of the first step on whose way threads met, or None."""
+    """Returns the row of the first step in which threads met, or None."""
     met = np.flatnonzero(meetings(run) > 0)
     return int(met[0]) if len(met) else None
 
 
 def windows_of(name, runs):
-    """Returns the windows of a run in which meetings were counted, by step."""
+    """Returns the windows of a run in which meetings were counted, ordered by step."""
     found = [run for other, run in runs.items() if other.startswith(name + commands.WINDOW_OF)]
     return sorted(found, key=lambda run: run.column("step")[0])
 
 
 def first_among(parts):
-    """Returns (part, row) of the first meeting in a run or its windows; (the run, None) if threads never met."""
+    """Returns (part, row) of the first meeting in a run or its windows; (the run, None) if no threads met."""
     return next(((part, row) for part in parts if (row := first_meeting(part)) is not None), (parts[0], None))
 
 
@@ -140,15 +141,15 @@ def distances(run, to):
 
 
 def speed(run):
-    """Returns the root mean square speed of the yarn at the end, by mass [m/s]; its vertices are in the order of the
-    rod."""
+    """Returns the root mean square speed of the yarn at the end, weighted by mass [m/s]. Its vertices are in the order
+    of the rod."""
     rod = run.manifest["scene"]["bodies"][0]["material"]["rod"]
     length = np.linalg.norm(np.diff(run.start_positions.astype(float), axis=0), axis=1).sum()
     return float(np.sqrt(2 * run.column("kinetic_energy")[-1] / (rod["density"]["value"] * length)))
 
 
 def far(runs):
-    """Returns name -> distances [m] of Fig. 16: of twisted cloths from their start, of released ones from the cloth
+    """Returns name -> distances [m] of Fig. 16: for twisted cloths from their start, for released cloths from the cloth
     that hangs untwisted."""
     found = {}
     for kind in KINDS:
@@ -161,8 +162,8 @@ def far(runs):
 
 
 def table(runs, how_far):
-    """Returns a row for each run with its windows; cells are empty if nothing was counted or found. A distance from the
-    hanging cloth is given if both are at rest."""
+    """Returns a row for each run with its windows. Cells without a value are empty. The distance from the hanging cloth
+    is given only if both cloths are at rest."""
     shares = {"median": 50, "nine vertices in ten within": 90, "largest": 100}
     rows, speeds = [], {name: speed(runs[name]) for name in how_far.keys() | ({"hanging"} & runs.keys())}
     for name, run in runs.items():
@@ -179,7 +180,7 @@ def table(runs, how_far):
 
 
 def camera_of(scene, points, size):
-    """Returns (eye, target, up) from which all `points` fill the picture."""
+    """Returns (eye, target, up) of a camera for which all `points` fill the picture."""
     back, up = (np.array(v, float) / np.linalg.norm(v) for v in VIEWS[scene])
     right = np.cross(up, back) / np.linalg.norm(np.cross(up, back))
     axes = np.stack([right, np.cross(back, right), back])
@@ -249,7 +250,7 @@ def draw_distances(axes, how_far):
 
 
 def draw_reached(axes, runs):
-    """Draws the tension at the first meeting over k_c r; if threads never met, the largest tension."""
+    """Draws the tension at the first meeting over k_c r, or, if no threads met, the largest tension."""
     chosen = drawn_over_time(runs)
     for place, (name, run) in enumerate(chosen.items()):
         parts = [run, *windows_of(name, runs)]

@@ -1,15 +1,14 @@
 """Fig. 16's last claim: how far each vertex of the cloth that was twisted and let go is from the cloth that hangs as it
 is, both at rest. Runs, table and picture.
 
-A cloth is at rest if in the last second half of its vertices moved no farther than ε_v allows: friction of two threads
-grows with their speed up to ε_v and holds them below it, so that what still moves creeps. Speeds of one step are no
-criterion: contacts that open and close every few steps shake threads by micrometres. Damping does not affect where a
-cloth rests, but friction does: it holds threads that slip along each other, so that the place of rest depends on the
-path. So both cloths continue without friction, and their distance then is that of two states that sweeps leave
-unchanged.
+A cloth is at rest if half of its vertices moved no farther in the last second than ε_v allows. Friction between threads
+grows with their speed up to ε_v, so threads that friction holds still creep. Speeds of single steps are no criterion,
+because contacts that open and close every few steps shake threads by micrometres. Damping does not affect where a cloth
+comes to rest. Friction does: it holds threads that slip along each other, so that the place depends on the path. Both
+cloths therefore continue without friction; their distance then is that of two states that sweeps leave unchanged.
 
-A cloth that hangs folded is far from one that hangs flat, and is the same knit. So the table also counts, of the
-vertices that touch another thread in the untwisted cloth, those that have the same thread near them in the other cloth.
+A cloth that hangs folded is far from a cloth that hangs flat, although the knit is the same. So the table also counts
+how many vertices that touch another thread in the untwisted cloth have the same thread near them in the other cloth.
 """
 
 import sys
@@ -28,13 +27,13 @@ from plots.run_folder import Run, RunError, commits_in_words
 NAME, PICTURE = "fig16_rest", "fig16_rest.png"
 LAST = 1.0  # s
 SHARES = {"median": 50, "nine vertices in ten within": 90, "largest": 100}  # of the vertices [%]
-STILL = 50  # of the vertices [%]: sweeps that circulate move loops at the rim by a millimetre, about their places
-THREAD = 12  # vertices: those farther apart along the yarn belong to different threads
-TOUCHING, HALF_ROW = 3.5e-3, 5e-3  # [m] between centre lines: the yarn is 3 mm thick, rows lie 10 mm apart
+STILL = 50  # percentage of the vertices; sweeps that circulate move loops at the rim by a millimetre about their places
+THREAD = 12  # vertices that are farther apart along the yarn belong to different threads
+TOUCHING, HALF_ROW = 3.5e-3, 5e-3  # [m] between centre lines: the yarn is 3 mm thick, rows are 10 mm apart
 
 
 def runs_of(options):
-    """Returns name -> finished Run of the last jobs, made if it does not exist; with --made the existing ones."""
+    """Returns name -> finished Run of the last jobs, and makes missing runs; with --made returns only existing ones."""
     folder = Path(options.folder)
     jobs = list(chain.from_iterable(commands.yarn_at_rest(options.scale, options.backend)))
     try:
@@ -57,8 +56,8 @@ def last_frame(run):
 
 
 def way(run):
-    """Returns (how far half of the vertices have been at most from where they end [m], for how long [s]), from the
-    frames of the last second."""
+    """Returns (largest distance of half of the vertices from where they end [m], duration [s]), from the frames of the
+    last second."""
     last, step = last_frame(run), run.setting("time_step")
     late = [frame for frame in map(run.frame, run.frames[:-1]) if frame.time > last.time - LAST - step]
     apart = [np.percentile(np.linalg.norm(frame.positions.astype(float) - last.positions, axis=1), STILL)
@@ -67,7 +66,7 @@ def way(run):
 
 
 def near(positions, within):
-    """Returns pairs of points nearer than `within`, by cells of that size."""
+    """Returns pairs of points closer than `within`, found by cells of that size."""
     cells = np.floor((positions - positions.min(axis=0)) / within).astype(np.int64) + 1
     _, columns, layers = cells.max(axis=0) + 2
     key = (cells[:, 0] * columns + cells[:, 1]) * layers + cells[:, 2]
@@ -86,8 +85,8 @@ def near(positions, within):
 
 
 def kept_threads(run, beside):
-    """Returns the share of the pairs of vertices of two threads that touch in `beside` which are within half a row in
-    `run` [1]."""
+    """Returns which share of the pairs of vertices that touch in `beside` are within half a row in `run` [1]. Only
+    pairs of two threads count."""
     here, there = (last_frame(one).positions.astype(float) for one in (run, beside))
     pairs = near(there, TOUCHING)
     pairs = pairs[np.abs(pairs[:, 0] - pairs[:, 1]) > THREAD]
@@ -107,7 +106,7 @@ def at_rest(run):
 
 
 def row_of(name, runs):
-    """Returns a row; cells of distances are empty if there is no other cloth, or not both are at rest."""
+    """Returns a row. Cells of distances are empty if there is no other cloth, or if one of the two is not at rest."""
     run, beside = runs[name], commands.AT_REST.get(name, "")
     counts = bool(beside) and at_rest(run) and at_rest(runs[beside])
     kept = kept_threads(run, runs[beside]) if beside else None

@@ -3,9 +3,9 @@ turned, how stiff the yarn is, how well the twist is solved, whether threads hav
 it swings before it is braked. `python3 -m paper_figures.figures.measured.yarn_return FOLDER --scale paper --backend
 cuda`.
 
-In the end all cloths are braked without friction until they hang still (yarn_rest.py gives the reason), and each is
-compared with one of the same yarn that was never twisted. Twisted ones of stiffer yarn are braked longer, because half
-of their vertices still move more than a millimetre a second when the others rest.
+Finally all cloths are braked without friction until they are at rest (yarn_rest.py gives the reason). Each is then
+compared with a cloth of the same yarn that was never twisted. Twisted cloths of stiffer yarn are braked longer: when
+the others are at rest, half of their vertices still move faster than a millimetre a second.
 """
 
 import sys
@@ -24,16 +24,16 @@ from plots.run_folder import Run, RunError, commits_in_words
 
 NAME = "yarn_return"
 TURNS = {"smoke": (0.01, 0.02), "small": (1, 2, 5), "paper": (1, 2, 3, 5)}
-HELD = {"smoke": 0.01, "small": 1, "paper": 1}  # duration of the hold before it is let go [s]
-LONGER = 3  # factor of the steps that brake a twisted cloth of stiffer yarn
+HELD = {"smoke": 0.01, "small": 1, "paper": 1}  # time for which the twist is held before the release [s]
+LONGER = 3  # factor on the steps that brake a twisted cloth of stiffer yarn
 COARSE = ("--set", "time_step=4e-4", "--set", "iterations=4")  # the scene's own settings
 
 
 @dataclass(frozen=True)
 class Case:
-    """Describes how a cloth comes to hang. `turns`: 0 if it was never twisted. `fine`: twisted by steps like those that
-    brake it. `friction`: while it is turned and swings. `swings`: until it is braked, as long as in Fig. 16. `seed`: of
-    a start moved by at most a micrometre; 0 for the start itself."""
+    """Describes how a cloth comes to hang. `turns`: 0 if it was never twisted. `fine`: twists with the finer steps that
+    also brake it. `friction`: whether threads have friction before the cloth is braked. `swings`: whether the cloth
+    first swings freely, as long as in Fig. 16. `seed`: of offsets of the start of at most a micrometre; 0: none."""
 
     turns: float = 0
     pace: float = 1
@@ -54,7 +54,7 @@ class Case:
 
     @property
     def twist_settings(self):
-        """Returns words of `ogc run`: step and iterations while it is turned."""
+        """Returns words of `ogc run`: time step and iterations during the twist."""
         return commands.FINE if self.fine else COARSE
 
     @property
@@ -62,7 +62,7 @@ class Case:
         return Case(stiffness=self.stiffness).name
 
     def jobs(self, scale, backend):
-        """Returns the jobs in their order; the end of the last one is the hanging cloth."""
+        """Yields the jobs in their order. The last one ends with the hanging cloth."""
         common = ("--backend", backend, "--audit", "end", "--audit-meetings", "off", "--set")
         kept = (*common, f"frame_steps={commands.REST_FRAME_STEPS[scale]}")
         rubs = () if self.friction else ("--set", "friction=0")
@@ -87,8 +87,8 @@ class Case:
 
 
 def cases(scale):
-    """Returns cases that differ in one choice at a time: few turns and Fig. 16's, solved coarsely and well; then the
-    others. Those turned as in Fig. 16 and solved well, braked at once or not, have three starts."""
+    """Yields cases that differ in one choice at a time: first few turns and Fig. 16's turns, each solved coarsely and
+    well, then the others. Fig. 16's turns solved well have three starts, both with and without swinging."""
     turns = TURNS[scale]
     most = turns[-1]
     yield from (Case(stiffness=stiffness) for stiffness in (1, 10, 100))
@@ -101,7 +101,7 @@ def cases(scale):
 
 
 def runs_of(options, chosen):
-    """Returns name -> finished Run of the cases, made if they do not exist; with --made the existing ones."""
+    """Returns name -> finished Run of each case, and makes missing runs; with --made returns only existing ones."""
     folder = Path(options.folder)
     for case in () if options.made else chosen:
         try:
@@ -116,8 +116,8 @@ def runs_of(options, chosen):
 
 
 def row_of(case, run, beside):
-    """Returns a row. `beside`: the run of the cloth that was never twisted; distances to it are given if both are at
-    rest."""
+    """Returns a row. `beside`: the run of the cloth that was never twisted. Distances to it are given only if both
+    cloths are at rest."""
     farthest, seconds = way(run)
     apart = distances(run, last_frame(beside).positions)
     kept = kept_threads(run, beside)
@@ -138,8 +138,8 @@ def row_of(case, run, beside):
 
 
 def draw(runs, out):
-    """Draws the cloths where they hang, from the front, coloured by the distance from the place that each vertex has in
-    the untwisted cloth."""
+    """Draws the hanging cloths from the front, coloured by each vertex's distance from its place in the untwisted
+    cloth."""
     from matplotlib.collections import LineCollection
 
     plt = style.use()

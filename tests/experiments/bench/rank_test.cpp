@@ -17,7 +17,7 @@ double pairs_won(const std::vector<double>& before, const std::vector<double>& a
   return won;
 }
 
-/// Returns the probability by trying each choice of the first set's values among n + m.
+/// Returns the exact probability by enumerating which of the n + m values belong to the first set.
 double by_enumeration(const std::vector<double>& before, const std::vector<double>& after) {
   const double middle = 0.5 * static_cast<double>(before.size() * after.size()),
                distance = std::abs(pairs_won(before, after) - middle);
@@ -51,7 +51,7 @@ TEST_CASE("the exact probability of Mann and Whitney is the share of orders at l
     }
 }
 
-// 3.5 % is four standard deviations of 4000 draws above 2 % (0.22 %), with room for the steps of the discrete test and
+// 3.5 % is four standard deviations (0.22 %) above 2 % for 4000 draws, with room for the discreteness of the test and
 // the error of the approximation.
 TEST_CASE("equal distributions are told apart no more often than the level says, with and without ties", "[property]") {
   std::mt19937 random(7);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the library into a scratch folder, builds the example plug-ins and both files of
-# experiments/plugins/README.md outside this tree, as a newcomer would, and checks their verdicts. Usage:
+# experiments/plugins/README.md outside this tree, as a new user would, and checks their verdicts. Usage:
 # build_plugins.sh BUILD_DIR SOURCE_DIR
 set -euo pipefail
 build=$(cd "$1" && pwd) source=$(cd "$2" && pwd)
@@ -16,8 +16,8 @@ awk '/^<!-- mine.cpp -->/ { n++; wanted = 1 }
      /^```cpp$/ && wanted { writing = 1; wanted = 0 }' \
   "$source/experiments/plugins/README.md"
 
-# verdict NAME STAGE EXIT_STATUS TEXT: the plug-in must build without warnings and end so, and TEXT must stand in what
-# is printed.
+# verdict NAME STAGE EXIT_STATUS TEXT: builds the plug-in without warnings, judges it, and checks that the exit status
+# is EXIT_STATUS and the output contains TEXT.
 verdict() {
   g++ -O2 -Wall -Wextra -Werror -shared -fPIC -I "$scratch/prefix/include/ogc" "$1.cpp" -o "$1.so"
   local status=0

@@ -1,6 +1,7 @@
-"""The museum of public bugs: each exhibit builds; the judge catches it, names it as README.md says, tells a case whole.
+"""Tests the museum of public bugs: each exhibit builds, and the judge catches it, names it as README.md does, and
+prints a whole case.
 
-Without its mistake an exhibit passes: what is caught is the mistake, and nothing else. Usage: museum.py SOURCE_DIR OGC
+Without its mistake an exhibit passes, so the mistake alone is caught. Usage: museum.py SOURCE_DIR OGC
 """
 
 import json
@@ -14,7 +15,7 @@ SOURCE, OGC = Path(sys.argv[1]), sys.argv[2]
 MUSEUM = SOURCE / "experiments/plugins/museum"
 ROW = re.compile(r"^\| \[(\w+)\]\((\w+)\.cpp\) \|.*\| `(\w+)` \| `([\w-]+)` \|$", re.MULTILINE)
 
-# What takes the mistake out: text of the exhibit -> what it should have been.
+# Corrections: text of the exhibit -> corrected text.
 MENDED = {
     "eq19_as_printed": ("tau * k * (tau - r) * (tau - r)", "tau * k * (r - tau)"),
     "half_logarithm": ("right / 2", "right"),
@@ -47,7 +48,7 @@ def judged(source, stage, folder):
 
 
 def check_explained(name, result):
-    """A failing case stands there whole, and an audit takes its mesh."""
+    """Checks that a failing case is printed whole, and that an audit accepts its mesh."""
     explained = result["explained"]
     check(len(explained) == 1 and explained[0]["messages"], f"{name}: not one failing case is told: {explained}")
     case = explained[0]

@@ -1,5 +1,5 @@
-// Puts our own kernels of volumes behind the C interface. Right answers show that the structures carry enough; the
-// environment variable OGC_BROKEN makes them wrong.
+// Offers our kernels of volumes through the C interface. Right answers prove that the structures suffice; the
+// environment variable OGC_BROKEN makes the answers wrong.
 #include <algorithm>
 
 #include "compare/stages/volume_depth.hpp"

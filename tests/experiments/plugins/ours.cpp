@@ -1,6 +1,6 @@
-// Puts our own kernels behind the C interface, in the stages about a whole scene and about planes. Right answers
-// show that the structures carry enough; the environment variable OGC_BROKEN makes them wrong. The step is built here
-// from detection, truncation and sweeps.
+// Offers our kernels through the C interface, for the stages about whole scenes and about planes. Right answers prove
+// that the structures suffice; the environment variable OGC_BROKEN makes the answers wrong. The step consists of
+// detection, truncation and sweeps.
 #include <unistd.h>
 
 #include <algorithm>
@@ -73,7 +73,7 @@ std::vector<std::array<Index, 2>> pairs_of_rows(const ogc_rows& partners, Index 
   return pairs;
 }
 
-/// Makes the scene. Motions have their vertices alone; targets hold where they lead.
+/// Makes the scene. Motions have only their vertices; targets give their positions.
 Scene scene_of(const ogc_scene& in) {
   Scene scene;
   const ogc_topology& t = in.topology;
@@ -162,7 +162,7 @@ RestStateOut rest_of(const ogc_sweep_in& in) {
   return rest;
 }
 
-/// Returns some colouring in which the vertices of a stencil differ.
+/// Returns a colouring: vertices of a stencil have different colours.
 std::vector<Index> colours(const RestStateOut& rest, const std::vector<Spring>& springs,
                            const std::vector<Index>& groups) {
   std::vector<std::vector<Index>> others(groups.size());
@@ -194,7 +194,7 @@ std::vector<fast::Vec> vectors(const std::vector<Vec3f>& all) {
   return result;
 }
 
-/// Makes the step of Algorithm 3 and records its events.
+/// Computes a step by Algorithm 3 and records its events.
 class Step {
  public:
   explicit Step(const ogc_step_in& in)
@@ -275,7 +275,7 @@ class Step {
     events.push_back(detected_);
   }
 
-  /// Returns the contacts of the last detection for each vertex, in the form of the guess kernel.
+  /// Returns the last detection's contacts at each vertex, as the guess kernel takes them.
   std::vector<std::vector<fast::ContactIncidence>> incidences() const {
     std::vector<std::vector<fast::ContactIncidence>> rows(count_);
     const std::vector<Index> body = body_of_vertex(scene_);
@@ -285,7 +285,7 @@ class Step {
       std::copy(vertex.begin(), vertex.end(), contact.index);
       contact.friction = rest.meetings[body[vertex[0]] * scene_.bodies.size() + body[vertex[other]]].friction;
       for (std::uint8_t k = 0; k < 4; ++k) {
-        // Places that the contact lacks repeat the first vertex.
+        // Unused places of a contact repeat its first vertex.
         if (groups_[vertex[k]] == 0 || (k > 0 && vertex[k] == vertex[0])) continue;
         contact.own = k;
         rows[vertex[k]].push_back(contact);
@@ -367,12 +367,12 @@ class Step {
   std::vector<Index> groups_;
   Exclusions left_out_;
   std::vector<Vec3f> start_, velocity_, x_;
-  std::vector<fast::Vec> taken_;  // what contacts took in the round before
+  std::vector<fast::Vec> taken_;  // what contacts took in the previous round
   std::vector<bool> touches_;
   StepEvent detected_;
 };
 
-/// Writes the events or, if a list lacks room, their counts alone.
+/// Writes the events or, if a list is too short, only their counts.
 class Trace {
  public:
   explicit Trace(ogc_step_out& out) : out_(out) {}

@@ -1,4 +1,4 @@
-// Declares what our own kernels need behind the C interface: the contestant that answers, and the fault that the
+// Declares what our kernels behind the C interface share: the contestant that answers, and the fault that the
 // environment variable OGC_BROKEN names.
 #pragma once
 

@@ -1,5 +1,5 @@
-// Judges plug-ins that break: each is reported as what it is, the judge continues or ends cleanly, and standard output
-// holds results alone.
+// Judges plug-ins that break. Each failure is reported correctly, the judge continues or ends cleanly, and standard
+// output contains only results.
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -17,7 +17,7 @@ namespace {
 
 const std::string broken = OGC_TEST_PLUGINS "/libplugin_broken.so";
 
-/// Returns the folder in which the broken plug-in runs; failing cases are saved below it.
+/// Returns the folder in which the broken plug-in runs and below which failing cases are saved.
 const TemporaryFolder& broken_folder() {
   static const TemporaryFolder folder;
   return folder;
@@ -31,7 +31,7 @@ ProgramResult compare_broken(const std::string& how, const std::string& argument
       "cd '" + folder + "' && export ASAN_OPTIONS=handle_segv=0:handle_abort=0 OGC_BROKEN='" + how + "' && ");
 }
 
-/// Runs `ogc compare` with our own kernels behind the C interface.
+/// Runs `ogc compare` with our kernels behind the C interface. `how`: value of OGC_BROKEN.
 ProgramResult compare_ours(const std::string& how, const std::string& arguments, const std::string& name = "ours") {
   static const TemporaryFolder scratch;
   return run_ogc("compare " + arguments + " --plugin " OGC_TEST_PLUGINS "/libplugin_" + name + ".so",
@@ -39,8 +39,8 @@ ProgramResult compare_ours(const std::string& how, const std::string& arguments,
                      "' && export ASAN_OPTIONS=handle_segv=0:handle_abort=0 OGC_BROKEN='" + how + "' && ");
 }
 
-/// Returns whether the process whose number stands in the file ends within a second, or there is no such file. A zombie
-/// counts as ended.
+/// Returns whether the process whose number is in the file ends within a second; true if the file does not exist. A
+/// zombie counts as ended.
 bool has_ended(const std::filesystem::path& file) {
   std::ifstream number(file);
   std::string id, name, state;
@@ -53,7 +53,7 @@ bool has_ended(const std::filesystem::path& file) {
   return false;
 }
 
-/// The plug-in breaks at a case with d = r, but not at one with d < r.
+/// The plug-in breaks at a case with d = r, but not at a case with d < r.
 const std::string breaking = "--problem 'stage=activation gen=ladder.radius seed=1 index=1'",
                   harmless = "--problem 'stage=activation gen=ladder.radius seed=1 index=0'";
 

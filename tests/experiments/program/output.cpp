@@ -4,8 +4,7 @@
 
 using namespace ogc;
 
-// FNV-1a of 64 bits: without bytes it is the offset basis; for twelve zero bytes it is the basis times prime^12 modulo
-// 2^64.
+// 64-bit FNV-1a of no bytes is the offset basis; of twelve zero bytes it is the basis times prime^12 modulo 2^64.
 TEST_CASE("the state's hash is FNV-1a of the positions' bits", "[unit]") {
   CHECK(experiments::state_hash({}) == "cbf29ce484222325");
   std::uint64_t expected = 0xcbf29ce484222325;

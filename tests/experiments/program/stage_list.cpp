@@ -1,4 +1,4 @@
-// Compares the list of stages with the tree and compare/README.md, and tests the determinism that it claims.
+// Compares the list of stages with the tree and with compare/README.md, and tests the determinism that it declares.
 #include "experiments/program/stage_list.hpp"
 #include "compare/stages/bound.hpp"
 
@@ -22,7 +22,7 @@ const std::filesystem::path tree = OGC_SOURCE_DIR;
 
 std::string read(const std::string& file) { return read_bytes(tree / file); }
 
-/// Returns whether a file in these folders of the tree has this stem.
+/// Returns whether these folders contain a file with this stem.
 bool has_stem(std::initializer_list<const char*> folders, const std::string& stem) {
   for (const char* folder : folders)
     for (const auto& entry : std::filesystem::directory_iterator(tree / folder))
@@ -50,7 +50,7 @@ TEST_CASE("every stage has a contract, a reference, and a CPU and a CUDA impleme
     if (fast::backend_info(fast::Backend::cuda).usable)
       CHECK(can_judge(stage, fast::contestant(fast::Backend::cuda), authority) == is_ours);
   }
-  // Both backends instantiate one list of probes, so CUDA has every stage that the CPU has.
+  // Both backends instantiate the same probes, so CUDA has every stage that the CPU has.
   for (const char* file : {"fast/cpu/instantiate.cpp", "fast/cuda/instantiate.cu"})
     CHECK(read(file).find("= probe_contestant(\"") != std::string::npos);
 }
@@ -76,7 +76,7 @@ TEST_CASE("the table of stages in compare/README.md is the one that ogc compare 
   CHECK(printed.out == table);
 }
 
-// Tests catch each form's contestant and each planted fault (tests/experiments/diagnose.cpp, compare.cpp).
+// Each form's contestant and each planted fault are caught by tests (tests/experiments/diagnose.cpp, compare.cpp).
 TEST_CASE("every stage can be wrong in at least three ways that the judge is shown to catch", "[unit]") {
   std::map<Stage, std::size_t> by_stage;
   for (const tests::Fault& fault : tests::faults()) ++by_stage[fault.stage];
@@ -143,7 +143,7 @@ TEST_CASE("at least half of a stage's cases lie within 1024 ulp of a decision bo
   for (const Stage stage : all_stages) {
     if (!stage_info(stage).has_boundary) continue;
     JudgeOptions options;
-    // With this many cases, whole meshes and batches change the generators' shares little.
+    // With this many cases, the sizes of meshes and batches hardly change the generators' shares.
     options.cases = is_mesh_stage(stage) ? 30000 : 5000;
     const StageReport report = judge_stage(stage, exact, authority, options);
     INFO(stage_name(stage));
@@ -164,7 +164,7 @@ TEST_CASE(
     const StageReport report = judge_stage(stage, exact, authority, options);
     INFO(stage_name(stage));
     CHECK(report.passed());
-    CHECK(report.tally.questions < 40);  // meshes of more than a thousand cases
+    CHECK(report.tally.questions < 40);  // each mesh has more than a thousand cases
     CHECK(report.tally.near_share() >= 0.5);
   }
 }

@@ -1,4 +1,4 @@
-// Tests the strip of Fig. 11: the paper's sizes, the rest shape, and a start that is threaded but touches nothing.
+// Tests the strip of Fig. 11: the paper's sizes, the rest shape, and a start without intersections.
 #include "experiments/scenes/knot.hpp"
 
 #include <algorithm>
@@ -58,7 +58,7 @@ TEST_CASE(
   const double first = length(start(scene, 0), start(scene, sizes.columns));
   for (Index i = 0; i < sizes.rows; ++i) {
     const Index v = i * sizes.columns;
-    // They are chords of equal arcs.
+    // Rows are chords of equal arcs.
     if (i > 0) CHECK(length(start(scene, v - sizes.columns), start(scene, v)) == Approx(first).epsilon(0.02));
     for (Index j = 1; j < sizes.columns; ++j)
       CHECK(length(start(scene, v + j - 1), start(scene, v + j)) == Approx(0.005).margin(2e-6));

@@ -1,4 +1,4 @@
-// Tests every registered scene at every scale: valid, in single precision, and in the paper's contact regime.
+// Tests every registered scene at every scale: it is valid, in single precision, and in the paper's contact regime.
 #include "experiments/scenes/registry.hpp"
 
 #include <algorithm>
@@ -59,7 +59,7 @@ TEST_CASE("every scene is valid at every scale, named as registered, and already
   }
 }
 
-// `ogc run` itself audits the largest ones, which take seconds each, at its start.
+// Larger scenes take seconds each; `ogc run` itself audits them at the start.
 TEST_CASE("no scene starts with an intersection but between stitched primitives", "[unit]") {
   constexpr std::size_t largest = 100'000;
   for (const SceneInfo& info : scenes()) {
@@ -83,8 +83,9 @@ TEST_CASE("scales shrink vertices and steps, and keep the radius in units of the
     CHECK(small.settings.steps <= paper.settings.steps);
     const double regime = paper.settings.contact_radius / shortest_edge(paper);
     for (const Scene& scene : {smoke, small}) {
-      // Positions of up to 0.5 m are in single precision (layers reach slightly further, strips are shorter across),
-      // with edges of more than 7 mm (2 mm across a strip of 4.5 cm) or of 1 mm (yarn): half an ulp at each end, twice.
+      // Positions up to 0.5 m are rounded to single precision (layers reach slightly farther, strips are narrower).
+      // Edges are longer than 7 mm (2 mm across a strip of 4.5 cm), for yarn 1 mm. Each of two lengths has an error of
+      // half an ulp at each end.
       const double edge = scene.mesh.triangles.empty() ? 0.001 : 0.007;
       CHECK(scene.settings.contact_radius / shortest_edge(scene) == Approx(regime).epsilon(4 * 0x1p-25 / edge));
     }
@@ -102,7 +103,7 @@ TEST_CASE("yarn scenes have the paper's numbers: one rod, neighbours of a smooth
     REQUIRE(scene.bodies[0].material.rod);
     CHECK(scene.bodies[0].material.rod->density == static_cast<double>(1e-3f));
     REQUIRE(scene.motions.size() == 2);
-    // All vertices within 10 mm of both edges, which include the live loops of the last row.
+    // Both edges are held by all vertices within 10 mm, which include the live loops of the last row.
     CHECK(scene.motions[0].vertices.size() > 33 * 12);
   }
   CHECK(make_scene("yarn_stretch", Scale::paper).settings.steps == 16'250);
@@ -150,12 +151,12 @@ TEST_CASE("twist turns its two end columns against each other, a relative turn i
     CHECK(motion.vertices.size() == 100);
     for (const Index v : motion.vertices) CHECK(std::abs(scene.mesh.positions[static_cast<std::size_t>(v)].x) == 0.5);
   }
-  // After 2 s each column has turned by a quarter: z = −0.5 moves to y = ±0.5, on the two sides of the sheet.
+  // After 2 s each column has rotated by a quarter turn: z = −0.5 moves to y = ±0.5, on the two sides of the sheet.
   const Vec3f left = at_vertex(scene, scene.motions[0], 0, 2), right = at_vertex(scene, scene.motions[1], 0, 2);
   CHECK(left.y == Approx(0.5));
   CHECK(right.y == Approx(-0.5));
   CHECK(left.x == -0.5f);
-  // After 4 s both have turned by a half, to the same place, one relative turn later.
+  // After 4 s both have rotated by a half turn, to the same place but one relative turn apart.
   CHECK(at_vertex(scene, scene.motions[0], 0, 4).z == Approx(0.5));
   CHECK(at_vertex(scene, scene.motions[1], 0, 4).z == Approx(0.5));
 }
@@ -178,7 +179,7 @@ TEST_CASE("mat_twist has the size of Fig. 19, and all of its vertices are on the
     for (const Index v : motion.vertices) CHECK(std::abs(scene.mesh.positions[static_cast<std::size_t>(v)].x) == 0.5);
   }
   CHECK(scene.motions[0].angular_velocity == -scene.motions[1].angular_velocity);
-  // After 1 s the ends have turned by a quarter, in opposite directions.
+  // After 1 s the ends have rotated by a quarter turn in opposite directions.
   CHECK(at_vertex(scene, scene.motions[0], 0, 1).y == Approx(0.5).epsilon(1e-6));
   CHECK(at_vertex(scene, scene.motions[1], 0, 1).y == Approx(-0.5).epsilon(1e-6));
 }
@@ -189,7 +190,7 @@ TEST_CASE("large_radius_twist has the paper's numbers, and a radius of one edge 
   CHECK(scene.bodies[0].triangle_count == 79202);
   CHECK(scene.settings.contact_radius == static_cast<double>(5e-3f));
   CHECK(get_setting(scene.settings, "ipc_distance") == scene.settings.contact_radius);
-  // A relative half turn: the handles turn by a quarter each, in opposite directions.
+  // A relative half turn: the handles rotate by a quarter turn each, in opposite directions.
   const double end = scene.settings.time_step * static_cast<double>(scene.settings.steps);
   CHECK(std::abs(scene.motions[0].angular_velocity - scene.motions[1].angular_velocity) * end ==
         Approx(std::numbers::pi));

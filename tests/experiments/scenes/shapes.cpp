@@ -28,7 +28,7 @@ Vec3 normal(const Mesh& mesh, const Triangle& t) {
   return cross(difference(mesh.positions[at(t[1])], a), difference(mesh.positions[at(t[2])], a));
 }
 
-/// Returns the volume inside a surface that faces outward [m³].
+/// Returns the volume inside a surface with outward normals [m³].
 double volume_of(const Mesh& mesh) {
   double volume = 0;
   for (const Triangle& t : mesh.triangles)
@@ -162,7 +162,7 @@ TEST_CASE("a capsule is a closed surface that looks outwards, with every vertex 
     const Vec3 off = difference(v, {from.x + share * axis.x, from.y + share * axis.y, from.z + share * axis.z});
     CHECK(std::sqrt(dot(off, off)) == Approx(0.125).margin(2e-6));
   }
-  // It is 3 % below the round one: a polygon of 32 corners around, eight rings to each pole.
+  // 3 % below the round capsule: a polygon of 32 corners around, eight rings to each pole.
   CHECK(volume_of(mesh) == Approx(std::numbers::pi * 0.125 * 0.125 * (length + 4.0 / 3 * 0.125)).epsilon(0.03));
   CHECK(validate(capsule({3, 1, 1}, 0.125, from, to)).empty());
 }

@@ -1,4 +1,4 @@
-// Measures the start and the motions of stitched scenes for their tests.
+// Measures starts and motions of stitched scenes for their tests.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ inline double distance_of(const compare::Vec3& a, const compare::Vec3& b) {
   return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
-/// Returns the largest distance of a spring's vertex from its point [m].
+/// Returns the largest distance between a spring's vertex and its point [m].
 inline double largest_gap(const compare::Scene& scene) {
   double largest = 0;
   for (const compare::Spring& s : scene.springs) {
@@ -29,7 +29,8 @@ inline double largest_gap(const compare::Scene& scene) {
   return largest;
 }
 
-/// Counts of intersections at the start outside rigid groups: those that the scene excludes, and others, by the oracle.
+/// Counts intersections at the start outside rigid groups, as the oracle finds them: between stitched or excluded
+/// partners, and all others.
 struct StitchedStart {
   std::size_t between_partners = 0, others = 0;
 };
@@ -56,7 +57,7 @@ inline double largest_edge_strain(const compare::Scene& scene, const compare::Bo
   return largest;
 }
 
-/// Returns the largest way of a prescribed vertex in one step [m].
+/// Returns the largest distance that a prescribed vertex moves in one step [m].
 inline double largest_step(const compare::Scene& scene) {
   double largest = 0;
   for (const compare::PrescribedMotion& motion : scene.motions) {

@@ -26,7 +26,7 @@ std::vector<std::string> lines_of(const std::filesystem::path& path) {
   return lines;
 }
 
-/// Runs a grid of cloth_on_sphere at scale smoke to its end.
+/// Runs a grid of cloth_on_sphere at scale smoke.
 ProgramResult whole_grid(const std::string& options, const std::filesystem::path& out) {
   const ProgramResult result = run_ogc("ablate cloth_on_sphere --scale smoke " + options + " --out " + out.string());
   INFO(result.err);
@@ -100,7 +100,7 @@ const std::string repeated =
 const std::vector<std::string> repeated_runs{"iterations=5,seed=7", "iterations=10,seed=7", "iterations=5,seed=8",
                                              "iterations=10,seed=8"};
 
-/// Returns the cell of a row of a CSV without quoted commas.
+/// Returns the cell in column `name`. The CSV has no quoted commas.
 std::string cell(const std::string& line, const std::string& header, const std::string& name) {
   std::istringstream names(header), cells(line);
   std::string key, value;
@@ -139,7 +139,7 @@ TEST_CASE("a repeated ablation that signals cut off ends with the runs of one th
   INFO(result.err);
   REQUIRE(result.status == 0);
   for (const std::string& run : repeated_runs) check_same_run(whole / run, cut / run);
-  // The run was cut off when only its first folder existed. A folder with a foreign file must not be removed.
+  // The grid is interrupted when only this run's first folder exists. A folder with a foreign file must not be removed.
   std::filesystem::remove_all(cut / repeated_runs[1]);
   std::filesystem::create_directories(cut / repeated_runs[1] / "frames");
   REQUIRE(run_ogc(repeated + cut.string()).status == 0);
@@ -198,7 +198,7 @@ TEST_CASE("tasks of an array job make the runs of an ablation, and the command t
   CHECK_THAT(script, Contains("--array=0-3\n") && Contains("'" + out.string() + "'") && Contains(" --residual ") &&
                          Contains("--repeat '2'"));
   CHECK(!std::filesystem::exists(out / "ablation.csv"));
-  // A cluster of one task after the other; this srun just runs the command.
+  // Imitates a cluster that runs one task after the other; srun here only runs its command.
   const std::string array = "for i in 3 1 0 2; do SLURM_ARRAY_TASK_ID=$i PATH=\"" + (folder / "bin").string() +
                             ":$PATH\" bash \"" + (out / "slurm_array.sh").string() + "\" 2>/dev/null || exit 1; done; ";
   std::filesystem::create_directories(folder / "bin");

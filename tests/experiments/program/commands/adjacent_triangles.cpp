@@ -1,4 +1,4 @@
-// Tests two triangles that share an edge and cross in their plane: audits find them, and no run begins from them.
+// Tests two triangles in one plane that share an edge and overlap: audits find them, and no run starts from them.
 #include "compare/files/bytes.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/program.hpp"

@@ -7,7 +7,7 @@
 using namespace ogc;
 using namespace ogc::tests;
 
-// The edges from vertex 3 (below) to 4 and to 5 (above) cross the plane z = 0 inside triangle 0; OBJ counts from 1.
+// The edges from vertex 3 (below) to 4 and 5 (above) cross the plane z = 0 inside triangle 0. OBJ counts from 1.
 TEST_CASE("ogc audit of crossing triangles exits 1 and lists the pairs", "[unit]") {
   const TemporaryFolder folder;
   const std::string mesh = folder.write("crossing.obj", crossing_triangles_obj).string();
@@ -32,8 +32,8 @@ TEST_CASE("ogc audit of separate triangles exits 0", "[unit]") {
   CHECK(nlohmann::json::parse(result.out).at("clean") == true);
 }
 
-// Of two equal right triangles, 1 mm apart, every vertex is 1 mm from the other triangle and every edge 1 mm from its
-// twin; the lowest numbers are named.
+// In two equal right triangles 1 mm apart, every vertex is 1 mm from the other triangle, and every edge 1 mm from the
+// equal edge. The primitives with the lowest numbers are named.
 TEST_CASE("ogc audit gives the smallest distances with their primitives, in words and as JSON", "[unit]") {
   const TemporaryFolder folder;
   const std::string mesh = folder.write("parallel.obj", parallel_triangles_obj).string();
@@ -86,7 +86,7 @@ std::vector<std::string> intersecting(const nlohmann::json& verdict) {
   return names;
 }
 
-/// Writes frames 0 to 11 of a folder; those from 10 on cross.
+/// Writes frames 0 to 11 to a folder. Frames 10 and 11 intersect.
 void write_frames(const TemporaryFolder& folder) {
   for (int k = 0; k < 12; ++k)
     folder.write("frame_" + std::to_string(k) + ".obj", k < 10 ? parallel_triangles_obj : crossing_triangles_obj);
@@ -174,7 +174,7 @@ TEST_CASE("an audit of curves says that states say nothing about them, not that 
   CHECK(nlohmann::json::parse(run_ogc("audit --json " + mixed).out).at("clean") == true);
 }
 
-// The two triangles that cross are the whole mesh, and so are the two edges that pierce.
+// The mesh of the intersections contains both triangles and both piercing edges.
 TEST_CASE("the option --show writes what intersects as a mesh that can be audited itself", "[unit]") {
   const TemporaryFolder folder;
   write_frames(folder);

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Frames as other programs write them, by NumPy and VTK themselves: `ogc audit` must find the one that intersects, and
-nothing in the others.
+"""Tests `ogc audit` on frames in formats of other programs, written by NumPy and VTK: it must find the intersecting
+frame and nothing in the others.
 
-    tests/experiments/program/commands/audit_frames.py PROGRAM      exit status 77 where NumPy or VTK are missing
+    tests/experiments/program/commands/audit_frames.py PROGRAM      exit status 77 if NumPy or VTK is missing
 """
 
 import itertools
@@ -32,7 +32,7 @@ TRIANGLES = numpy.array([[0, 1, 2], [3, 4, 5]])
 
 
 def positions():
-    """A triangle, and another one that comes down to it by 1 mm a frame and has pierced it from frame 10 on."""
+    """Returns a triangle and another one above it, which comes down by 1 mm a frame and pierces it from frame 10 on."""
     lower = numpy.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype=float)
     upper = numpy.array([[0.2, 0.2, 0.0095], [0.3, 0.2, 0.5], [0.2, 0.3, 0.5]])
     return numpy.array([numpy.vstack([lower, upper - [0, 0, 0.001 * k]]) for k in range(FRAMES)])
@@ -45,8 +45,8 @@ def audit(*arguments, status):
 
 
 def check(verdict, name, distances):
-    """All frames were audited, the first bad one is named, and the distances are those of the numbers that were
-    stored."""
+    """Checks that all frames were audited, that the first bad frame is named, and that distances follow from the stored
+    numbers."""
     assert len(verdict["states"]) == FRAMES and verdict["complete"]
     assert [state["count"] > 0 for state in verdict["states"]] == [k >= FIRST_BAD for k in range(FRAMES)]
     assert verdict["first_intersecting"].endswith(name), verdict["first_intersecting"]
@@ -90,7 +90,7 @@ def save_vtp(file, points, mode, compressor, header, encode, order):
     writer.SetDataMode({"ascii": writer.Ascii, "binary": writer.Binary, "appended": writer.Appended}[mode])
     if compressor:
         writer.SetCompressorTypeToZLib()
-        writer.SetBlockSize(64)  # several blocks, and a last one that is shorter
+        writer.SetBlockSize(64)  # several blocks, the last one shorter
     else:
         writer.SetCompressorTypeToNone()
     writer.SetHeaderType(header)
@@ -118,7 +118,8 @@ def check_arrays(folder):
 
 
 def check_layouts(folder):
-    """Fortran order, short names, SMPL's names, one array a frame, and faces in an array: the same verdict."""
+    """Checks Fortran order, short names, SMPL's names, one array for each frame, and faces in an array: all have the
+    same verdict."""
     frames, fortran = positions(), numpy.asfortranarray
     faces, distances = fortran(TRIANGLES), frames[:, 3, 2]
     mesh = folder / "mesh.obj"
@@ -148,7 +149,8 @@ def check_layouts(folder):
 
 
 def printed(folder, name, digits, gap):
-    """Two slanted sheets `gap` apart, as a file whose coordinates are printed in this way; what an audit says."""
+    """Returns what an audit prints about two slanted sheets, `gap` apart, whose coordinates are printed in this
+    format."""
     count = 6
     corner = numpy.arange(count * count).reshape(count, count)
     a, b, c, d = (part.ravel() + 1 for part in (corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1]))
@@ -166,7 +168,8 @@ def printed(folder, name, digits, gap):
 
 
 def check_digits(folder):
-    """A file whose last digit is coarser than its smallest distance says so; one of 17 digits does not."""
+    """Checks that a file whose last digit exceeds its smallest distance causes a warning, and a file with 17 digits
+    does not."""
     state, words, found = printed(folder, "all.obj", "%.17g", 1e-12)
     assert found == 0 and "printed" not in state and not words
     state, words, found = printed(folder, "nine.obj", "%.9g", 1e-12)
@@ -178,7 +181,7 @@ def check_digits(folder):
     assert found == 0 and "printed" not in state and not words
     state, words, found = printed(folder, "pierced.obj", "%.9g", -0.0)
     assert found > 0 and state["printed"]["doubtful_intersections"] > 0
-    # An intersection deeper than any rounding is nobody's doubt.
+    # An intersection deeper than the rounding is not doubtful.
     (folder / "deep.obj").write_text("".join(f"v {x:.9f} {y:.9f} {z:.9f}\n" for x, y, z in positions()[11] / 1.1) +
                                      "f 1 2 3\nf 4 5 6\n")
     verdict = audit(folder / "deep.obj", status=1)
@@ -211,7 +214,8 @@ def two_tetrahedra(points):
 
 
 def check_vtk(folder):
-    """The older format in text and bytes, with cells as versions before and from 5 write them, and grids in XML."""
+    """Checks the older format in text and bytes, with cells as versions before 5 and from 5 on write them, and grids in
+    XML."""
     frames = positions()
     corner = numpy.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
     solids = numpy.vstack([corner, corner + [0, 0, 2]])
@@ -230,7 +234,7 @@ def check_vtk(folder):
             verdict = audit(save(writer, poly_data(points), "surface.vtk"), status=int(bad))
             if not bad:
                 found = verdict["states"][0]["smallest_distances"]["vertex_triangle"]["distance"]
-                assert abs(found - frames[0, 3, 2]) < 1e-9, found  # VTK writes text with ten digits or so
+                assert abs(found - frames[0, 3, 2]) < 1e-9, found  # VTK writes text with about ten digits
         writer = vtkUnstructuredGridWriter()
         writer.SetFileVersion(version)
         (writer.SetFileTypeToBinary if binary else writer.SetFileTypeToASCII)()
@@ -246,7 +250,7 @@ def check_vtk(folder):
 
 
 def check_interrupted(folder):
-    """An interrupt ends the audit long before the last frame; what was found until then is said."""
+    """Checks that an interrupt ends the audit long before the last frame, with a report of what was found before."""
     count, side = 400, 80
     x, y = numpy.meshgrid(numpy.arange(side) * 0.01, numpy.arange(side) * 0.01)
     sheet = numpy.stack([x.ravel(), y.ravel(), 0.01 * numpy.sin(9 * x.ravel())], axis=1)
@@ -264,7 +268,7 @@ def check_interrupted(folder):
 
 
 def check_refused(folder):
-    """Damage is named by file, frame and byte, and what could be read before it is reported."""
+    """Checks that damage is named by file, frame and byte, and that everything read before it is reported."""
     frames = positions()
     numpy.savez(folder / "names.npz", cloth=frames, triangles=TRIANGLES)
     message = audit(folder / "names.npz", status=2)
@@ -292,7 +296,8 @@ def check_refused(folder):
 
 
 def check_drawn(folder):
-    """What meets in one frame is drawn from what `--show` wrote: two pictures side by side, neither of one colour."""
+    """Checks that the intersections of one frame are drawn from the file of `--show`: two pictures side by side, each
+    of several colours."""
     from plots import offenders, render
     if not render.available()[0]:
         return

@@ -1,5 +1,5 @@
-// Tests bad input in the place of a number or a path: it is refused by name, in a few words, with exit status 2, never
-// by a crash, an internal error or a wait.
+// Tests bad numbers and paths: the message is short and names them, the exit status is 2, and there is no crash,
+// internal error or hang.
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Checks that the input is refused with exit status 2 and all of `parts` in one short message.
+/// Checks that the input is refused with exit status 2 and one short message that contains all of `parts`.
 void check_refused(const std::string& arguments, std::initializer_list<std::string> parts,
                    const std::string& before = "") {
   constexpr std::size_t longest_message = 460;
@@ -31,7 +31,7 @@ void check_refused(const std::string& arguments, std::initializer_list<std::stri
   CHECK(result.err.size() <= longest_message);
 }
 
-/// Returns the options of a command whose values are numbers, read from its help.
+/// Returns the options of a command that take numbers, as its help lists them.
 std::set<std::string> numeric_options(const std::string& command) {
   const std::string help = run_ogc(command + " --help").out;
   const std::regex option("\n *(--[a-z-]+) (?:INT|UINT|FLOAT)\\b");
@@ -85,7 +85,7 @@ TEST_CASE("a number that an option can't take is refused by the option's name, t
   check_refused("run --solver " + std::string(5000, 'x'), {"--solver", "xxxx…"});
 }
 
-// The test covers options that are added later, too.
+// Options are read from the help, so that the test covers new ones.
 TEST_CASE("no numeric option of any command takes what is no number, or none of this world", "[property]") {
   std::size_t asked = 0;
   const std::set<std::string> all = commands();
@@ -205,7 +205,7 @@ TEST_CASE("a folder that the user may not write to is refused by path and reason
   fs::create_directories(folder / "closed");
   fs::permissions(folder / "closed",
                   fs::perms::owner_read | fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec);
-  // Root may write everywhere, so another user runs the program.
+  // Root may write everywhere, so the program runs as another user.
   const std::string as_user = ::geteuid() == 0 ? "setpriv --reuid 65534 --regid 65534 --clear-groups " : "";
   if (run_ogc("--version", as_user).status != 0) {
     WARN("this program can't be run as another user here: not tested");

@@ -1,4 +1,5 @@
-// Tests `ogc audit` on the ways between frames: it reports that it did not look, or with --between what meets on them.
+// Tests `ogc audit` on the ways between frames: it reports that it did not check them or, with --between, what meets on
+// them.
 #include <nlohmann/json.hpp>
 
 #include "compare/files/bytes.hpp"
@@ -10,7 +11,7 @@ using namespace ogc::tests;
 
 namespace {
 
-/// Returns a triangle at this height over one at height 0.
+/// Returns a mesh of two triangles, one at this height above the other at height 0.
 std::string two_triangles(const std::string& height) {
   return "v 0 0 0\nv 4 0 0\nv 0 0 4\nv 0.5 " + height + " 0.5\nv 2 " + height + " 0.5\nv 0.5 " + height +
          " 2\nf 1 2 3\nf 4 5 6\n";
@@ -29,7 +30,8 @@ std::string frames(const TemporaryFolder& folder, const std::vector<std::string>
 
 }  // namespace
 
-// From 1 to −1 the upper triangle is at 0 half way: its three vertices meet the lower one, and no edge meets an edge.
+// From 1 to −1 the upper triangle is at 0 half way. Its three vertices meet the lower triangle there, and no edges
+// meet.
 TEST_CASE("two sheets that change places between two frames meet, where the straight ways are asked", "[unit]") {
   const TemporaryFolder folder;
   const std::string files = frames(folder, {"2", "1", "-1"});
@@ -67,7 +69,7 @@ TEST_CASE("no way leads to a frame of another mesh: its name, and what came befo
   const std::string other = (folder / "frame_2.obj").string();
   compare::write_bytes(other, "v 0 0 0\nv 4 0 0\nv 0 0 4\nf 1 2 3\n");
   const ProgramResult result = run_ogc("audit --between" + files + " " + other);
-  CHECK(result.status == 1);  // because of the meetings before it
+  CHECK(result.status == 1);  // because of the earlier meetings
   CHECK(contains(result.err, {"frame_2.obj has other triangles than", "frame_1.obj", "leave --between out"}));
   CHECK(contains(result.out, {"1 straight way between them asked exactly, 3 meetings"}));
 }

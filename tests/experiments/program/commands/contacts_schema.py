@@ -1,7 +1,7 @@
-"""Holds the output of `ogc contacts --json` against the schema that `ogc contacts --schema` prints, and the schema
-against the output: every key of it appears.
+"""Checks the output of `ogc contacts --json` against the schema that `ogc contacts --schema` prints, and the schema
+against the output: every key of the schema occurs.
 
-Usage: contacts_schema.py OGC SOURCE_DIR. Exit status 77: skipped, jsonschema is missing (the reason is printed).
+Usage: contacts_schema.py OGC SOURCE_DIR. Exit status 77: skipped because jsonschema is missing (a message says so).
 """
 
 import json
@@ -16,7 +16,8 @@ except ImportError as error:
     print(f"SKIPPED: {error}")
     sys.exit(77)
 
-# Two sheets that cross above each other, a third page on one edge, a thread: each kind of edge but a closed surface's,
+# Two sheets that cross above each other, a third triangle on one edge, and a thread: all kinds of contacts, and all
+# kinds of edges except those of closed surfaces.
 # and of contact.
 MESH = """
 v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.1\nv 0.5 0.4 -0.6
@@ -33,7 +34,7 @@ def ogc(program, *arguments):
 
 
 def keys_of_schema(schema, inside=()):
-    """Paths of keys that objects of the schema may have, through arrays and references."""
+    """Yields the paths of the keys in the schema's objects, through arrays and references."""
     if "$ref" in schema:
         return keys_of_schema(DEFINITIONS[schema["$ref"].rsplit("/", 1)[1]], inside)
     found = set()
@@ -45,7 +46,7 @@ def keys_of_schema(schema, inside=()):
 def keys_of(document, inside=()):
     if isinstance(document, list):
         return set().union(*[keys_of(item, inside) for item in document])
-    if not isinstance(document, dict) or inside == ("filters",):  # whose keys are names of predicates
+    if not isinstance(document, dict) or inside == ("filters",):  # its keys are names of predicates
         return set()
     return set().union(*[{(*inside, key)} | keys_of(inner, (*inside, key)) for key, inner in document.items()])
 

@@ -40,8 +40,8 @@ TEST_CASE("what ogc export writes reads back to the same bits, in every format",
       const compare::Frame frame = reader.frame(i);
       const std::string file = out + "/" + compare::frame_name(frame.step) + "." + format;
       INFO(file);
-      CHECK_FALSE(compare::printed_digits(file));  // files print all digits of a double
-      if (format == "vtu") {                       // this format stores its points raw
+      CHECK_FALSE(compare::printed_digits(file));  // files contain all digits of a double
+      if (format == "vtu") {                       // stores its points in binary
         std::string bytes(frame.positions.size() * sizeof(compare::Vec3f), '\0');
         std::memcpy(bytes.data(), frame.positions.data(), bytes.size());
         CHECK(compare::read_bytes(file).find(bytes) != std::string::npos);
@@ -49,7 +49,7 @@ TEST_CASE("what ogc export writes reads back to the same bits, in every format",
       }
       const compare::Mesh mesh = compare::read_mesh(file);
       CHECK(mesh.triangles == reader.scene().mesh.triangles);
-      CHECK(mesh.positions == compare::to_double(frame.positions));  // as doubles, not rounded again
+      CHECK(mesh.positions == compare::to_double(frame.positions));  // exact as doubles, without further rounding
     }
   }
 }

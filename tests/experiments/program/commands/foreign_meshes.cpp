@@ -1,5 +1,5 @@
-// Tests meshes of other programs: they load, each change to them is reported, and `ogc audit` and `ogc contacts` accept
-// them.
+// Tests meshes of other programs: they are loaded, each change to them is reported, and `ogc audit` and `ogc contacts`
+// accept them.
 #include <nlohmann/json.hpp>
 
 #include <set>

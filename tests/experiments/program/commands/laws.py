@@ -1,6 +1,6 @@
-"""Asks every law at its least size, as CI does: no row is broken, and what the program prints is what its schema says.
+"""Runs every law at its smallest size, as CI does: no row is broken, and the output matches its schema.
 
-Usage: laws.py OGC. Without jsonschema the schema is not looked at, and that is said.
+Usage: laws.py OGC. Without jsonschema the schema is not checked, and a message says so.
 """
 
 import json

@@ -17,7 +17,7 @@ using namespace ogc::tests;
 
 namespace {
 
-/// Returns two free triangles, each a body, that cross or are 1 mm apart.
+/// Returns two free triangles, each a body. They intersect or are 1 mm apart.
 compare::Scene two_triangles(bool crossing) {
   compare::Scene scene;
   scene.name = "two_triangles";
@@ -71,7 +71,7 @@ TEST_CASE("the smoke runs of all scenes keep the guarantee and leave a readable 
     CHECK(last.step == reader.scene().settings.steps);
     CHECK(experiments::state_hash(last.positions) == json.at("final_hash"));
     CHECK(reader.frame(0).positions == compare::to_single(reader.scene().mesh.positions));
-    // A scene about contact without any contact tests nothing; one scene is about frames of rods instead.
+    // A scene about contact must have contacts; turning_rod is about frames of rods instead.
     CHECK((name == "turning_rod" || std::ranges::any_of(compare::read_steps(folder / "run").rows, [](const auto& row) {
              return row.vertex_facet_contacts + row.edge_edge_contacts + row.volume_contacts > 0;
            })));
@@ -210,7 +210,7 @@ TEST_CASE("Newton runs a scene into the same kind of folder, keeps the guarantee
   std::getline(iterations, first);
   CHECK(header.find("residual [1]") != std::string::npos);
   CHECK(header.ends_with("condition_number [1],condition_without_friction [1],condition_without_contact [1]"));
-  CHECK(first.find("nan") == std::string::npos);  // the condition numbers are there
+  CHECK(first.find("nan") == std::string::npos);  // all condition numbers are numbers
 }
 
 TEST_CASE("IPC runs a scene into the same kind of folder, without an intersection, and counts its detections by kind",
@@ -232,7 +232,7 @@ TEST_CASE("IPC runs a scene into the same kind of folder, without an intersectio
     CHECK(row.discrete_detections >= row.iterations);
   }
   CHECK(table.rows.back().vertex_facet_contacts > 0);
-  // The run starts from a stored state, as timed windows of long runs do.
+  // The run starts from a stored state, like the timed windows of long runs.
   const ProgramResult window = run_ogc("run cloth_on_sphere --scale smoke --solver ipc --steps 13 --from-state " + run +
                                        "/frames/frame_000012.h5 --out " + run + "_window");
   INFO(window.err);
@@ -247,7 +247,7 @@ TEST_CASE("rows an iteration end where the step ends, in scenes with prescribed 
       "/frames/frame_000030.h5 --out " + out);
   const compare::StepTable table = compare::read_steps(out);
   REQUIRE(table.rows.size() == 1);
-  // With contacts, the end's contacts would differ.
+  // The residual is comparable only without contacts, because the end of the step could have others.
   REQUIRE(table.rows[0].vertex_facet_contacts + table.rows[0].edge_edge_contacts == 0);
   std::ifstream file(folder / "run" / "iterations.csv");
   std::string line, last;
@@ -280,7 +280,7 @@ TEST_CASE("vbd in single and in double record their residual over iterations of 
     while (std::getline(file, line)) {
       if (!line.starts_with("9,")) continue;
       ++rows;
-      detections += line.ends_with(",1,nan,nan,nan");  // no matrix, no condition numbers
+      detections += line.ends_with(",1,nan,nan,nan");  // without a matrix there are no condition numbers
     }
     CHECK(rows == 61);
     CHECK(detections >= 11);
@@ -310,7 +310,7 @@ TEST_CASE("a run says where its time went, in its summary and in run.json", "[un
     CHECK(seconds.at(part) > 0);
     sum += seconds.at(part).get<double>();
   }
-  // The parts are times of one thread and do not overlap, except the wait for the disk before the first step.
+  // The parts are times of one thread. They do not overlap, except for the wait for the disk before the first step.
   CHECK(sum - seconds.at("start").get<double>() < seconds.at("whole"));
   double rows = 0;
   for (const compare::StepMetrics& row : compare::read_steps(folder / "run").rows) rows += row.wall_ms / 1000;

@@ -51,7 +51,7 @@ TEST_CASE("ogc scenes NAME --write keeps files that are there, unless --force sa
   CHECK(contains(refused.err, {mine, "twist_cloth.ply", "--force"}));
   CHECK(compare::read_bytes(folder / "mine/twist_cloth.ply") == "edited");
   CHECK(std::distance(std::filesystem::directory_iterator(folder / "mine"), {}) ==
-        1);  // the scene's file beside it is not written either
+        1);  // the scene's own file was not written either
   CHECK(run_ogc("scenes fifty_layers --scale smoke --write " + mine).status == 0);
   CHECK(run_ogc(command + " --force").status == 0);
   CHECK(compare::read_bytes(folder / "mine/twist_cloth.ply") == mesh);

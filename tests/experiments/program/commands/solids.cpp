@@ -1,4 +1,4 @@
-// Tests a user's own solid: an MSH alone, and in a scene beside cloth.
+// Tests users' solids: an MSH file alone, and in a scene with cloth.
 #include <algorithm>
 #include <string>
 
@@ -32,7 +32,7 @@ Finished run(const TemporaryFolder& folder, const std::string& words) {
   return {result, reader.scene(), reader.frame(reader.frame_count() - 1)};
 }
 
-/// Returns the lowest and highest y of a body's vertices at the end [m].
+/// Returns the lowest and the highest y of a body's vertices at the end [m].
 std::pair<float, float> lowest_and_highest(const Finished& run, const compare::Body& body) {
   const auto first = run.last.positions.begin() + body.first_vertex;
   const auto [low, high] = std::minmax_element(first, first + body.vertex_count,
@@ -53,7 +53,7 @@ TEST_CASE("an MSH alone falls on a ground as a solid, of the material that is se
   CHECK(solid.tetrahedron_count == 162);
   CHECK(solid.material.solid_mu == Approx(5e4 / 2.5));
   CHECK(solid.material.solid_lambda == Approx(5e4 * 0.25 / (1.25 * 0.5)));
-  // Its weight, 500 Pa at its foot or 1 % of Young's modulus, hardly changes its height.
+  // Its own weight hardly changes its height: 500 Pa at its foot is 1 % of Young's modulus.
   const auto [low, high] = lowest_and_highest(end, solid);
   CHECK(low > 0.1f);
   CHECK(low < 0.1 + 2 * end.scene.settings.contact_radius);

@@ -1,4 +1,4 @@
-// Tests scenes with volumes: which solvers refuse them, and what a run reports of them.
+// Tests scenes with volumes: which solvers refuse them, and what runs report about them.
 #include <string>
 
 #include <nlohmann/json.hpp>

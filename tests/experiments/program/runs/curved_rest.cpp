@@ -15,7 +15,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// Returns a strip of `cells` × 2 cells along x that bends by `degrees` at each line across.
+/// Returns a strip of `cells` × 2 cells along x that bends by `degrees` at each transverse line.
 compare::Mesh strip(int cells, double degrees) {
   compare::Mesh mesh;
   double x = 0, y = 0;
@@ -53,7 +53,7 @@ compare::Scene scene_of(double degrees, compare::BendingModel model = compare::B
 
 }  // namespace
 
-// The lines across at 1, 2 and 3 cells have two bent edges each; edges along a cell and its diagonal stay flat.
+// The transverse lines at 1, 2 and 3 cells have two bent edges each; longitudinal edges and diagonals stay flat.
 TEST_CASE("a rest shape that isometric bending does not know is named with its largest angle and the model to take",
           "[unit]") {
   const std::string text = curved_rest_warning(scene_of(15));

@@ -1,4 +1,4 @@
-// Tests a start that is moved at random: by how much, which vertices, and to which bits.
+// Tests random offsets of a start: their size, the vertices that they move, and their bits.
 #include "experiments/program/runs/jitter.hpp"
 
 #include <cmath>
@@ -28,7 +28,7 @@ std::vector<Vec3f> jittered(const compare::Scene& scene, const experiments::Jitt
   return positions;
 }
 
-/// The final hash of a run, its jitter and seed as run.json has them, and the positions of its first frame.
+/// Holds a run's final hash, its jitter and seed in run.json, and the positions of its first frame.
 struct ShortRun {
   std::string hash, first;
   std::vector<Vec3f> start;
@@ -54,7 +54,7 @@ TEST_CASE("jitter moves free vertices alone, each coordinate by up to so much, a
   const std::vector<compare::Index> groups = rigid_groups(scene);
   const float largest = GENERATE(1e-6f, 1e-4f);
   const std::vector<Vec3f> moved = jittered(scene, {.largest = largest, .seed = 3});
-  // Storing adds half a spacing of the coordinates, which are below 1 m.
+  // Storing rounds coordinates below 1 m by at most half a spacing.
   const double room = static_cast<double>(largest) + 0x1p-25;
   double lowest = 0, highest = 0, sum = 0;
   std::size_t count = 0;
@@ -74,12 +74,12 @@ TEST_CASE("jitter moves free vertices alone, each coordinate by up to so much, a
   REQUIRE(count > 300);
   CHECK(lowest < -0.95 * static_cast<double>(largest));
   CHECK(highest > 0.95 * static_cast<double>(largest));
-  // The mean of `count` uniform offsets has the deviation largest/√(3 count); the limit is five of them.
+  // The mean of `count` uniform offsets has the standard deviation largest/√(3 count); the limit is five of these.
   CHECK(std::abs(sum) < 5 * static_cast<double>(largest) * std::sqrt(static_cast<double>(count) / 3));
 }
 
-// Integer arithmetic in another language gives these numbers (Python, from the hash of random.hpp). On a machine on
-// which they differ, runs of one seed would differ, too.
+// The numbers were computed by integer arithmetic in Python, from the hash of random.hpp. A machine with other numbers
+// would have other runs for the same seed.
 TEST_CASE("an offset depends on seed, vertex and coordinate alone, to the bit", "[unit]") {
   compare::Scene scene = twist();
   const experiments::Jitter jitter{.largest = 0x1p-10, .seed = 7};
@@ -156,7 +156,7 @@ TEST_CASE("jitter that a start can't have is refused by name, with the reason, b
   refused(scene + "--seed 3", {"--seed", "--jitter"});
   refused(scene + "--jitter 1e-6 --seed -1", {"--seed", "-1"});
   refused(scene + "--jitter 1e-6 --seed 1.5", {"--seed", "1.5"});
-  // Two sheets are a tenth of the jitter apart, so the audit of the start finds what its range does not.
+  // The sheets are closer than the jitter. Only the audit of the start finds that they intersect.
   const std::string mesh = folder
                                .write("near.obj",
                                       "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.2 1e-5\nv 0.6 0.2 1e-5\nv 0.2 0.6 1e-5\n"

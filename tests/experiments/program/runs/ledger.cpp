@@ -1,4 +1,4 @@
-// Tests the ledger of real runs: it changes no bit, adds up, and agrees with the rest of steps.csv and the frames.
+// Tests the ledger of real runs: it changes no bit, its parts add up, and it agrees with steps.csv and the frames.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,7 +31,7 @@ std::string header_of(const std::filesystem::path& run) {
   return text.substr(0, text.find('\n') + 1);
 }
 
-/// Returns the sum of the moduli of the energy's parts [J].
+/// Returns the sum of the absolute values of the energy's parts [J].
 double size_of(const StepLedger& l) {
   return std::abs(l.energy_start) + std::abs(l.energy_guess) + std::abs(l.energy_detection) + std::abs(l.energy_sweep) +
          std::abs(l.energy_truncation) + std::abs(l.energy_commit);
@@ -57,8 +57,8 @@ TEST_CASE("the option --ledger changes no bit, and without it steps.csv has the 
   CHECK(manifest.find("\"ledger\"") == std::string::npos);
 }
 
-// Energies are sums in double of some ten thousand terms, each rounded to 2⁻⁵³ of the partial sums: below 10⁻¹¹ of
-// their size. Momenta of the next step come from velocities rounded to 2⁻²⁴ of each coordinate.
+// Energies are sums of some ten thousand terms in double precision; their rounding is below 10⁻¹¹ of their size. The
+// next step's momenta come from velocities that are rounded to 2⁻²⁴ of each coordinate.
 TEST_CASE("the parts of a step add up to the start of the next, and to the energies and vertices of its end",
           "[property]") {
   const TemporaryFolder folder;
@@ -76,7 +76,7 @@ TEST_CASE("the parts of a step add up to the start of the next, and to the energ
     INFO("step " << rows[k].step);
     const double energy = rows[k].kinetic_energy + rows[k].elastic_energy + rows[k].contact_energy +
                           rows[k].gravity_energy;
-    // The row sums terms of single precision; the limit is a thousand times their rounding.
+    // The row adds terms in single precision; the limit is a thousand times their rounding.
     CHECK(std::abs(end_of(l) - energy) < 1e-4 * size_of(l));
     CHECK(l.motion_taken <= l.motion_proposed * (1 + 1e-12) + 1e-12);
     CHECK(l.motion_taken_tangential <= l.motion_taken * (1 + 1e-12));
@@ -98,7 +98,7 @@ TEST_CASE("the parts of a step add up to the start of the next, and to the energ
                          l.momentum_truncation.*coordinate;
       return std::abs(end - next.momentum_start.*coordinate);
     };
-    // Σ m |v| ≤ √(2 Σ m · kinetic energy), and every scene here weighs less than a kilogram.
+    // Σ m |v| ≤ √(2 Σ m · kinetic energy), and every scene here has a mass below a kilogram.
     const double size = std::sqrt(2 * rows[k].kinetic_energy) * 0x1p-23;
     CHECK(momentum(&compare::Vec3::x) < size);
     CHECK(momentum(&compare::Vec3::y) < size);
@@ -108,7 +108,7 @@ TEST_CASE("the parts of a step add up to the start of the next, and to the energ
   CHECK((taken > 0 || bounds == "planes"));
 }
 
-// A cloth falls far from everything: gravity's impulse is the guess's, and truncation takes nothing.
+// The cloth falls far from everything: the guess contains gravity's impulse, and truncation takes nothing.
 TEST_CASE("in free fall truncation does nothing", "[property]") {
   const TemporaryFolder folder;
   make(folder / "run", "cloth_on_sphere --scale smoke --steps 3 --ledger --audit off");

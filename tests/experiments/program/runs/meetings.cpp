@@ -1,5 +1,4 @@
-// Tests meetings of real runs: counting them changes no bit, runs with bounds have none, and runs without bounds count
-// them.
+// Tests meetings of real runs: counting changes no bit, runs with bounds have none, and runs without bounds have some.
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -16,8 +15,8 @@ using namespace ogc::tests;
 
 namespace {
 
-/// Returns a straight curve of four edges along x that sinks through a fixed one along z. Both are driven, so only
-/// bounds hold them.
+/// Returns a straight curve of four edges along x that sinks through a fixed curve along z. Both are driven, so that
+/// only bounds stop them.
 compare::Scene curve_through_curve(compare::Bounds bounds) {
   compare::Scene scene;
   scene.name = "curves";
@@ -84,7 +83,7 @@ TEST_CASE("a curve that is driven through a curve meets it once without bounds a
     if (bounds == compare::Bounds::off) CHECK(contains(result.err, {"meets edge", "of the motion"}));
     return nlohmann::json::parse(result.out);
   };
-  // In a scene with loose edges an audit of every step counts meetings without an option.
+  // In scenes with loose edges, audits of every step count meetings by default.
   const auto off = run("off", compare::Bounds::off, " --audit every");
   CHECK(off.at("audit").at("meetings") == 1);
   CHECK(off.at("audit").at("first_meeting") == 6);

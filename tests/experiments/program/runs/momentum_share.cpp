@@ -1,4 +1,4 @@
-// Compares the loss of a guess loop with values by hand: a share of what was to move, also if directions cancel.
+// Compares the loss of a guess loop with manual values: a share of the momentum, also if directions cancel.
 #include "experiments/program/runs/momentum_share.hpp"
 
 #include "experiments/scenes/shapes.hpp"
@@ -26,7 +26,7 @@ std::vector<compare::Vec3f> velocities(float left, float right) {
   return all;
 }
 
-/// Returns a row in which a solver made all rounds and lost the share `lost` of the step's own momentum.
+/// Returns a row of a step that did all guess rounds and lost the share `lost` of its net momentum.
 compare::StepMetrics row_of(std::int64_t step, double lost) {
   compare::StepMetrics row;
   row.step = step;
@@ -37,8 +37,8 @@ compare::StepMetrics row_of(std::int64_t step, double lost) {
 
 }  // namespace
 
-// Of a motion up at 1 m/s and down at 0.9 m/s the sum keeps a nineteenth, (1 − 0.9)/(1 + 0.9). If all of the motion
-// down is lost, that is 0.9/0.1 of the sum, and 0.9/1.9 of what was to move.
+// A motion up at 1 m/s and down at 0.9 m/s has a net momentum of (1 − 0.9)/(1 + 0.9), a nineteenth. If the whole motion
+// down is lost, the loss is 0.9/0.1 of the net momentum, and 0.9/1.9 of the sum of moduli.
 TEST_CASE("what is lost is a share of what was to move, whatever cancels in the sum", "[unit]") {
   MomentumShare share(two_sheets());
   share.begin_after(4, velocities(1, -0.9f));
@@ -60,7 +60,7 @@ TEST_CASE("nothing is said of steps whose start is not known, whose guess ended 
   CHECK(share.lost(row_of(6, 0)) == 0.0);
 }
 
-// The velocity that gravity adds in h = 10 ms counts: 98.1 mm/s down cancels 98.1 mm/s up.
+// Gravity changes velocities by 98.1 mm/s in h = 10 ms, which cancels a motion up at 98.1 mm/s.
 TEST_CASE("what gravity changes in the step is part of what was to move, and fixed bodies are not", "[unit]") {
   compare::Scene scene = two_sheets();
   scene.gravity = {0, -9.81, 0};

@@ -1,5 +1,5 @@
-// Tests that long runs react: however far the next frame is, a run checks for signals within a second, or after each
-// step that is longer.
+// Tests that long runs react to signals: a run checks for them within a second, or after each step if a step takes
+// longer, however far the next frame is.
 #include "experiments/program/runs/pace.hpp"
 
 #include <chrono>
@@ -26,7 +26,7 @@ namespace {
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-/// What a call to advance found in the folder when it began, and how long it took.
+/// Holds what a call of `advance` found in the folder at its begin, and its duration.
 struct Call {
   std::int64_t before = 0, steps = 0;
   double seconds = 0;
@@ -34,7 +34,7 @@ struct Call {
   std::int64_t saved = 0;  ///< step of the checkpoint
 };
 
-/// Simulates one triangle that stays in place, with steps that take a given time.
+/// Simulates one triangle at rest, with steps of a given duration.
 class SlowSimulation : public compare::Simulation {
  public:
   SlowSimulation(const compare::Scene& scene, std::filesystem::path folder, std::chrono::milliseconds step,
@@ -99,7 +99,7 @@ std::vector<Call> run_slowly(const std::filesystem::path& folder, std::int64_t s
   return calls;
 }
 
-/// Returns rows in the form of steps.csv, without times.
+/// Returns rows as steps.csv has them, without times.
 std::string rows_text(std::vector<compare::StepMetrics> rows) {
   for (compare::StepMetrics& row : rows) row.wall_ms = 0;
   return compare::step_lines(rows, 0);
@@ -173,7 +173,7 @@ TEST_CASE(
       "timeout --foreground --preserve-status -k 20 -s INT 2 ");
   INFO(solver << "\n" << result.err);
   CHECK(result.status == 130);
-  CHECK(seconds_since(begin) < 10);  // 2 s until the signal, 1 s to act; the rest for a machine with other work
+  CHECK(seconds_since(begin) < 10);  // 2 s until the signal, 1 s to react; the rest is for a busy machine
   CHECK(contains(result.err, {"stops after step"}));
   const compare::RunReader reader(run);
   CHECK(reader.provenance().status == "interrupted");

@@ -1,5 +1,5 @@
-// Tests runs that real signals cut off at random moments and that are resumed: everything but times is as in an
-// undisturbed run.
+// Tests runs that signals interrupt at random moments and that are resumed: everything but times equals an undisturbed
+// run.
 #include <map>
 
 #include "compare/files/bytes.hpp"
@@ -74,7 +74,7 @@ TEST_CASE("what can't be resumed to the same bits is refused, and the message sa
   refused({"steps.csv", "not every row"});
 }
 
-// resumed_run refuses before a simulation, its audits or its files begin, because they begin with what it returns.
+// A simulation, its audits and its files need the result of resumed_run, so that none of them has begun when it throws.
 TEST_CASE("what can't be resumed is refused before anything is computed, and the folder stays as it is", "[unit]") {
   const TemporaryFolder folder;
   const fs::path run = folder / "run";
@@ -129,7 +129,7 @@ TEST_CASE("the help of run says that every solver resumes", "[unit]") {
   CHECK(!contains(help, {"Not with --solver ipc"}));
 }
 
-// No file may be longer than 1900 blocks of 512 bytes: frames are shorter, the trajectory is longer.
+// The largest file size is 1900 blocks of 512 bytes: frames are smaller, the trajectory is larger.
 TEST_CASE("a run that a full disk ended exits 3, names the file, and goes on to the same bits when there is room",
           "[property]") {
   const TemporaryFolder folder;

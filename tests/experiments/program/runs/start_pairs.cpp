@@ -1,4 +1,4 @@
-// Tests runs that begin although faces meet (--tolerate-start): which pairs are left out, when they close, and what is
+// Tests runs whose start has intersections (--tolerate-start): which pairs are excluded, when they close, and what is
 // reported.
 #include "experiments/program/runs/start_pairs.hpp"
 
@@ -21,7 +21,8 @@ using experiments::StartPairs;
 
 namespace {
 
-/// Returns a triangle whose first corner is below a large fixed one and whose others are above; it rises at `speed`.
+/// Returns a triangle that rises at `speed`, with its first corner below a large fixed triangle and the other two
+/// above.
 compare::Scene tip_through_floor(double speed) {
   compare::Scene scene;
   scene.name = "tip";
@@ -72,7 +73,7 @@ std::vector<std::size_t> open_pairs(const std::filesystem::path& run) {
 
 }  // namespace
 
-// Both sides of the tip pass through the floor; their three vertices with each of the floor's three are nine pairs.
+// Both sides of the tip pass through the floor. Their three vertices and the floor's three make nine pairs.
 TEST_CASE("start pairs are the vertices of what meets, and close where nothing that has them meets", "[unit]") {
   compare::Scene scene = tip_through_floor(0);
   StartPairs pairs(scene, positions_of(scene));
@@ -81,14 +82,14 @@ TEST_CASE("start pairs are the vertices of what meets, and close where nothing t
   CHECK(pairs.tolerant_scene().excluded_pairs.size() == 9);
   CHECK(!pairs.close_apart(positions_of(scene)));
   scene.mesh.positions[1].y = -0.1;
-  // one side is apart, but the far one meets now, so its pairs stay open
+  // the tip's first side is free, but its opposite side now intersects, so that its pairs stay open
   CHECK(!pairs.close_apart(positions_of(scene)));
   scene.mesh.positions[2].y = -0.1;
   CHECK(pairs.close_apart(positions_of(scene)));
   CHECK(pairs.open() == 0);
   CHECK(pairs.tolerant_scene().excluded_pairs.empty());
   CHECK(pairs.named() == 9);
-  // Pairs that have closed stay closed.
+  // Closed pairs stay closed.
   scene = tip_through_floor(0);
   CHECK(!pairs.close_apart(positions_of(scene)));
   CHECK(pairs.open() == 0);
@@ -113,7 +114,7 @@ TEST_CASE("a start that intersects is left to come apart, says how far it is, an
   CHECK(open.front() == 9);
   CHECK(open.back() == 0);
   CHECK(std::ranges::is_sorted(open, std::greater{}));
-  // Thrown up at 0.6 m/s, it returns after 0.12 s and lies on the floor at 0.6 s.
+  // It rises at 0.6 m/s, returns after 0.12 s, and lies on the floor at 0.6 s.
   const compare::RunReader reader(run);
   CHECK(compare::audit(build_topology(reader.scene()),
                        compare::to_double(reader.frame(reader.frame_count() - 1).positions))
@@ -140,7 +141,7 @@ TEST_CASE("a clean start that is tolerated is an ordinary run, with a word", "[u
   CHECK(!nlohmann::json::parse(result.out).contains("start_pairs"));
 }
 
-// Every state is audited without the open pairs: whatever meets has an open pair, and the run ends with status 0.
+// Audits exclude only open pairs. Any other intersection would end the run with another status than 0.
 TEST_CASE("sheets that start through each other let no pair in that did not meet at the start, with every bound",
           "[property]") {
   const TemporaryFolder folder;
@@ -173,7 +174,7 @@ TEST_CASE("an audit prints what meets as a scene excludes it", "[unit]") {
   CHECK(state.at("excluded_pairs").size() == 1);
   CHECK(state.at("excluded_pairs")[0].at("bodies") == std::vector<std::string>{"cloth", "cloth"});
   CHECK(state.at("excluded_pairs")[0].at("vertices").size() == 9);
-  // A scene of this body accepts them, and begins.
+  // A scene file with these pairs is accepted, and its run starts.
   const nlohmann::json scene{{"format_version", 2},
                              {"bodies", {{{"name", "cloth"}, {"mesh", "m.obj"}}}},
                              {"excluded_pairs", state.at("excluded_pairs")},

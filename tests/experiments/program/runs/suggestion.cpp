@@ -1,4 +1,4 @@
-// Tests the promises of a suggestion, which are inequalities between its numbers and the mesh, on meshes that differ in
+// Tests the properties of suggestions, which are inequalities between numbers and the mesh, on meshes that differ in
 // one respect each.
 #include "experiments/program/runs/suggestion.hpp"
 
@@ -91,7 +91,7 @@ TEST_CASE("suggested numbers scale with the mesh, and are legal for the smallest
 
 namespace {
 
-/// Returns 17 × 5 vertices along x and z.
+/// Returns a strip of 17 × 5 vertices along x and z.
 compare::Mesh strip(double edge) {
   compare::Mesh mesh;
   for (compare::Index i = 0; i < 17; ++i)
@@ -104,8 +104,8 @@ compare::Mesh strip(double edge) {
   return mesh;
 }
 
-/// Returns how far the mesh, hung by its vertices of least x, sinks along x on average [m], with suggested settings but
-/// this many iterations, once it is at rest.
+/// Returns by how much the mesh sinks along x on average [m] when it hangs at rest from its vertices of least x.
+/// Settings are the suggested ones, with this number of iterations.
 double sunk(const compare::Mesh& mesh, const compare::Material& material, const Suggestion& found,
             std::int64_t iterations) {
   compare::Scene scene;
@@ -129,7 +129,8 @@ double sunk(const compare::Mesh& mesh, const compare::Material& material, const 
   return sum / static_cast<double>(mesh.positions.size());
 }
 
-/// Returns by which share it sinks further than with ten times as many sweeps, whose own share is its tenth power.
+/// Returns the share by which the mesh sinks further than with ten times as many sweeps. Their own share, the tenth
+/// power, is negligible.
 double measured_excess(const compare::Mesh& mesh, const compare::Material& material, const Suggestion& found) {
   const auto iterations = static_cast<std::int64_t>(found.iterations.value);
   return sunk(mesh, material, found, iterations) / sunk(mesh, material, found, 10 * iterations) - 1;
@@ -137,8 +138,8 @@ double measured_excess(const compare::Mesh& mesh, const compare::Material& mater
 
 }  // namespace
 
-// Strips of 4 × 16 cells hang by a short side. Edges of 6 cm need fewer sweeps than the limit for 1 %, edges of 2 cm
-// need more. The number derives from the exponent of method.md §7.7, about ln(1 + 1/number).
+// Strips of 4 × 16 cells hang by a short side. Edges of 6 cm need fewer sweeps for 1 % than the limit, edges of 2 cm
+// need more. The rate follows from the exponent of method.md §7.7, about ln(1 + 1/number).
 TEST_CASE("suggested iterations leave what hangs at most 1 % longer, or as much longer as is said", "[property]") {
   const auto hung = [](double edge) {
     const compare::Mesh mesh = strip(edge);

@@ -1,5 +1,5 @@
-// Tests warnings: a scene that is probably a mistake is reported once, with its number and a remedy; a right scene is
-// not.
+// Tests warnings: a probable mistake in a scene is reported once, with its number and a remedy; a correct scene causes
+// no warning.
 #include "experiments/program/runs/warnings.hpp"
 
 #include <fstream>
@@ -40,7 +40,7 @@ compare::StepMetrics numbered(std::int64_t step) {
   return row;
 }
 
-/// Returns the warnings at the end of a run of the scene, which its JSON and run.json both have.
+/// Returns the warnings at the end of a run of the scene, and checks that its JSON and run.json agree.
 std::vector<std::string> warnings_of(compare::Scene scene) {
   const TemporaryFolder folder;
   round_to_single(scene);
@@ -54,7 +54,7 @@ std::vector<std::string> warnings_of(compare::Scene scene) {
         warnings);
   const std::string last = words.out.substr(words.out.rfind('\n', words.out.size() - 2) + 1);
   for (const std::string& warning : warnings) CHECK_THAT(last, Contains(warning));
-  // Each kind is printed once while it runs.
+  // Each kind is printed once during the run.
   std::size_t said = 0;
   for (std::size_t at = words.err.find("warning: "); at != std::string::npos; at = words.err.find("warning: ", at + 1))
     ++said;
@@ -157,7 +157,7 @@ TEST_CASE("a run without bounds says at its first and last line that nothing is 
   CHECK_THAT(warnings[0], Contains("bounds=off") && Contains("guarantees nothing"));
 }
 
-// Bounds allow γ_p r_q = 0.45 · 40 mm a round in 16 rounds, at most 0.29 m a step, or 29 m/s with h = 10 ms. In free
+// Bounds allow γ_p r_q = 0.45 · 40 mm in each of 16 rounds, at most 0.29 m a step, or 29 m/s for h = 10 ms. In free
 // flight only truncation takes momentum.
 TEST_CASE("a run of a sheet thrown faster than its bounds allow warns; half as fast as they allow it does not",
           "[property]") {
@@ -170,7 +170,7 @@ TEST_CASE("a run of a sheet thrown faster than its bounds allow warns; half as f
   CHECK(warnings_of(scene).empty());
 }
 
-// By the same numbers a handle can follow at 29 m/s; this one moves at 100 m/s.
+// Bounds allow 29 m/s, as above; the handle moves at 100 m/s.
 TEST_CASE("a run whose handles fall behind by more than r warns with the lag", "[property]") {
   compare::Scene scene = sheet();
   compare::PrescribedMotion motion;
