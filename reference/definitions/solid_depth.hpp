@@ -45,7 +45,7 @@ class Solid {
   std::vector<std::vector<Index>> tetrahedra_of_;  ///< by vertex, ascending
   /// by tetrahedron and corner: the tetrahedron that shares the opposite triangle, or −1
   std::vector<std::array<Index, 4>> behind_;
-  std::vector<Index> owner_;                  ///< by triangle
+  std::vector<Index> owner_;  ///< by triangle
   std::vector<int> sign_;
   std::vector<std::uint8_t> doubtful_;
 };

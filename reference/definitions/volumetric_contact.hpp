@@ -14,8 +14,8 @@ compare::Topology surface_topology(const TetVolume& body, Index vertex_count);
 struct VolumetricContact {
   /// whether `depth` comes from the shortest path to the boundary; otherwise from Eq. 13 in an outward block
   bool inside = false;
-  Face face;            ///< boundary triangle at the end of that path, or the face of the block
-  double depth = 0;     ///< d_p + r inside, r − d outside [m], within 2 ulp; both are r on the surface
+  Face face;         ///< boundary triangle at the end of that path, or the face of the block
+  double depth = 0;  ///< d_p + r inside, r − d outside [m], within 2 ulp; both are r on the surface
 };
 
 /// Returns the contacts of x: one for each sheet that holds x, in the order of sheets. If no sheet holds x: one for

@@ -16,7 +16,7 @@ struct NearPair {
   std::array<compare::Index, 4> vertices{};
   std::size_t second_from = 1;
   float below = 0;                             ///< the distance, rounded down [m]
-  bool has_plane = false;  ///< whether all its vertices keep the plane in single precision, exactly
+  bool has_plane = false;                      ///< whether all its vertices keep the plane in single precision, exactly
   compare::Vec3f normal{};                     ///< n, from the first side to the second
   double first_offset = 0, second_offset = 0;  ///< upper limit of n·x on the first side, lower limit on the second [m]
 

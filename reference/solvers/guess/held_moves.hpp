@@ -63,7 +63,7 @@ class HeldMoves {
 
   std::vector<compare::Index> groups_;
   double radius_;
-  bool is_first_ = true;               ///< whether no round has taken place
+  bool is_first_ = true;  ///< whether no round has taken place
   std::vector<bool> stays_;
   std::vector<Triple<double>> taken_;  ///< t by vertex [m]
   std::vector<double> taken_error_;    ///< accepted error of another implementation's t [m]
