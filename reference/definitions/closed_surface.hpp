@@ -38,8 +38,8 @@ class ClosedSurface {
   /// Returns begins_outside; x must lie in U_a except for the distance (Eq. 8–10).
   bool outward(Face face, const Vec3f& x) const;
 
-  /// Checks whether x is in the outward part of U_a (§3.9), closed at r and at the surface: the outward half for a
-  /// triangle or a flat neighbourhood, only points of the face for reentrant edges and vertices.
+  /// Checks whether x is in the outward part of U_a (§3.9), closed at r and at the surface. For a triangle or a flat
+  /// neighbourhood this is the outward half; for reentrant edges and vertices only points of the face.
   bool in_outward_block(Face face, const Vec3f& x, float contact_radius) const;
 
   /// Locates x by the signed crossings of a ray with the direction (1, ε, ε²), ε → 0. The ray meets no edge, so no

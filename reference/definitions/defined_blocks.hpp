@@ -8,9 +8,9 @@
 namespace ogc::reference {
 
 /// Decides whether the foot of the perpendicular from x lies in the interior of the face, and whether x minus the foot
-/// lies in the cone of normals, which is given by its generators. Exact, and independent of `in_block`. Points of the
-/// interior itself belong to the block even if the face has no normals, as in Eq. 8 and 9 but not in Eq. 7 read
-/// literally (`has_normals`).
+/// lies in the cone of normals, given by its generators. Exact, and independent of `in_block`. Points of the interior
+/// itself belong to the block even if the face has no normals. Eq. 8 and 9 include these points, Eq. 7 read literally
+/// does not (`has_normals`).
 class DefinedBlocks {
  public:
   /// Finds the normals of all faces. Holds a view of the mesh, whose owner must outlive this.

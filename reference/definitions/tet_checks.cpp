@@ -1,5 +1,5 @@
-// The map to space is locally injective inside tetrahedra and through triangles because of their signs, and around an
-// inner edge if the tetrahedra wind once. Then it is at an inner vertex, too, if its tetrahedra are connected: their
+// The map to space is locally injective inside tetrahedra and through triangles because of their signs. Around an inner
+// edge it is if the tetrahedra wind once. At an inner vertex it then is if the tetrahedra are connected, because their
 // directions cover the sphere without branching.
 #include "reference/definitions/tet_checks.hpp"
 

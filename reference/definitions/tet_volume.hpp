@@ -57,9 +57,10 @@ struct BoundaryDepth {
 /// A body of tetrahedra. Views plain arrays, which must outlive it.
 class TetVolume {
  public:
-  /// Throws compare::InputError with the element that makes a shortest path bend or the map not locally injective: an
-  /// index that is no vertex, an inverted or a flat tetrahedron, a triangle with more than two tetrahedra or two on one
-  /// side, an inner edge around which tetrahedra wind other than once, an inner vertex that alone joins tetrahedra.
+  /// Throws compare::InputError, naming the element, if a shortest path may bend or the map is not locally injective.
+  /// This is so for an index that is no vertex, an inverted or flat tetrahedron, and a triangle with more than two
+  /// tetrahedra or with two on one side. It is also so if tetrahedra do not wind once around an inner edge, or if only
+  /// an inner vertex joins them.
   TetVolume(std::span<const Vec3f> positions, std::span<const Tetrahedron> tetrahedra);
 
   /// Returns the boundary triangles, ordered by tetrahedron, then by the corner opposite to them.

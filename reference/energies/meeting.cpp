@@ -124,8 +124,8 @@ std::vector<Parameters> all_on_edges(const Inputs& inputs, const ContactForceCas
   if (rule.certain) return {middle_of_overlap(x)};
   std::vector<Parameters> all;
   if (rule.exact) all.push_back(middle_of_overlap(x));
-  // If the interiors hold the closest points, the edges overlap, so the rule applies at every small angle. Nearly
-  // parallel lines then need no crossing.
+  // If the interiors hold the closest points, the edges overlap, so the rule applies at every small angle. Then no
+  // crossing of nearly parallel lines is computed.
   const Margin angle = parallel(q.vertex[0], q.vertex[1], q.vertex[2], q.vertex[3]);
   const bool is_small = sign(angle) < 0 && !grey(angle), certain = are_closest(pair, closest).certain;
   if (!(is_small && closest == interiors)) all.push_back(on_edges(inputs, !is_small, closest, x));

@@ -125,8 +125,8 @@ struct PairBoundary {
   FacePair across;      ///< has the closest points if the condition fails
 };
 
-/// Visits the conditions under which vertex p and the interior of edge e have the closest points: the closest point of
-/// each face lies in the block of the other face (Eq. 14, 15, 17).
+/// Visits the conditions under which vertex p and the interior of edge e have the closest points. These are: each
+/// closest point lies in the block of the other face (Eq. 14, 15, 17).
 template <class Visit>
 void visit_vertex_edge(const Complex& mesh, Index p, Index e, Visit visit) {
   const auto [a, b] = mesh.edge(e);

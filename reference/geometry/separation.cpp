@@ -1,6 +1,7 @@
-// Gilbert's iteration. w is the difference of a point of the first primitive and a point of the second. Each step moves
-// w towards the difference of the two vertices that bound the slab perpendicular to w, as long as ‖w‖ falls. w
-// converges to the shortest difference; most pairs are separated in the first step.
+// Gilbert's iteration. w is the difference of a point of the first primitive and a point of the second. The slab
+// perpendicular to w is bounded by one vertex of each primitive. Each step moves w towards the difference of these two
+// vertices, as long as ‖w‖ falls. So w converges to the shortest difference; most pairs are separated in the first
+// step.
 #include "reference/geometry/separation.hpp"
 
 #include <algorithm>

@@ -7,10 +7,10 @@
 // A right answer may be off the exact position by
 //
 //   s   storing, and steps that bring the stored position back inside: truncate_region_tolerance u (‖X_prev‖ + b)
-//   a   the standoff from a half-space, `truncate_standoff` u Σ|n_k x_k| across it, which is ‖w‖/(n·w) times that along
-//       a way w
-//   k   the solve w = H⁻¹n, with a backward error ε ‖H‖: ‖δw‖ ≤ ε κ/(1 − ε κ) ‖w‖, κ = ‖H‖ ‖H⁻¹‖; it moves the point
-//       where w meets the half-space by at most (1 + ‖n‖ ‖w‖/(n·w)) times the same share of the way
+//   a   the standoff from a half-space: `truncate_standoff` u Σ|n_k x_k| along n, hence ‖w‖/(n·w) times that along w
+//   k   the solve w = H⁻¹n, with a backward error ε ‖H‖: ‖δw‖ ≤ ε κ/(1 − ε κ) ‖w‖, κ = ‖H‖ ‖H⁻¹‖. It moves the point
+//       where w meets the half-space by at most (1 + ‖n‖ ‖w‖/(n·w)) ‖δw‖/‖w‖ times the length of the way
+//
 // If the ball brings the point in, a and k are multiplied by b over the point's distance.
 #include "reference/geometry/truncate.hpp"
 

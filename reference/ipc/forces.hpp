@@ -42,7 +42,7 @@ class IpcForces {
   /// The scene must be rounded and valid; scene and topology must outlive this.
   IpcForces(const compare::Scene& scene, const compare::Topology& topology, const BarrierShape& shape);
 
-  /// Begins the step with this number from xᵗ with target y [m]. Removes friction and pull of the step before.
+  /// Begins the step with this number from xᵗ with target y [m]. Removes the previous friction and pull.
   void begin_step(const State& start, const State& target, std::int64_t number);
   /// Returns the segments of rods, with the frames for energies and forces.
   RodSystem& rods() { return potential_.rods(); }

@@ -14,8 +14,8 @@
 namespace ogc::reference {
 
 /// One term of force and block, with its stage's tolerances in units of u · scale. Accepted answers within a tolerance
-/// of the exact one are not tried one by one but widen the spread: the largest of these differences, doubled because an
-/// answer's scale may be twice the exact answer's.
+/// of the exact one widen the spread and are not tried one by one. The spread is the largest of these differences,
+/// doubled because an answer's scale may be twice the exact one's.
 struct Term {
   std::vector<compare::ForceAnswer> accepted;  ///< the exact answer first
   double force_tolerance = 0, block_tolerance = 0;

@@ -1,5 +1,6 @@
-// Computes the part of each move that contacts leave in the rounds of a guess loop (method.md §5.2, What contacts leave
-// of a move): in double for whole runs, and with the accepted error of a single-precision answer for the judge.
+// Computes the part of each move that contacts leave in a round of the guess loop (method.md §5.2, What contacts leave
+// of a move). For whole runs it computes in double; for the judge it adds the accepted error of a single-precision
+// answer.
 #pragma once
 
 #include <array>

@@ -36,7 +36,7 @@ class BlockMatrix {
 
   /// Returns the number of scalar rows, three for each free vertex.
   std::size_t rows() const { return 3 * free_.size(); }
-  /// Returns the begin of each column in CHOLMOD's format.
+  /// Returns the first entry of each column in CHOLMOD's format.
   const std::vector<std::int32_t>& column_begin() const { return column_begin_; }
   /// Returns the row of each entry.
   const std::vector<std::int32_t>& row_index() const { return row_index_; }

@@ -27,7 +27,7 @@ struct NewtonSettings {
   std::int64_t iterations;  ///< most iterations of a step
   double tolerance;         ///< residual (Eq. 29) at which a step has converged; 0: all iterations run
   double step_tolerance;  ///< a step has also converged if Newton's direction moves every vertex slower than this [m/s]
-  std::int64_t friction_solves;  ///< solves of a step; each solve lags friction to the one before
+  std::int64_t friction_solves;  ///< solves of a step; each lags friction to the previous solve
   HessianProjection projection;  ///< projection of each stencil's Hessian
   Truncation truncation;
 };

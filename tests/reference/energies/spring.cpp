@@ -165,7 +165,7 @@ TEST_CASE(
 }
 
 TEST_CASE("what a lost length leaves of a stitch's block is accepted, no block is not", "[property]") {
-  SpringCase c;  // off the middle of the edge by 10⁻⁸ of its length, a fifth of a rounding
+  SpringCase c;  // 10⁻⁸ of the length beside the middle of the edge, a fifth of the rounding error
   c.vertex = {{{0.5f, 1e-8f, 0}, {0, 0, 0}, {1, 0, 0}}};
   c.start = c.vertex;
   c.stiffness = 16;
