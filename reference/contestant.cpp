@@ -1,4 +1,4 @@
-// Registers the reference's stages under the names that the judge uses.
+// Registers the reference's stages under the judge's names.
 #include "reference/contestant.hpp"
 
 #include "reference/definitions/volume_depth.hpp"

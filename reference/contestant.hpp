@@ -1,5 +1,4 @@
-// The reference as the judge's authority: exact where the answer is discrete, with derived error bounds where it is
-// not.
+// The reference as the judge's authority: exact for discrete answers, with derived error bounds for all others.
 #pragma once
 
 #include "compare/contestant.hpp"
@@ -20,20 +19,21 @@
 
 namespace ogc::reference {
 
-/// Returns the authority with every stage that the reference has.
+/// Returns the authority with all stages of the reference.
 compare::Authority authority();
 
-/// Returns Newton-OGC: it has no stages, only a simulation to `start` (method.md §7.6).
+/// Returns Newton-OGC, without stages, only with a simulation to `start` (method.md §7.6).
 compare::Contestant newton();
 
-/// Returns the penalty baseline: Newton's method without bounds, line search or guarantee. It has no stages.
+/// Returns the penalty baseline, without stages: Newton's method without bounds, line search or guarantee.
 compare::Contestant penalty();
 
-/// Returns the IPC baseline. It has no stages.
+/// Returns the IPC baseline, without stages.
 compare::Contestant ipc();
 
 /// Returns Vertex Block Descent in double, without stages. `colours` returns the colours of a scene's vertices and is
-/// called once a simulation (reference/solvers/vbd_solver.hpp); if it is empty, the solver colours the vertices itself.
+/// called once for each simulation (reference/solvers/vbd_solver.hpp). If it is empty, the solver colours the vertices
+/// itself.
 compare::Contestant vbd(std::function<std::vector<compare::Index>(const compare::Scene&)> colours = {});
 
 }  // namespace ogc::reference

@@ -78,7 +78,7 @@ class ReferenceSimulation : public compare::Simulation {
   compare::Snapshot state_;
 };
 
-/// Throws compare::InputError for rods with newton_truncation=pair: segments of rods are in no pair that has a plane.
+/// Throws compare::InputError for rods with newton_truncation=pair, because pairs with segments of rods have no planes.
 void refuse_rods_between_planes(const compare::Scene& scene) {
   if (has_rods(scene) && moves_planes(newton_settings(scene.settings).truncation))
     throw compare::InputError("setting 'truncation' can't be 'pair' with rods; leave it out, or the rods");

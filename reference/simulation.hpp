@@ -1,4 +1,4 @@
-// Resident simulations by the reference's solvers.
+// Simulations with the reference's solvers, which keep their state from step to step.
 #pragma once
 
 #include <memory>
@@ -8,18 +8,16 @@
 namespace ogc::reference {
 
 /// Starts Newton-OGC (method.md §7.6). Rounds its copy of the scene, which must be valid. A step that fails
-/// (StepMetrics::status) is not committed: the snapshot stays that of the step before.
+/// (StepMetrics::status) is not committed: the snapshot stays that of the previous step.
 std::unique_ptr<compare::Simulation> start_newton(const compare::Scene& scene,
                                                   const compare::SimulationOptions& options);
 
-/// Starts Newton's method with whole steps on the energies of a penalty method: without bounds, line search or
-/// guarantee. Throws compare::InputError where the scene's settings have bounds, or another activation than the
-/// quadratic one.
+/// Starts the penalty method: Newton's method with whole steps, without bounds, line search or guarantee. Throws
+/// compare::InputError if the scene's settings have bounds, or another activation than the quadratic one.
 std::unique_ptr<compare::Simulation> start_penalty(const compare::Scene& scene,
                                                    const compare::SimulationOptions& options);
 
-/// Starts Vertex Block Descent in double, on a rounded copy of the scene, which must be valid. `colour`: as for
-/// VbdSolver.
+/// Starts Vertex Block Descent in double. Rounds its copy of the scene, which must be valid. `colour`: see VbdSolver.
 std::unique_ptr<compare::Simulation> start_vbd(const compare::Scene& scene, const compare::SimulationOptions& options,
                                                std::vector<compare::Index> colour = {});
 

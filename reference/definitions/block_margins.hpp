@@ -1,4 +1,5 @@
-// How deep inside a block a point is, boundary by boundary: exact signs, and lengths for printing and drawing.
+// Measures how deep a point lies inside a block, boundary by boundary: exact signs, and lengths for printing and
+// drawing.
 #pragma once
 
 #include <vector>
@@ -15,8 +16,8 @@ struct BlockMargin {
     end,     ///< the plane through a vertex, perpendicular to an edge (Eq. 8, 9, 14, 15)
     wall,    ///< the plane through an edge, perpendicular to a triangle (Eq. 9, 10)
   };
-  Kind kind = Kind::sphere;  ///< of this boundary
-  Face across;               ///< the face whose block begins there; for the sphere the face itself
+  Kind kind = Kind::sphere;  ///< kind of this boundary
+  Face across;               ///< the face on the other side; for the sphere the face itself
   int sign = 0;              ///< exact: 1 inside, 0 on the boundary, −1 outside
   double length = 0;         ///< distance to the boundary [m] with this sign, within 1 ulp of double
   bool closed = false;       ///< whether the boundary belongs to the block, as printed
@@ -24,8 +25,8 @@ struct BlockMargin {
   bool holds() const { return sign > 0 || (sign == 0 && closed); }
 };
 
-/// Returns all boundaries of U_a (Eq. 8, 9, 10) or, with `edge_only`, of U_a^E (Eq. 14, 15), the sphere first; x is in
-/// the block where all hold. The sphere of an edge or a triangle is the cylinder's wall or the pair of planes at
+/// Returns all boundaries of U_a (Eq. 8, 9, 10) or, with `edge_only`, of U_a^E (Eq. 14, 15), the sphere first. x is in
+/// the block if all of them hold. For an edge the "sphere" is the wall of a cylinder, for a triangle two planes at
 /// distance r.
 std::vector<BlockMargin> block_margins(const Complex& mesh, Face face, const Vec3f& x, float contact_radius,
                                        bool edge_only = false);

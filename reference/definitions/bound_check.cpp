@@ -1,5 +1,5 @@
-// A distance rounded down times γ_p is exact in double and decides nearly always; exact numbers are needed only where
-// b_v lies above that product.
+// The product of γ_p and a distance rounded down is exact in double and decides nearly always. Exact numbers are needed
+// only if b_v lies above that product.
 #include "reference/definitions/bound_check.hpp"
 
 #include <tbb/blocked_range.h>
@@ -13,7 +13,7 @@
 namespace ogc::reference {
 namespace {
 
-/// Returns whether b ≤ γ d does not hold; true for a bound that is not a number or infinite.
+/// Returns whether b > γ d, or b is not finite.
 bool is_above(float b, const Margin& distance, float relaxation) {
   if (static_cast<double>(b) <= static_cast<double>(relaxation) * distance_below(distance)) return false;
   return !std::isfinite(b) || scaled_distance_less(distance, relaxation, b);

@@ -1,7 +1,7 @@
-// An edge can decide for a vertex: N_v is a convex cone that meets the star's cone in the vertex alone, so all of its
-// directions lie on one side of the surface (a flat vertex has two opposite ones, each of which touches every edge).
-// From a direction g of N_v that is perpendicular to a spoke, the way along that spoke stays off the star: for its
-// points g·w > 0, for those of the star g·w ≤ 0. Hence v + ε g and the point above the spoke lie on the same side.
+// An edge can decide for a vertex. N_v is a convex cone that meets the star's cone only in the vertex, so all its
+// directions lie on one side of the surface. (A flat vertex has two opposite ones, and each touches every edge.) Let g
+// in N_v be perpendicular to a spoke. On the way along that spoke, v + ε g does not meet the star: g·w > 0 for its
+// points, g·w ≤ 0 for points of the star. Hence v + ε g and the point above the spoke lie on the same side.
 #include "reference/definitions/closed_surface.hpp"
 
 #include <algorithm>
@@ -17,15 +17,14 @@ ExactVector normal(const Complex& mesh, Index t) {
   return cross(exact(mesh.at(b)) - exact(mesh.at(a)), exact(mesh.at(c)) - exact(mesh.at(a)));
 }
 
-/// Returns whether the triangle runs through edge (a, b), a < b, from a to b.
+/// Returns whether the triangle runs through edge (a, b) from a to b.
 bool runs_along(const compare::Triangle& triangle, const compare::Edge& edge) {
   for (std::size_t k = 0; k < 3; ++k)
     if (triangle[k] == edge[0] && triangle[(k + 1) % 3] == edge[1]) return true;
   return false;
 }
 
-/// Returns < 0 where the edge is a ridge seen from outside, > 0 where it is a valley, 0 where its triangles are
-/// coplanar.
+/// Returns < 0 if the edge is a ridge seen from outside, > 0 if it is a valley, 0 if its triangles are coplanar.
 int bend(const Complex& mesh, Index edge) {
   const auto triangles = mesh.triangles_of(edge);
   const ExactVector a = exact(mesh.at(mesh.edge(edge)[0]));
@@ -110,7 +109,7 @@ bool outward_of_vertex(const Complex& mesh, Index vertex, const Vec3f& x) {
   return sense < 0 || (sense == 0 && sign_of(dot(normal(mesh, mesh.triangles_of(*spoke)[0]), g)) > 0);
 }
 
-/// Returns whether the closed triangle holds x; n is its normal, not zero.
+/// Returns whether the closed triangle holds x; n is its normal, which must not be 0.
 bool holds_point(const std::array<ExactVector, 3>& corners, const ExactVector& n, const ExactVector& x) {
   if (!dot(n, x - corners[0]).is_zero()) return false;
   for (std::size_t k = 0; k < 3; ++k)
@@ -125,8 +124,8 @@ int generic_sign(const ExactVector& a) {
   return 0;
 }
 
-/// Returns 1 where the ray from x leaves through the triangle, −1 where it enters, 0 where it passes by. x must not be
-/// on the triangle.
+/// Returns 1 if the ray from x leaves through the triangle, −1 if it enters, 0 if it misses. x must not be on the
+/// triangle.
 int crossing(const std::array<ExactVector, 3>& corners, const ExactVector& n, const ExactVector& x) {
   const int direction = generic_sign(n);
   for (std::size_t k = 0; k < 3; ++k)

@@ -6,42 +6,44 @@
 
 namespace ogc::reference {
 
-/// The location of a point. A surface that passes through itself covers some places more than once.
+/// Locates a point relative to a surface, which may pass through itself and cover places more than once.
 struct PointLocation {
   bool on_surface = false;  ///< exactly on a triangle
-  /// How often the surface winds around the point, counted with the orientation; 0 on the surface, where it jumps.
+  /// signed number of times that the surface winds around the point; 0 on the surface
   int winding = 0;
-  /// Winding numbers of either sign count as inside.
+  /// Returns whether the winding number is not 0.
   bool inside() const { return !on_surface && winding != 0; }
   bool outside() const { return !on_surface && winding == 0; }
 };
 
-/// Returns whether the way from a face of an oriented surface to x begins on the outside; the point of the surface
-/// closest to x must lie in the face's interior. From a triangle it does on the side of the normal; from an edge where
-/// its triangles meet at less than π inside; from a vertex like from an edge or triangle on the rim of its normals.
-/// Points of the face itself are outward (closed). An edge of one triangle and its ends (a rim) have no inner side: all
-/// ways begin outside, as where two triangles lie folded onto each other. Each edge must have one triangle, or two that
-/// run through it in opposite senses, and no triangle may be without area. For other x the answer has no meaning.
+/// Returns whether the segment from a face of an oriented surface to x begins on the outside. The face's interior must
+/// hold the surface's closest point to x; for other x the answer has no meaning.
+///
+/// It begins outside a triangle on the side of the normal, and outside an edge if its triangles meet at less than π
+/// inside. At a vertex it follows an edge or a triangle on the rim of the vertex's normals. Points of the face itself
+/// are outward (closed). An edge with one triangle, and its ends (a rim), have no inner side, nor have triangles that
+/// are folded onto each other. Each edge must have one triangle, or two that run through it in opposite senses; each
+/// triangle must have an area.
 bool begins_outside(const Complex& mesh, Face face, const Vec3f& x);
 
-/// A surface that encloses a volume: each edge has two triangles that run through it in opposite senses, no triangle is
-/// without area, no two lie folded onto each other, and the enclosed volume (by the divergence theorem, cavities and
-/// overlaps counted with their signs) is positive, so that the triangles' normals point outward. It may pass through
-/// itself. Everything is decided without rounding; what the mesh views must outlive this.
+/// A surface that encloses a volume: each edge has two triangles that run through it in opposite senses, each triangle
+/// has an area, and no two are folded onto each other. The enclosed volume (divergence theorem, with signs) is
+/// positive, so normals point outward. The surface may pass through itself. Decides without rounding. Holds views;
+/// their owners must outlive this.
 class ClosedSurface {
  public:
-  /// Throws compare::InputError, with the first edge or triangle that breaks these conditions.
+  /// Throws compare::InputError with the first edge or triangle that violates a condition.
   explicit ClosedSurface(const Complex& mesh);
 
-  /// Returns begins_outside: x in U_a without its distance (Eq. 8–10).
+  /// Returns begins_outside; x must lie in U_a except for the distance (Eq. 8–10).
   bool outward(Face face, const Vec3f& x) const;
 
-  /// Checks whether x ∈ U_a, closed at r and closed at the surface, with only the outward half of a triangle or flat
-  /// neighbourhood and only the points of the face at reentrant edges and vertices (§3.9).
+  /// Checks whether x is in the outward part of U_a (§3.9), closed at r and at the surface. For a triangle or a flat
+  /// neighbourhood this is the outward half; for reentrant edges and vertices only points of the face.
   bool in_outward_block(Face face, const Vec3f& x, float contact_radius) const;
 
-  /// Locates x by the signed crossings of a ray with the direction (1, ε, ε²) for a vanishing ε: it meets no edge, so
-  /// there are no special points.
+  /// Locates x by the signed crossings of a ray with the direction (1, ε, ε²), ε → 0. The ray meets no edge, so no
+  /// point needs a special case.
   PointLocation locate(const Vec3f& x) const;
 
   /// Returns the surface.

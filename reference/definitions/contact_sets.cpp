@@ -1,5 +1,5 @@
-// Shares with the detections only the predicates that Algorithms 1 and 2 use themselves; the definitions share not even
-// those.
+// The algorithms share with the detections only the predicates of Algorithms 1 and 2; the definitions share not even
+// these.
 #include "reference/definitions/contact_sets.hpp"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -54,13 +54,13 @@ bool in_planes(const Complex& mesh, Face face, const Vec3f& x) {
   return inside;
 }
 
-/// Returns the distance of x and a closed triangle, as a gap.
+/// Returns the gap of x and a closed triangle.
 Margin triangle_gap(const Complex& mesh, Index t, const Vec3f& x, float contact_radius) {
   const Corners corners = corners_of(mesh, t);
   return with_radius(feature_gap(corners, closest_feature(corners, x), x), contact_radius);
 }
 
-/// Does lines 7–20 of Alg. 1 for one vertex and one triangle.
+/// Executes lines 7–20 of Alg. 1 for one vertex and one triangle.
 void enter(const compare::DetectIn& in, const Complex& mesh, Index v, Index t, std::set<VertexFacetContact>& entered) {
   if (!is_candidate(in, v, t) || sign(triangle_gap(mesh, t, mesh.at(v), in.contact_radius)) >= 0) return;
   const auto feature = static_cast<std::size_t>(closest_feature(corners_of(mesh, t), mesh.at(v)));
@@ -101,8 +101,8 @@ std::vector<VertexFacetContact> vertex_facet_by_definition(const compare::Detect
     for (Index t = 0; t < static_cast<Index>(in.topology->triangles.size()); ++t) {
       if (!in.topology->on_surface(mesh.triangle(t)) || is_excluded(in.exclusions, {&v, 1}, mesh.triangle(t))) continue;
       for (const Face face : faces_of(mesh, t)) {
-        // A face without v is a face of some triangle without v, or only of triangles with v; Eq. 12 requires only v ⊄
-        // a.
+        // Eq. 12 requires only v ⊄ a. Triangles that contain v are visited, too, because a face without v may have no
+        // others.
         if (!contains(mesh.vertices(face).span(), v) && blocks.in_contact(face, mesh.at(v), in.contact_radius))
           found.insert({v, face, owner_of(mesh, face)});
       }
@@ -123,7 +123,7 @@ std::vector<VertexFacetContact> vertex_facet_over_all_pairs(const compare::Detec
 std::vector<VertexFacetContact> vertex_facet_with_tree(const compare::DetectIn& in) {
   const Complex mesh{*in.topology, in.positions};
   const SphereTree tree(triangle_boxes(mesh));
-  const double r_q = in.query_radius;  // its square needs 48 bits: no rounding
+  const double r_q = in.query_radius;  // 48 bits hold its square without rounding
   tbb::enumerable_thread_specific<std::set<VertexFacetContact>> shares;
   tbb::parallel_for(Index{0}, in.topology->vertex_count, [&](Index v) {
     const Vec3f& x = mesh.at(v);

@@ -1,5 +1,5 @@
-// The contact sets of the paper as plain definitions, for comparison with the detections and with each other. Every
-// function visits all pairs, except the two with a tree.
+// Computes the paper's contact sets as plain definitions, to test the detections against. Every function visits all
+// pairs, except the two with a tree.
 #pragma once
 
 #include <span>
@@ -11,32 +11,33 @@
 
 namespace ogc::reference {
 
-/// Returns F_OGC by Eq. 12 over all faces of triangles, by DefinedBlocks: canonical, with d < r. Takes quadratic time.
+/// Returns F_OGC by Eq. 12 over all faces of triangles, with DefinedBlocks: canonical, with d < r. Takes quadratic
+/// time.
 std::vector<compare::VertexFacetContact> vertex_facet_by_definition(const compare::DetectIn& in);
 
-/// Returns F_OGC by Algorithm 1 over all pairs, line by line, with the constructive equations.
+/// Returns F_OGC by Algorithm 1 with the constructive equations, over all pairs.
 std::vector<compare::VertexFacetContact> vertex_facet_over_all_pairs(const compare::DetectIn& in);
 
-/// Returns F_OGC by Algorithm 1 with its sphere query (line 3) by CGAL's tree, line by line, threaded.
+/// Returns F_OGC by Algorithm 1 with the sphere query of its line 3 by CGAL's tree, in parallel.
 std::vector<compare::VertexFacetContact> vertex_facet_with_tree(const compare::DetectIn& in);
 
-/// Returns E_OGC by Eq. 17 (corrected: method.md §1.2, §1.3): exact closest points as quotients, by comparing the
-/// distances of all pairs of features, then DefinedBlocks.
+/// Returns E_OGC by Eq. 17 (corrected: method.md §1.2, §1.3): finds the exact closest points by comparing the distances
+/// of all pairs of features, then uses DefinedBlocks.
 std::vector<compare::EdgeEdgeContact> edge_edge_by_definition(const compare::DetectIn& in);
 
-/// Returns E_OGC by Algorithm 2 (with the same corrections) over all pairs, with the constructive equations.
+/// Returns E_OGC by Algorithm 2 (with the same corrections) with the constructive equations, over all pairs.
 std::vector<compare::EdgeEdgeContact> edge_edge_over_all_pairs(const compare::DetectIn& in);
 
-/// Returns E_OGC by Algorithm 2 (with the same corrections) with its sphere query (line 3) by CGAL's tree, threaded.
+/// Returns E_OGC by Algorithm 2 (with the same corrections) with the sphere query of its line 3 by CGAL's tree, in
+/// parallel.
 std::vector<compare::EdgeEdgeContact> edge_edge_with_tree(const compare::DetectIn& in);
 
-/// Returns V_OGC(t): for each triangle the vertices in contact with a face that the triangle owns, ascending, one entry
-/// for each contact.
+/// Returns V_OGC(t): for each triangle the vertices in contact with its own faces (owner), ascending, one entry for
+/// each contact.
 std::vector<std::vector<Index>> vertices_near_facets(const compare::Topology& topology,
                                                      std::span<const compare::VertexFacetContact> contacts);
 
-/// Returns E_OGC(e): for each edge the contacts (numbers in `contacts`) of which the edge is the lowest-numbered
-/// generator on its side.
+/// Returns E_OGC(e): for each edge the numbers of the contacts whose lowest-numbered generator on one side it is.
 std::vector<std::vector<std::size_t>> contacts_of_edges(const compare::Topology& topology,
                                                         std::span<const compare::EdgeEdgeContact> contacts);
 
@@ -50,9 +51,9 @@ std::vector<double> penetration_depths(const Complex& mesh, std::span<const comp
 /// Returns F_IPC(v) (Eq. 3): triangles without v nearer than r, ascending.
 std::vector<Index> ipc_face_set(const Complex& mesh, Index vertex, float contact_radius);
 
-/// Returns F_SDF (Eq. 4) of a point in space: the closest triangle if it is nearer than r, or all of the closest ones
-/// if several are equally near (the printed argmin is then not one triangle). A triangle that contains the point
-/// counts, as printed: at a vertex of the mesh the result is the vertex's own triangles.
+/// Returns F_SDF (Eq. 4) of a point in space: the closest triangles if they are nearer than r. Several triangles may be
+/// equally near (the printed argmin is then not unique). A triangle that contains the point counts, as printed: at a
+/// vertex of the mesh the result is the vertex's own triangles.
 std::vector<Index> sdf_face_set(const Complex& mesh, const Vec3f& x, float contact_radius);
 
 }  // namespace ogc::reference

@@ -1,4 +1,4 @@
-// Everything is a sum of products of coordinates: a foot is kept as its quotient's numerators, so nothing is divided.
+// Keeps the foot as numerators of its quotient, so that sums of products of coordinates suffice and nothing is divided.
 #include "reference/definitions/defined_blocks.hpp"
 
 #include "reference/definitions/defined_blocks_exact.hpp"

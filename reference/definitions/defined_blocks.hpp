@@ -1,4 +1,4 @@
-// Blocks by their definition (Eq. 7) instead of the constructive equations.
+// Decides block membership by the definition (Eq. 7) instead of the constructive equations.
 #pragma once
 
 #include <memory>
@@ -7,13 +7,13 @@
 
 namespace ogc::reference {
 
-/// Decides whether the foot of the perpendicular lies in the interior of the face and the connection in the cone of
-/// normals, which is given by its generators. Exact, and independent of `in_block`. The points of the interior itself
-/// (w = 0) belong to a block even where the face has no normals: Eq. 8 and 9 say so, Eq. 7, read literally, does not
-/// (see `has_normals`).
+/// Decides whether the foot of the perpendicular from x lies in the interior of the face, and whether x minus the foot
+/// lies in the cone of normals, given by its generators. Exact, and independent of `in_block`. Points of the interior
+/// itself belong to the block even if the face has no normals. Eq. 8 and 9 include these points, Eq. 7 read literally
+/// does not (`has_normals`).
 class DefinedBlocks {
  public:
-  /// Finds the normals of all faces. What the mesh views must outlive this.
+  /// Finds the normals of all faces. Holds a view of the mesh, whose owner must outlive this.
   explicit DefinedBlocks(const Complex& mesh);
   ~DefinedBlocks();
   DefinedBlocks(const DefinedBlocks&) = delete;

@@ -1,4 +1,4 @@
-// Eq. 7 for points that are quotients, for the .cpp files of this folder (it exposes CGAL's number type).
+// Applies Eq. 7 to points that are quotients. Only .cpp files of this folder include it: it exposes CGAL's number type.
 #pragma once
 
 #include <optional>
@@ -9,17 +9,17 @@
 
 namespace ogc::reference {
 
-/// x − y for the foot y of x on a face, times a positive weight.
+/// The vector x − y from the foot y of x on a face, times a positive weight.
 struct Connection {
   ExactVector along;  ///< (x − y) · weight
   Exact weight;       ///< > 0
 };
 
-/// Returns the connection of x and a face; empty where the foot is not in the interior of the face, or the face has no
-/// interior.
+/// Returns the vector from the foot of x on a face to x; empty if the foot is not in the interior of the face, or the
+/// face has no interior.
 std::optional<Connection> connection(const Complex& mesh, Face face, const ExactPoint& x);
 
-/// Whether points at d = r are inside.
+/// Selects whether points at d = r are inside.
 enum class Sphere { closed, open };
 
 /// The cones of normals of all faces of a mesh.
@@ -30,7 +30,7 @@ struct DefinedBlocks::Cones {
   /// Returns N_a of one face.
   const NormalCone& of(Face face) const;
   bool contains(Face face, const ExactPoint& x, float contact_radius, Sphere boundary) const;
-  /// Checks whether x is in the face's block of M^e. There a vertex has the same neighbours as in M, and every
+  /// Checks whether x is in the face's block of M^e. In M^e a vertex has the same neighbours as in M, and every
   /// perpendicular of an edge is a normal.
   bool contains_edge_only(Face face, const ExactPoint& x, float contact_radius) const;
 };

@@ -17,7 +17,6 @@ namespace {
 using compare::EdgeEdgeContact;
 using EdgeNumbers = std::array<Index, 2>;
 
-/// Pairs of faces with the lowest-numbered edges that generate them.
 using Entered = std::map<FacePair, EdgeNumbers>;
 
 void enter(Entered& entered, const FacePair& faces, const EdgeNumbers& edges) {
@@ -69,7 +68,7 @@ Segment segment_of(const Complex& mesh, Index e) {
 
 ExactVector end(const Segment& s, EdgeFeature feature) { return feature == EdgeFeature::end_0 ? s.a : plus(s.a, s.d); }
 
-/// A parameter s / weight of a point on a segment, weight > 0.
+/// The parameter s / weight of a point on a segment, weight > 0.
 struct Parameter {
   Exact s, weight;
   bool inside() const { return sign_of(s) > 0 && sign_of(weight - s) > 0; }
@@ -79,7 +78,7 @@ ExactPoint point_at(const Segment& segment, const Parameter& p) {
   return {plus(times(p.weight, segment.a), times(p.s, segment.d)), p.weight};
 }
 
-/// Closest points of two features; those on interiors lie inside them.
+/// The closest points of two features. A point of an interior lies strictly inside it.
 struct Candidate {
   ExactPoint first, second;
 };
@@ -123,16 +122,15 @@ bool smaller(const Quotient<Exact>& a, const Quotient<Exact>& b) {
   return sign_of(a.numerator * b.denominator - b.numerator * a.denominator) < 0;
 }
 
-/// A pair of features with its closest points.
 struct Closest {
   EdgeFeatures features;
   Candidate points;
   Quotient<Exact> squared;
 };
 
-/// Returns the nearest of all pairs of features: several where the edges are parallel, in the order of edge_features.
+/// Returns the nearest pairs of features, in the order of edge_features; several if the edges are parallel.
 std::vector<Closest> closest_of(const Segment& e, const Segment& f) {
-  std::vector<Closest> best;  // never empty: two ends always are a candidate
+  std::vector<Closest> best;  // never empty: two ends are always a candidate
   for (int k = 0; k < edge_feature_pairs; ++k) {
     const auto found = candidate(e, f, edge_features(k));
     if (!found) continue;
@@ -164,8 +162,8 @@ bool are_in_blocks(const Complex& mesh, const FacePair& faces) {
   return inside;
 }
 
-/// Returns whether some closest points of nearly parallel edges lie in each other's blocks. These conditions hold only
-/// for features that are closest; exactly parallel edges have such features at each end of the overlap.
+/// Returns whether some closest points of nearly parallel edges lie in each other's blocks. The blocks' conditions hold
+/// only for closest features; exactly parallel edges have them at both ends of the overlap.
 bool is_some_end_in_blocks(const Complex& mesh, Index e, Index f) {
   for (int k = 0; k < edge_feature_pairs; ++k) {
     const auto [first, second] = edge_features(k);
@@ -174,7 +172,7 @@ bool is_some_end_in_blocks(const Complex& mesh, Index e, Index f) {
   return false;
 }
 
-/// Does lines 6–10 of Alg. 2 (corrected) for the candidate of edges e < f.
+/// Executes lines 6–10 of Alg. 2 (corrected) for the candidate edges e < f.
 void enter_if_active(const compare::DetectIn& in, const Complex& mesh, Index e, Index f, Entered& entered) {
   const EdgePair pair{ends_of(mesh, e), ends_of(mesh, f)};
   const EdgeFeatures closest = closest_features(pair);
@@ -188,14 +186,14 @@ void enter_if_active(const compare::DetectIn& in, const Complex& mesh, Index e, 
   if (are_in_blocks(mesh, faces)) enter(entered, faces, {e, f});
 }
 
-/// The ball of Alg. 2 line 3: about the middle of the edge with radius r_q + l/2.
+/// The ball of Alg. 2 line 3: centre at the edge's middle, radius r_q + l/2.
 struct Ball {
   std::array<double, 3> centre;
   double squared_radius;
 };
 
-/// The middle may be rounded, because the radius reaches from it to the farther end. The radius has at most eight
-/// roundings of 2⁻⁵³; the factor is larger.
+/// The middle may be rounded, because the radius is computed from it to the farther end. The factor covers the radius'
+/// rounding, at most eight times 2⁻⁵³.
 Ball ball_about(const std::array<Vec3f, 2>& ends, double query_radius) {
   const std::array<double, 3> a{ends[0].x, ends[0].y, ends[0].z}, b{ends[1].x, ends[1].y, ends[1].z};
   Ball ball{};

@@ -1,4 +1,4 @@
-// Decides everything on the exact generators of the cone; only then converts them to unit vectors.
+// Decides on the exact generators of the cone, then converts them to unit vectors.
 #include "reference/definitions/gauss_map.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ Unit normalised(const Unit& a) {
   return {a[0] / length, a[1] / length, a[2] / length};
 }
 
-/// Divides by the largest component, so that neither squares nor the conversion leave the range of double.
+/// Divides by the largest component, so that neither its square nor the conversion overflows or underflows.
 Unit unit(const ExactVector& a) {
   const auto size = [](const Exact& x) { return sign_of(x) < 0 ? -x : x; };
   const Exact largest = std::max({size(a.x), size(a.y), size(a.z)});
@@ -44,14 +44,14 @@ Unit sum_of(const std::vector<Unit>& units) {
   return normalised(sum);
 }
 
-/// Sorts by angle about the axis, starting opposite to `zero`, so that an arc about `zero` comes out in one piece.
+/// Sorts by angle about the axis and cuts opposite to `zero`, so that an arc about `zero` stays in one piece.
 void sort_around(std::vector<Unit>& units, const Unit& axis, const Unit& zero) {
   const Unit right = outer(axis, zero);
   const auto angle = [&](const Unit& u) { return std::atan2(inner(u, right), inner(u, zero)); };
   std::sort(units.begin(), units.end(), [&](const Unit& a, const Unit& b) { return angle(a) < angle(b); });
 }
 
-/// Orders an arc, or a circle, in the plane of its generators.
+/// Orders the corners of an arc or a circle in the plane of the generators.
 void order_arc(GaussMap& map, bool circle) {
   map.closed = circle;
   const auto tilted = std::max_element(map.corners.begin() + 1, map.corners.end(), [&](const Unit& a, const Unit& b) {
@@ -65,7 +65,8 @@ void order_region(GaussMap& map, int lineality) {
   map.closed = lineality == 3;
   if (map.closed) return;
   const Unit centre = sum_of(map.corners);
-  // A half-sphere has one generator that is no corner: its centre. No other set has a generator near its centre.
+  // The generators of a half-sphere include its centre, which is no corner. No other set has a generator near its
+  // centre.
   if (lineality == 2) std::erase_if(map.corners, [&](const Unit& u) { return inner(u, centre) > 0.5; });
   const Unit& first = map.corners.front();
   const double along = inner(first, centre);
@@ -77,8 +78,8 @@ double triangle_area(const Unit& a, const Unit& b, const Unit& c) {
   return 2 * std::atan2(inner(a, outer(b, c)), 1 + inner(a, b) + inner(b, c) + inner(c, a));
 }
 
-/// Returns the spokes of a vertex in order around it, from one end of the fan to the other; empty where its triangles
-/// are not one fan. A closed fan repeats its first spoke at the end.
+/// Returns the spokes of a vertex in order around it, from one end of the fan to the other; empty if its triangles are
+/// not one fan. A closed fan repeats its first spoke at the end.
 std::vector<Index> spokes_in_order(const Complex& mesh, Index vertex) {
   const auto triangles = mesh.topology.vertex_triangles[static_cast<std::size_t>(vertex)];
   const auto rim = [&](Index t) {

@@ -1,5 +1,5 @@
-// §3.1 as it is meant: the normals of each face by the closest-point principle, the kinds of vertices, Echeverria's
-// indicatrix. Exact where something is decided; unit vectors in double where something is drawn or integrated.
+// Implements the intent of §3.1: the normals of each face by the closest-point principle, the kinds of vertices,
+// Echeverria's indicatrix. Decisions are exact; unit vectors for drawing and integrals are in double.
 #pragma once
 
 #include <array>
@@ -12,10 +12,10 @@ namespace ogc::reference {
 
 using Unit = std::array<double, 3>;  ///< of length 1 up to a rounding
 
-/// The kinds of Fig. 5, decided exactly.
+/// The kinds of Fig. 5.
 enum class VertexKind : std::uint8_t {
-  /// has normals, and the plane of each triangle at v has all neighbours on one side or on it (flat vertices and
-  /// corners of a sheet included)
+  /// has normals, and the plane of each triangle at v has all neighbours on one side or on it (includes flat vertices
+  /// and corners of a sheet)
   convex,
   mixed,   ///< has normals, but is not convex
   saddle,  ///< has no normals: x_v is inside the convex hull of its neighbours
@@ -24,14 +24,14 @@ enum class VertexKind : std::uint8_t {
 VertexKind classify(const Complex& mesh, Index vertex);
 
 /// Returns whether an edge at v "remains as an edge in the convex hull of star(v)" (§3.2): the hull has a crease along
-/// it. Flat edges have none.
+/// it. A flat edge has no crease.
 bool is_hull_edge(const Complex& mesh, Index vertex, Index edge);
 
 /// The normals of a face, for drawing.
 struct GaussMap {
-  int dimension = -1;         ///< of N_a as a part of the sphere: −1 empty, 0 one or two points, 1 arcs, 2 a region
-  std::vector<Unit> corners;  ///< in cyclic order for a region, in order along the arc for an arc
-  bool closed = false;        ///< whether it is the whole circle or the whole sphere: `corners` only span it
+  int dimension = -1;         ///< dimension of N_a on the sphere: −1 empty, 0 one or two points, 1 arcs, 2 a region
+  std::vector<Unit> corners;  ///< of a region in cyclic order, of an arc in order along it
+  bool closed = false;        ///< whether N_a is the whole circle or the whole sphere; then `corners` only span it
 };
 
 /// Returns N_a of a face of the surface, or with `edge_only` of M^e (§3.5).
@@ -41,14 +41,14 @@ GaussMap gauss_map(const Complex& mesh, Face face, bool edge_only = false);
 /// deficit (Gauss–Bonnet).
 double solid_angle(const GaussMap& map);
 
-/// Echeverria's polygon of a vertex: the normals of its triangles in order around it; inverted parts are kept.
+/// Echeverria's polygon of a vertex: the normals of its triangles in order around it, inverted parts included.
 struct Indicatrix {
   std::vector<Unit> normals;  ///< of the vertex's triangles, in order
   bool closed = false;        ///< false at a boundary vertex
-  double area = 0;            ///< signed area enclosed [sr], the angle deficit for a closed one; 0 otherwise
+  double area = 0;            ///< signed enclosed area [sr], which is the angle deficit; 0 if not closed
 };
-/// Returns the indicatrix of a vertex; empty where it has no triangles, a collapsed one, the same one twice, or more
-/// than one fan.
+/// Returns the indicatrix of a vertex; empty if it has no triangles, a collapsed one, the same one twice, or more than
+/// one fan.
 std::optional<Indicatrix> indicatrix(const Complex& mesh, Index vertex);
 
 }  // namespace ogc::reference

@@ -1,5 +1,5 @@
-// A distance rounded down nearly always decides between two pairs; where both round to one number, the quotients are
-// compared. The order of threads does not change which pair wins: distances are exact and ties go to the lowest number.
+// Distances rounded down nearly always decide between two pairs. If both round to one number, the quotients are
+// compared. The order of threads does not matter: distances are exact, and ties go to the lowest number.
 #include "reference/definitions/nearest.hpp"
 
 #include <tbb/blocked_range.h>
@@ -18,14 +18,14 @@
 namespace ogc::reference {
 namespace {
 
-/// The nearest partner of each of many primitives; many threads offer partners.
+/// Holds the nearest partner of each primitive; many threads offer partners.
 class NearestOfEach {
  public:
   NearestOfEach(std::size_t count, float query_radius)
       : items_(count, Nearest{-1, gap_points({}, {query_radius, 0, 0})}), below_(count, query_radius) {}
 
-  /// Offers a partner. `below`: the distance of the gap, rounded down. A distance of r_q is not below r_q, because r_q
-  /// is a single-precision number.
+  /// Offers a partner. `below` is the distance, rounded down. A distance of r_q is not below r_q, because r_q is a
+  /// single-precision number.
   void offer(Index primitive, Index partner, const Margin& gap, float below) {
     const auto i = static_cast<std::size_t>(primitive);
     const std::atomic_ref<float> smallest(below_[i]);
@@ -68,7 +68,7 @@ class Search {
     return box;
   }
 
-  /// Calls visit(i, j) for all i in parallel and those j whose boxes come within r_q of box i.
+  /// Calls visit(i, j) for all i, in parallel, and for all j whose boxes come within r_q of box i.
   template <class Visit>
   void for_near(const std::vector<Box>& queries, const std::vector<Box>& boxes, Visit visit) const {
     const BoxTree tree(boxes);

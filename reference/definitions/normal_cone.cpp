@@ -1,6 +1,6 @@
-// A cone of dimension 3 is bounded by planes n·d = 0, so its extreme rays lie on two of them. With smaller rank the
-// directions leave a line or plane of normals free, and the remaining generators lie in the plane or on the line that
-// the directions span.
+// A three-dimensional set of directions bounds the cone by planes n·d = 0, so each extreme ray lies on two of them. If
+// the directions span only a plane or a line, the perpendicular line or plane belongs to the cone, and the other
+// generators lie in that plane or line.
 #include "reference/definitions/normal_cone.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ bool same_ray(const ExactVector& a, const ExactVector& b) { return sign_of(dot(a
 
 ExactVector opposite(const ExactVector& a) { return times(Exact(-1), a); }
 
-/// Returns some vector perpendicular to d ≠ 0.
+/// Returns a vector perpendicular to d ≠ 0.
 ExactVector perpendicular(const ExactVector& d) {
   const ExactVector x{Exact(1), Exact(0), Exact(0)}, y{Exact(0), Exact(1), Exact(0)};
   const ExactVector n = cross(d, x);
@@ -100,7 +100,7 @@ bool NormalCone::contains(const ExactVector& n) const {
       if (on_two(g[i], g[j], n)) return true;
     }
   }
-  // A pointed cone is the union of the triangles that its first corner makes with two others; a cone with lines has few
+  // A pointed cone is the union of the triangles of its first corner and two others. A cone with lines has few
   // generators.
   const std::size_t roots = lineality_ == 0 ? std::min<std::size_t>(1, g.size()) : g.size();
   for (std::size_t i = 0; i < roots; ++i) {

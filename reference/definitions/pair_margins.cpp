@@ -8,12 +8,12 @@
 namespace ogc::reference {
 namespace {
 
-/// Returns the point of a line through a along d at the parameter s / weight, weight > 0.
+/// Returns the point at the parameter s / weight of the line through a along d, weight > 0.
 ExactPoint point_at(const ExactVector& a, const ExactVector& d, const Exact& s, const Exact& weight) {
   return {plus(times(weight, a), times(s, d)), weight};
 }
 
-/// Returns the point of a face closest to the other face's point or line; their lines are not parallel.
+/// Returns the point of `face` closest to the point or line of `other`; two lines must not be parallel.
 ExactPoint closest_on(const Complex& mesh, Face face, Face other) {
   const auto ends = mesh.vertices(face).items, others = mesh.vertices(other).items;
   const ExactVector a = exact(mesh.at(ends[0])), c = exact(mesh.at(others[0]));
@@ -24,8 +24,8 @@ ExactPoint closest_on(const Complex& mesh, Face face, Face other) {
   return point_at(a, u, dot(cross(c - a, v), n), dot(n, n));
 }
 
-/// Returns the margin of x from the plane through `at` across the line to `towards`. With `inward` 1 the inner side is
-/// the one towards `towards`, with −1 the other one.
+/// Returns the margin of x from the plane through `at` perpendicular to the line to `towards`. The inner side lies
+/// towards `towards` if `inward` is 1, away from it if −1.
 BlockMargin end_plane(const Complex& mesh, Index at, Index towards, int inward, Face across, const ExactPoint& x) {
   const ExactVector p = exact(mesh.at(at)), d = exact(mesh.at(towards)) - p;
   const Exact m = dot(x.numerator - times(x.weight, p), d);

@@ -17,7 +17,7 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Returns the nearest face of a part; faces are ordered by dimension, then number.
+/// Returns the nearest face of a part; of equally near faces the lowest by dimension, then number.
 Face nearest_face(const Complex& mesh, const std::vector<Index>& part, const Vec3f& x) {
   std::optional<std::pair<Face, Margin>> nearest;
   for (const Index t : part) {
@@ -95,7 +95,7 @@ std::vector<Face> faces_of(const Complex& mesh, const std::vector<Index>& part) 
   return faces;
 }
 
-/// The distances of x from the box of a triangle and from the nearest of its corners, each rounded.
+/// Rounded distances of x from a triangle's box, and from the nearest of its corners.
 struct Reach {
   double box = 0, corner = INFINITY;
 };
@@ -115,11 +115,11 @@ Reach reach_of(const Complex& mesh, Index t, const Vec3f& x) {
   return reach;
 }
 
-/// Rounding in double changes a reach by less than this part of it.
+/// Relative error limit of a reach in double.
 constexpr double reach_slack = 0x1p-40;
 
-/// The triangles of a part that can be nearest to x, because x is no farther from their box than from some triangle's
-/// corner; and those whose box is within the radius, which alone can touch.
+/// `nearest`: triangles of a part that can be nearest to x, because their box is not farther than every triangle's
+/// nearest corner. `touching`: triangles whose box is within the radius.
 struct Within {
   std::vector<Index> nearest, touching;
 
@@ -169,7 +169,7 @@ PartContact part_contact(const Complex& volume, Face face, const Vec3f& x, float
 std::vector<PartContact> part_contacts(const Complex& volume, const Vec3f& x, float contact_radius,
                                        std::span<const Index> part) {
   const std::span<const Index> number = part.empty() ? std::span<const Index>(volume.topology.component) : part;
-  std::map<Index, std::vector<Index>> parts;  // by number of the part; no edge leads from one part to another
+  std::map<Index, std::vector<Index>> parts;  // by number of the part; no edge joins two parts
   for (std::size_t t = 0; t < volume.topology.triangles.size(); ++t)
     parts[number[at(volume.topology.triangles[t][0])]].push_back(static_cast<Index>(t));
   std::vector<PartContact> contacts;

@@ -23,7 +23,7 @@ VolumeContact rounded(VolumeContact contact, const std::array<double, 3>& weight
   return contact;
 }
 
-/// Returns the contacts with parts of triangles alone; points are numbered in the order of the askers.
+/// Returns the contacts with volumes of triangles; points are numbered in the order of the askers.
 std::vector<VolumeContact> contacts_of_triangles(const compare::VolumeDepthIn& in) {
   const Complex mesh{*in.topology, in.positions};
   const std::vector<compare::Index> part = compare::joined_components(*in.topology, {}, in.cavities);

@@ -1,5 +1,5 @@
-// The volumes of a scene and the vertices that they are tested against: their contacts in a detection, in the form of
-// the contract (§3.9).
+// Finds the contacts of a scene's volumes with all vertices that are tested against them (§3.9), in the form of the
+// contract.
 #pragma once
 
 #include <span>
@@ -18,8 +18,8 @@ class SceneVolumes {
   /// Returns whether the scene has volumes.
   bool has_any() const { return !surface_.triangles.empty(); }
   /// Returns the contacts of all volume_askers, rounded to single precision, in canonical order, and the sheets without
-  /// any way; `point` is the vertex, `triangle` and `face` are numbers of the scene. `positions`: by vertex, of all
-  /// bodies [m].
+  /// a way to the boundary. `point` is the vertex; `triangle` and `face` are numbers of the scene. `positions` [m] are
+  /// by vertex of the scene.
   compare::VolumeDepthOut contacts(std::span<const compare::Vec3f> positions) const;
 
  private:

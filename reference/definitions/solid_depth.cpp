@@ -1,10 +1,10 @@
-// The grey zone: 16 u of a tetrahedron's coordinates change each weight of a point by 16 u Σ|∂w/∂δ||δ|. The sum is at
-// most three times the sum of the moduli of the weight's terms, which are of degree three. A way's end is off by as
-// much as its triangle's normal turns (normal_scale), and so is everything that depends on it. Within this error a
-// segment may pass each triangle, edge and vertex near it. A way is certain only if it can leave the body at none of
-// them: then it arrives, whichever tetrahedra rounding makes it pass. Through inner edges and vertices it is certain.
+// The grey zone: an error of 16 u in a tetrahedron's coordinates changes each weight of a point by 16 u Σ|∂w/∂δ||δ|.
+// The sum is at most three times the moduli of the weight's terms, which have degree three. The end of a way, and all
+// that depends on it, has the error of its triangle's normal (normal_scale). Within this error a segment may pass each
+// nearby triangle, edge and vertex. A way is certain if the body ends at none of them; then it arrives through any
+// tetrahedra that rounding selects. Inner edges and vertices leave a way certain.
 //
-// Weights in double are known to 2⁻⁴⁶ of the moduli of their terms, which is negligible beside 16 u. The exact ways are
+// Weights in double are known to 2⁻⁴⁶ of the moduli of their terms, which is negligible beside 16 u. Exact ways are
 // walked in rational numbers, through the tetrahedra that a grey way reaches.
 #include "reference/definitions/solid_depth.hpp"
 
@@ -36,7 +36,7 @@ double inner(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z 
 Vec3 normal(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-/// Returns `normal` with the modulus of each term.
+/// Returns `normal` with every term replaced by its modulus.
 Vec3 normal_moduli(const Vec3& a, const Vec3& b) {
   const Vec3 p = moduli(a), q = moduli(b);
   return {p.y * q.z + p.z * q.y, p.z * q.x + p.x * q.z, p.x * q.y + p.y * q.x};
@@ -52,11 +52,11 @@ Triangle sorted(Triangle t) {
   return t;
 }
 
-/// An interval of a segment's parameter; empty where low > high.
+/// An interval of a segment's parameter; empty if low > high.
 struct Piece {
   double low = 0, high = 1;
 
-  /// Keeps the part where from + s (to − from) ≥ least.
+  /// Keeps the part with from + s (to − from) ≥ least.
   void keep(double from, double to, double least) {
     const double slope = to - from;
     if (slope == 0) {
@@ -116,13 +116,13 @@ Triangle Solid::side(Index t, std::size_t corner) const {
 struct SolidPart::Passage {
   std::array<double, 4> start{}, end{}, grey{};
 
-  /// Returns where the segment may be in the tetrahedron.
+  /// Returns the part of the segment that may be in the tetrahedron.
   Piece inside() const {
     Piece piece;
     for (std::size_t k = 0; k < 4; ++k) piece.keep(start[k], end[k], -grey[k]);
     return piece;
   }
-  /// Keeps the part of `piece` where the segment may be on the triangle opposite to a corner.
+  /// Keeps the part of `piece` that may be on the triangle opposite to corner k.
   void keep_on(std::size_t k, Piece& piece) const { piece.keep(-start[k], -end[k], -grey[k]); }
 };
 
@@ -172,7 +172,7 @@ std::vector<SolidPart::Group> SolidPart::groups(Index component) const {
     Group group;
     std::vector<std::size_t> open{first};
     taken[first] = 1;
-    std::map<std::vector<Index>, std::vector<Index>> exact;  // by the simplex that holds x in its interior
+    std::map<std::vector<Index>, std::vector<Index>> exact;  // keys: the simplex whose interior holds x
     for (std::size_t next = 0; next < open.size(); ++next) {
       const Holder& holder = holders[open[next]];
       const Index t = holder.tetrahedron;
@@ -254,7 +254,7 @@ SolidPart::Way SolidPart::way(const Group& group, Face face, double condition) c
       if (!solid_.is_closed(t, k)) continue;
       const Triangle side = solid_.side(t, k);
       const auto on_side = [&](Index v) { return std::ranges::find(side, v) != side.end(); };
-      // at its end the way may touch the boundary; before that, nowhere
+      // The way may touch the boundary only at its end.
       if (std::ranges::all_of(ends.span(), on_side) && passage_of(t).start[k] > passage_of(t).grey[k]) continue;
       Piece touching = passage_of(t).inside();
       passage_of(t).keep_on(k, touching);
@@ -264,7 +264,7 @@ SolidPart::Way SolidPart::way(const Group& group, Face face, double condition) c
   return way;
 }
 
-/// `way`: a possible way to the face; the face holds the point of the triangle that is closest to x.
+/// `way` is a possible way to the face; the face holds the triangle's closest point to x.
 bool SolidPart::is_exact_way(const std::vector<Index>& sheet, const Way& way, Face face, Index triangle) const {
   const auto corner = [&](std::size_t k) { return rational(mesh_.at(mesh_.triangle(triangle)[k])); };
   const RationalPoint start = rational(x_), end = closest_point({corner(0), corner(1), corner(2)}, start);
@@ -314,7 +314,7 @@ VolumeSheetTruth SolidPart::sheets_of(const Group& group, const std::vector<Inde
   };
   std::vector<Offered> offered;
   std::vector<Nearest> exact(group.sheets.size());
-  double reach = INFINITY;  // a way that is certainly longer is not the shortest
+  double reach = INFINITY;  // longest length that the shortest way can have
   std::map<Face, Way> ways;
   for (const Index t : order) {
     if (low(t) > reach) break;
@@ -359,8 +359,7 @@ VolumeSheetTruth SolidPart::sheets_of(const Group& group, const std::vector<Inde
   return truth;
 }
 
-/// Either side is accepted where some triangle around the face belongs to a tetrahedron that has no positive volume, or
-/// may have none.
+/// Accepts both sides if some triangle around the face belongs to a tetrahedron whose volume is not certainly positive.
 bool SolidPart::is_vague(Face face) const {
   return std::ranges::any_of(around(face), [&](Index t) {
     return !solid_.is_positive(solid_.owner(t)) || solid_.is_doubtful(solid_.owner(t));

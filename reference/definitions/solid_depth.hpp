@@ -1,6 +1,6 @@
-// Stage volume_depth for parts of tetrahedra: sheets and their shortest ways to the boundary (§3.9, after Chen, Diaz
-// and Yuksel 2023), in a body some of whose tetrahedra may have no volume. Where all have volume, and the map is
-// locally injective, the answer is that of TetVolume.
+// Stage volume_depth for parts of tetrahedra: finds the sheets at a point and their shortest ways to the boundary
+// (§3.9, after Chen, Diaz and Yuksel 2023). Tetrahedra without volume are allowed. If all have volume and the map is
+// locally injective, the answer equals that of TetVolume.
 #pragma once
 
 #include <array>
@@ -13,10 +13,10 @@
 
 namespace ogc::reference {
 
-/// The tetrahedra of a volume, independent of any point. Holds views; their owners must outlive this.
+/// Holds the data of a volume's tetrahedra that depend on no point. Holds views; their owners must outlive this.
 class Solid {
  public:
-  /// `mesh`: the volume's triangles; the boundary triangles of tetrahedra among them are found by their vertices.
+  /// `mesh` has the volume's triangles. Boundary triangles of tetrahedra are found among them by their vertices.
   Solid(const Complex& mesh, std::span<const Tetrahedron> tetrahedra);
 
   /// Returns whether the triangle belongs to a tetrahedron.
@@ -31,12 +31,12 @@ class Solid {
   Index component(Index vertex) const { return component_[static_cast<std::size_t>(vertex)]; }
   /// Returns whether the volume is positive, exactly.
   bool is_positive(Index t) const { return sign_[static_cast<std::size_t>(t)] > 0; }
-  /// Returns whether rounding could make the volume 0 or of the other sign.
+  /// Returns whether rounding could change the sign of the volume.
   bool is_doubtful(Index t) const { return doubtful_[static_cast<std::size_t>(t)] != 0; }
-  /// Returns whether a way through this triangle of a tetrahedron ends, certainly or possibly: no tetrahedron that is
-  /// certainly positive lies behind it.
+  /// Returns whether a way ends at this triangle, certainly or possibly: no tetrahedron that is certainly positive lies
+  /// behind it.
   bool is_closed(Index t, std::size_t corner) const;
-  /// Returns the triangle opposite to a corner, outward where the volume is positive.
+  /// Returns the triangle opposite to a corner; its normal is outward if the volume is positive.
   compare::Triangle side(Index t, std::size_t corner) const;
 
  private:
@@ -45,32 +45,32 @@ class Solid {
   std::vector<std::vector<Index>> tetrahedra_of_;  ///< by vertex, ascending
   /// by tetrahedron and corner: the tetrahedron that shares the opposite triangle, or −1
   std::vector<std::array<Index, 4>> behind_;
-  std::vector<Index> owner_;                  ///< by triangle
+  std::vector<Index> owner_;  ///< by triangle
   std::vector<int> sign_;
   std::vector<std::uint8_t> doubtful_;
 };
 
-/// One point and a part of tetrahedra.
+/// Tests one point against one part of tetrahedra.
 class SolidPart : public VolumeFaces {
  public:
-  /// `faces`: made for the same point.
+  /// `faces` must belong to the same point.
   SolidPart(const VolumeFaces& faces, const Solid& solid) : VolumeFaces(faces), solid_(solid) {}
 
   compare::VolumePartTruth part(const std::vector<Index>& triangles);
 
  private:
-  /// A tetrahedron on a segment: six times the weights of both ends, and the largest grey error of each.
+  /// A segment relative to a tetrahedron: six times the weights of both ends, and the largest grey error of each.
   struct Passage;
-  /// Sheets that cannot be told apart, by their tetrahedra.
+  /// Sheets that rounding could merge.
   struct Group {
-    std::vector<Index> tetrahedra;           ///< tetrahedra that hold x, or possibly hold it
+    std::vector<Index> tetrahedra;           ///< tetrahedra that hold x or may hold it
     std::vector<std::vector<Index>> sheets;  ///< the exact sheets
     bool is_certain = true;
   };
-  /// Whether a group has a way to a face.
+  /// Describes whether a group has a way to a face.
   struct Way {
     bool possible = false, certain = false;
-    std::vector<Index> reached;  ///< tetrahedra that the way may pass
+    std::vector<Index> reached;  ///< tetrahedra through which the way may go
   };
 
   Passage passage(Index t, const compare::Vec3& offset, double condition) const;

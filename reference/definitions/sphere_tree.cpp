@@ -1,6 +1,5 @@
-// The tree's data are boxes, not triangles: CGAL calls its kernel for each datum and requires that none is degenerate.
-// Splitting compares coordinates, and a ball against a box is a filtered exact predicate of the kernel, so no step of a
-// query rounds.
+// The tree stores boxes instead of triangles, because CGAL requires that no datum is degenerate. Splitting compares
+// coordinates, and a ball against a box is a filtered exact predicate, so no step of a query rounds.
 #include "reference/definitions/sphere_tree.hpp"
 
 #include <CGAL/AABB_traits.h>
@@ -14,7 +13,7 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-/// A primitive in CGAL's sense: a number, its box, and a point of it.
+/// A primitive in CGAL's sense: a number, its box, and one point of the box.
 struct NumberedBox {
   using Id = Index;
   using Point = Kernel::Point_3;
@@ -39,7 +38,7 @@ struct SphereTree::Tree : CGAL::AABB_tree<CGAL::AABB_traits<Kernel, NumberedBox>
 
 SphereTree::SphereTree(std::span<const Box> boxes) : tree_(std::make_unique<Tree>()) {
   for (std::size_t i = 0; i < boxes.size(); ++i) tree_->insert(NumberedBox(static_cast<Index>(i), boxes[i]));
-  // built here, because a query would build it otherwise, and several may run at once
+  // Builds the tree here, because the first query would build it otherwise, and queries may run concurrently.
   if (!boxes.empty()) tree_->build();
 }
 

@@ -1,5 +1,5 @@
-// BVH_SphereQuery of Algorithms 1 and 2 by CGAL's AABB tree. The detections cull with box_tree.hpp; this tree serves
-// the independent third computation of the contact sets.
+// Implements BVH_SphereQuery of Algorithms 1 and 2 by CGAL's AABB tree. The detections use box_tree.hpp instead, so the
+// contact sets with this tree are independent of them.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace ogc::reference {
 
-/// A tree over the boxes of numbered primitives. A box or a primitive may be flat, a segment or a point.
+/// A tree over the boxes of numbered primitives. A box may be flat, a segment or a point.
 class SphereTree {
  public:
   explicit SphereTree(std::span<const Box> boxes);
@@ -18,8 +18,8 @@ class SphereTree {
   SphereTree(const SphereTree&) = delete;
   SphereTree& operator=(const SphereTree&) = delete;
 
-  /// Returns every primitive whose box meets the closed ball, in no particular order. Decided exactly on the given
-  /// doubles: rounding loses none.
+  /// Returns every primitive whose box meets the closed ball, in no particular order. Decides exactly on the given
+  /// doubles.
   std::vector<Index> within(const std::array<double, 3>& centre, double squared_radius) const;
 
  private:

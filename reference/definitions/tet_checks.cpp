@@ -1,6 +1,6 @@
-// The map from the complex to space is locally injective inside tetrahedra and through triangles by their signs; around
-// an inner edge if they wind once; at an inner vertex then too, if they are connected, because their directions cover
-// the sphere without branching.
+// The map to space is locally injective inside tetrahedra and through triangles because of their signs. Around an inner
+// edge it is if the tetrahedra wind once. At an inner vertex it then is if the tetrahedra are connected, because their
+// directions cover the sphere without branching.
 #include "reference/definitions/tet_checks.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 [[noreturn]] void refuse(const std::string& what) { throw compare::InputError("tetrahedra: " + what); }
 
-/// Returns the triangle opposite to corner k of a positive tetrahedron, its normal outward.
+/// Returns the triangle opposite to corner k of a positive tetrahedron; its normal is outward.
 compare::Triangle side_of(const Tetrahedron& t, std::size_t k) {
   constexpr std::array<std::array<std::size_t, 3>, 4> sides{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
   return {t[sides[k][0]], t[sides[k][1]], t[sides[k][2]]};
@@ -27,8 +27,8 @@ bool even(const compare::Triangle& t) { return (t[0] < t[1]) + (t[1] < t[2]) + (
 
 bool holds(const Tetrahedron& t, Index v) { return std::find(t.begin(), t.end(), v) != t.end(); }
 
-/// Tetrahedra by the triangle that they share, under its sorted vertices; an entry is 4 i + the corner left out of
-/// tetrahedron i.
+/// Maps the sorted vertices of a triangle to its tetrahedra; an entry is 4 i + the corner of tetrahedron i opposite to
+/// the triangle.
 using Sides = std::map<compare::Triangle, std::vector<Index>>;
 
 Sides sides_of(std::span<const Tetrahedron> tetrahedra) {
@@ -67,8 +67,8 @@ int turn_about(const RationalPoint& a, const RationalPoint& b, const RationalPoi
   return CGAL::sign(dot(cross(b - a, c - a), d - a));
 }
 
-/// Returns whether the half-plane of `u` lies between those of c (included) and d (excluded), less than half a turn
-/// apart, seen along ab.
+/// Returns whether the half-plane of `u` about ab lies between the half-planes of c (included) and d (excluded), which
+/// are less than half a turn apart.
 bool between_half_planes(const std::array<RationalPoint, 4>& abcd, const RationalPoint& u) {
   const auto& [a, b, c, d] = abcd;
   const int after = turn_about(a, b, c, u);
@@ -76,7 +76,7 @@ bool between_half_planes(const std::array<RationalPoint, 4>& abcd, const Rationa
   return after > 0 && turn_about(a, b, u, d) > 0;
 }
 
-/// Returns how often the tetrahedra with edge ab cover the half-plane of the first one's third corner.
+/// Returns how often the tetrahedra around edge ab cover the half-plane of the first tetrahedron's third corner.
 int turns_around(std::span<const Vec3f> positions, const std::vector<Tetrahedron>& around) {
   const RationalPoint u = corners_of(positions, around.front())[2];
   return static_cast<int>(std::count_if(around.begin(), around.end(), [&](const Tetrahedron& t) {
@@ -84,7 +84,7 @@ int turns_around(std::span<const Vec3f> positions, const std::vector<Tetrahedron
   }));
 }
 
-/// Returns the tetrahedron with the corners i and j first and the same orientation.
+/// Returns the same oriented tetrahedron with corners i and j first.
 Tetrahedron with_first(const Tetrahedron& t, std::size_t i, std::size_t j) {
   std::array<std::size_t, 4> order{i, j, 0, 0};
   std::size_t free = 2;
@@ -97,7 +97,7 @@ Tetrahedron with_first(const Tetrahedron& t, std::size_t i, std::size_t j) {
   return {t[order[0]], t[order[1]], t[order[2]], t[order[3]]};
 }
 
-/// Calls visit(i, j) for the corners of every edge, smaller vertex first.
+/// Calls visit(i, j) for the corners of every edge; i has the smaller vertex.
 template <class Visit>
 void for_each_edge(const Tetrahedron& t, Visit visit) {
   for (std::size_t i = 0; i < 4; ++i)

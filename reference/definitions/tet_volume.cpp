@@ -1,6 +1,6 @@
 // The walk keeps, for each tetrahedron, the earliest parameter at which a path from the start can be in it. Inside a
-// tetrahedron the segment is one stretch, so the earliest parameter is enough: a path that can be there at t can be
-// there at every later parameter of the stretch.
+// tetrahedron the segment is one stretch, so a path that can be there at t can be there at every later parameter of the
+// stretch.
 #include "reference/definitions/tet_volume.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Returns adjacent doubles around an exact number ≥ 0.
+/// Returns adjacent doubles that enclose an exact number ≥ 0; one double twice if it is exact.
 std::array<double, 2> enclosing(const Rational& square) {
   double low = CGAL::to_interval(square).first;
   for (double next = std::nextafter(low, HUGE_VAL); Rational(next) <= square; next = std::nextafter(low, HUGE_VAL))
@@ -34,15 +34,15 @@ double root_below(const Rational& square) {
   return root;
 }
 
-/// Marks the corners of a tetrahedron that the other one has, too.
+/// Marks the corners of `one` that `other` shares.
 std::array<bool, 4> shared(const Tetrahedron& one, const Tetrahedron& other) {
   std::array<bool, 4> marked{};
   for (std::size_t k = 0; k < 4; ++k) marked[k] = std::ranges::find(other, one[k]) != other.end();
   return marked;
 }
 
-/// Returns the corners with positive weight at x, sorted: the simplex that holds x in its interior; empty where the
-/// tetrahedron does not hold x.
+/// Returns the corners with positive weight at x, sorted: the simplex whose interior holds x; empty if the tetrahedron
+/// does not hold x.
 std::vector<Index> carrier(std::span<const Vec3f> positions, const Tetrahedron& tetrahedron, const RationalPoint& x) {
   const auto w = weights(corners_of(positions, tetrahedron), x);
   std::vector<Index> vertices;
@@ -96,7 +96,6 @@ class Walk {
 
 }  // namespace
 
-/// A candidate in exact numbers.
 struct TetVolume::Candidate {
   RationalPoint end;
   Rational square;

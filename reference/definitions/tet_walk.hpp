@@ -1,5 +1,4 @@
-// Tetrahedra along a segment, in rational numbers, for tet_volume.cpp: the geometry of one tetrahedron that the walk
-// needs.
+// The geometry of one tetrahedron and a segment in rational numbers, for the walk of tet_volume.cpp.
 #pragma once
 
 #include <CGAL/Exact_rational.h>
@@ -11,7 +10,7 @@
 
 namespace ogc::reference {
 
-/// The numbers in which a walk is decided.
+/// The number type of the walk.
 using Rational = CGAL::Exact_rational;
 using RationalPoint = Point<Rational>;
 
@@ -30,18 +29,18 @@ RationalPoint closest_point(const std::array<RationalPoint, 3>& corners, const R
 /// Returns ‖a − b‖² [m²].
 Rational squared_distance(const RationalPoint& a, const RationalPoint& b);
 
-/// An interval of the parameter of a segment, both ends included.
+/// A closed interval of a segment's parameter.
 struct Stretch {
   Rational low = 0, high = 1;
 };
 
-/// A segment of space relative to one tetrahedron: weights are affine in the parameter.
+/// A segment relative to one tetrahedron; the weights are affine in the segment's parameter.
 class Crossing {
  public:
   Crossing(const std::array<RationalPoint, 4>& corners, const RationalPoint& start, const RationalPoint& end)
       : at_start_(weights(corners, start)), at_end_(weights(corners, end)) {}
 
-  /// Returns where the segment lies in the closed face of the marked corners (all four: in the tetrahedron).
+  /// Returns the part of the segment in the closed face of the marked corners (all four: in the tetrahedron).
   std::optional<Stretch> within(const std::array<bool, 4>& marked) const;
 
  private:

@@ -1,10 +1,9 @@
-// The faces that could be nearest follow from the distances of all triangles of a part, each known to 16 u of its own
-// coordinates, and from the faces that closest_face accepts of each. The exact one is found among them without
-// rounding.
+// Finds the faces that could be nearest from the distances of all triangles of a part, each known to 16 u of its own
+// coordinates, and from the faces that closest_face accepts. The exact face is found among them without rounding.
 //
-// A face may hold the closest point only within rounding. Then its side of x is that of the exactly nearest face, if
-// the two have a vertex in common, otherwise that of the nearest one among the triangles around it: a valley's edge,
-// taken alone, would put every point inside. A rim decides for itself.
+// If a face may have the closest point only by rounding, x is on the side that the exactly nearest face gives, if both
+// have a common vertex. Otherwise the nearest triangle around the face gives the side, because the edge of a valley
+// alone would put every point inside. A rim decides for itself.
 #include "reference/definitions/volume_depth.hpp"
 
 #include <algorithm>
@@ -27,7 +26,7 @@ using compare::VolumePartTruth;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// One point and a part of triangles.
+/// Tests one point against one part of triangles.
 class TrianglePart : public VolumeFaces {
  public:
   using VolumeFaces::VolumeFaces;
@@ -40,10 +39,10 @@ class TrianglePart : public VolumeFaces {
     const bool in_box = in_box_of(mesh_, triangles, x_), faces_in = !begins_outside(mesh_, nearest, x_);
     truth.inside = in_box && faces_in;
     const std::vector<Face> possible = possible_faces(candidates, nearest, least);
-    std::vector<Face> outside;  // faces with x on the outer side; each may be a contact
+    std::vector<Face> outside;  // faces with x on their outer side, each a possible contact
     for (const Face face : possible) {
       const bool holds = in_box && (face == nearest ? faces_in : is_inside(face, nearest, faces_in, candidates));
-      // beside a rim, which has no inner side, a face with an inner side may hold x
+      // A rim has no inner side, so a nearby face that has one may hold x.
       const bool is_open = in_box && (on_surface || (face != nearest && is_rim(nearest) && !is_rim(face)));
       truth.may_be_inside = truth.may_be_inside || holds || is_open;
       truth.may_be_outside = truth.may_be_outside || !holds || is_open;
@@ -73,7 +72,7 @@ void set_point(VolumePartTruth& part, Index point) {
 compare::VolumeDepthTruth volume_depth(const compare::VolumeDepthIn& in) {
   const Complex mesh{*in.topology, in.positions};
   const std::vector<Index> component = compare::joined_components(*in.topology, in.tetrahedra, in.cavities);
-  std::map<Index, std::vector<Index>> parts;  // by number of the part; no edge leads from one part to another
+  std::map<Index, std::vector<Index>> parts;  // by number of the part; no edge joins two parts
   for (std::size_t t = 0; t < mesh.topology.triangles.size(); ++t)
     parts[component[at(mesh.topology.triangles[t][0])]].push_back(static_cast<Index>(t));
   const Solid solid(mesh, in.tetrahedra);

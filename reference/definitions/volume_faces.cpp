@@ -16,7 +16,7 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Largest error of a grey distance, over the moduli of its coordinates.
+/// Largest error of a grey distance, relative to the moduli of its coordinates.
 constexpr double doubt_factor = compare::grey_factor;
 
 double norm_1(const Vec3f& a, const Vec3f& b) {
@@ -45,7 +45,7 @@ bool VolumeFaces::contains(Face face, Index vertex) const {
 
 double VolumeFaces::doubt(Index t) const { return doubt_factor * std::max(faces_.distance[at(t)], spread(t)); }
 
-/// Returns Σ|δ| of the case of triangle t and x.
+/// Returns Σ|δ| of triangle t and x.
 double VolumeFaces::spread(Index t) const {
   const auto [a, b, c] = mesh_.triangle(t);
   const Vec3f& origin = mesh_.at(a);
@@ -54,7 +54,7 @@ double VolumeFaces::spread(Index t) const {
 
 VolumeFaces::Candidates VolumeFaces::nearest_of(const std::vector<Index>& triangles) const {
   Candidates nearest{INFINITY, {}};
-  double below = INFINITY;  // an upper bound of the smallest distance
+  double below = INFINITY;  // upper bound of the smallest distance
   for (const Index t : triangles) {
     nearest.least = std::min(nearest.least, faces_.distance[at(t)]);
     below = std::min(below, faces_.distance[at(t)] + doubt(t));
@@ -103,7 +103,7 @@ std::vector<Face> VolumeFaces::possible_faces(const std::vector<Index>& candidat
   return faces;
 }
 
-/// Returns whether the point of t that is closest to x may lie on the face, which is one of t's.
+/// Returns whether the closest point of t to x may lie on the face, which belongs to t.
 bool VolumeFaces::accepts(Index t, Face face) const {
   for (int f = 0; f < 7; ++f)
     if (face_of(t, f) == face) return (faces_.accepted[at(t)] >> f & 1) != 0;
@@ -187,7 +187,7 @@ VolumeAnswer VolumeFaces::answer(Face face, bool inside) const {
   result.contact.inside = inside;
   result.contact.triangle = exact.triangle;
   result.contact.face = face;
-  // where the foot may lie beyond the face, a kernel takes the face's end
+  // A kernel clamps a foot beyond the face to the face's end.
   for (std::size_t k = 0; k < 3; ++k) result.weights[k] = std::clamp(exact.weights[k], 0.0, 1.0);
   result.direction = exact.direction;
   result.depth = exact.depth;
@@ -204,7 +204,7 @@ double VolumeFaces::normal_scale(Index t) const {
   const auto [a, b, c] = mesh_.triangle(t);
   const double first = length(mesh_.at(a), mesh_.at(b)), second = length(mesh_.at(a), mesh_.at(c)),
                third = length(mesh_.at(b), mesh_.at(c)), half = (first + second + third) / 2;
-  // Heron's product, of differences
+  // Heron's formula, from differences
   const double area = std::sqrt(std::max(0.0, half * (half - first) * (half - second) * (half - third)));
   const double longest = std::max({first, second, third});
   return std::max(1.0, longest * longest / area);

@@ -1,5 +1,5 @@
-// A point and the triangles of a volume: how far it is from each, which of that is grey, and the contact at each of
-// their faces. For volume_depth.cpp and solid_depth.cpp.
+// Relates one point to the triangles of a volume: its distance from each, which distances are grey, and the contact at
+// each face. For volume_depth.cpp and solid_depth.cpp.
 #pragma once
 
 #include <vector>
@@ -13,16 +13,15 @@ namespace ogc::reference {
 /// Holds views; their owners must outlive this.
 class VolumeFaces {
  public:
-  /// `own`: the vertex that x is, whose faces it does not touch, or −1.
+  /// `own`: if x is a vertex of the volume, its number, because x does not touch its own faces; otherwise −1.
   VolumeFaces(const Complex& mesh, const Vec3f& x, float radius, Index own);
   VolumeFaces(const VolumeFaces&) = default;
   virtual ~VolumeFaces() = default;
 
-  bool grey = false, near = false;  ///< whether any decision so far is grey, or near one
+  bool grey = false, near = false;  ///< whether some decision up to now is grey, or near a grey one
 
  protected:
-  /// Returns the largest error of a distance where it is grey: 16 u of the coordinates relative to the triangle's first
-  /// corner.
+  /// Returns the largest error of a grey distance: 16 u of the coordinates relative to the triangle's first corner.
   double doubt(Index t) const;
   /// The smallest distance to triangles, and the triangles that may have it.
   struct Candidates {
@@ -34,25 +33,24 @@ class VolumeFaces {
   Face exactly_nearest(const std::vector<Index>& triangles) const;
   Face face_of(Index t, int feature) const;
   /// Returns the faces that may be nearest, the exact one first. A face is possible if every triangle around it accepts
-  /// it: where the foot on one of them certainly lies off the face, that triangle is nearer, if only slightly. But a
-  /// foot that is off by 16 u changes a distance that is smallest there by at most (16 u)², and smaller differences
-  /// need not be told apart. The limit is four times that, since distances are known here only to half of it.
+  /// it: if the foot on one of them certainly lies off the face, that triangle is nearer, if only slightly. But an
+  /// error of 16 u of the foot changes its distance by at most (16 u)², and smaller differences need not be resolved.
+  /// The limit is four times that, since distances are known only to half of it.
   std::vector<Face> possible_faces(const std::vector<Index>& candidates, Face nearest, double least) const;
   std::vector<Index> around(Face face) const;
   bool is_rim(Face face) const;
   bool contains(Face face, Index vertex) const;
-  /// `nearest_inside`: whether x is on the inner side of the exactly nearest face.
+  /// Returns whether x is on the face's inner side. `nearest_inside` answers this for the exactly nearest face.
   bool is_inside(Face face, Face nearest, bool nearest_inside, const std::vector<Index>& candidates) const;
-  /// Returns whether either side of a face is accepted.
+  /// Returns whether both sides of a face are accepted.
   virtual bool is_vague(Face) const { return false; }
-  /// Adds contacts outside: faces in whose outward block x lies nearer than r, certainly or possibly. `faces_in`:
-  /// whether x is on the inner side of the nearest face.
+  /// Adds contacts outside: faces whose outward block holds x nearer than r, certainly or possibly. `faces_in`: whether
+  /// x is on the inner side of the nearest face.
   void touch(const std::vector<Index>& triangles, Face nearest, bool faces_in, compare::VolumePartTruth& truth);
-  /// Adds a contact at a face, unless it is listed already or x is certainly farther than r.
+  /// Adds a contact at a face, unless it is already listed or x is certainly farther than r.
   void add_touching(Face face, compare::VolumePartTruth& truth) const;
-  /// Returns the contact at a face.
   compare::VolumeAnswer answer(Face face, bool inside) const;
-  /// Returns the scale of a normal: Σ‖∂n̂/∂δ‖‖δ‖, δ two sides: ‖e₁‖‖e₂‖/‖e₁ × e₂‖ for each.
+  /// Returns the sensitivity of a normal: Σ‖∂n̂/∂δ‖‖δ‖ over two sides δ, each with ‖e₁‖‖e₂‖/‖e₁ × e₂‖.
   double normal_scale(Index t) const;
 
   const Complex& mesh_;

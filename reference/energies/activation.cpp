@@ -1,5 +1,5 @@
-// Computes with fifty decimal digits: after the worst cancellation of the printed form (d close to τ, logarithms of
-// metres) more than thirty are left.
+// Computes with fifty decimal digits. The worst cancellation of the printed form (d close to τ, logarithms of metres)
+// leaves more than thirty of them.
 #include "reference/energies/activation.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 using compare::ContactActivation;
 
-/// A multiprecision number with the operations that the energies need, so that the same code is differentiated over it.
+/// A multiprecision number with the operations of the energies, so that the same code is differentiated over it.
 struct Precise {
   boost::multiprecision::cpp_bin_float_50 value;
   Precise(double x = 0) : value(x) {}
@@ -26,7 +26,7 @@ struct Precise {
   friend double plain(const Precise& a) { return a.value.convert_to<double>(); }
 };
 
-/// Returns the moduli of the terms of the two stages' energy as Eq. 18 and 20 print them.
+/// Returns the sum of the moduli of the terms of the two-stage energy, as printed in Eq. 18 and 20.
 double printed_terms(bool as_printed, const Precise& d, const Precise& r, const Precise& k) {
   const Precise tau = 0.5 * r, depth = r - tau, k_log = tau * k * (as_printed ? depth * depth : depth);
   return std::abs(plain(k_log * log(d))) + plain(0.5 * k * depth * depth) + std::abs(plain(k_log * log(tau)));

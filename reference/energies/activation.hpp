@@ -6,14 +6,14 @@
 
 namespace ogc::reference {
 
-/// Computes values in multiprecision. Scales are the moduli of the terms; the energy with two stages has the terms that
-/// Eq. 18 and 20 print (logarithms of metres included). Value and scale are zero for d ≥ r.
+/// Computes values in multiprecision. Scales are sums of the moduli of the terms; the two-stage energy has the terms as
+/// Eq. 18 and 20 print them (with logarithms of metres). Value and scale are zero for d ≥ r.
 compare::ActivationTruth activation(const compare::ActivationIn& in);
 
-/// One value of the activation and its derivatives by d, from multiprecision.
+/// The activation and its derivatives by d at one distance, rounded from multiprecision.
 struct ActivationValue {
   double energy = 0, slope = 0, curvature = 0;  ///< g [J], g' [N], g'' [N/m]
-  /// Units of their errors, as in compare::ActivationTruth.
+  /// units of their errors, as in compare::ActivationTruth
   double energy_scale = 0, slope_scale = 0, curvature_scale = 0;
 };
 /// Returns the activation at one distance d ≥ 0 [m]; r [m], k_c [N/m].

@@ -25,7 +25,7 @@ Hinge<ByVertex> now_of(const compare::BendingCase& q, Inputs& inputs) {
 const Input& at_vertex(const ByVertex& x) { return x.value; }
 const Input& at_vertex(const Input& x) { return x; }
 
-/// Returns the angle; where it can't be told from ±π also the one on the other side.
+/// Returns the angle; if rounding could put it beyond ±π, also the angle on the other side.
 template <class T>
 std::vector<T> with_turn(const Inputs& inputs, const T& angle) {
   const Input& value = at_vertex(angle);
@@ -34,8 +34,9 @@ std::vector<T> with_turn(const Inputs& inputs, const T& angle) {
   return {angle, angle + T(Input(value.value > 0 ? -2 * std::numbers::pi : 2 * std::numbers::pi))};
 }
 
-/// The scales that remain where first derivatives vanish. The gradient errs by n u · cond; the block has the square of
-/// that error, the force its product with the error of the moment, which takes the other roundings of a force.
+/// The scales that remain if first derivatives vanish. The gradient has an error of n u · cond. The block has the
+/// square of this error. The force has its product with the error of the moment, to which the other roundings of a
+/// force belong.
 struct SecondOrder {
   double force, block;
 };
@@ -55,9 +56,9 @@ struct Question {
   Inputs inputs;
   Hinge<ByVertex> x;
   Fold<Input> before;
-  HingeTermOf<Input> term;  ///< with damping of the angle
-  Input damping;            ///< in either form of damping
-  Triple<Input> moved;      ///< motion of the vertex, with damping by vertex
+  HingeTermOf<Input> term;  ///< with strain damping
+  Input damping;            ///< for both forms of damping
+  Triple<Input> moved;      ///< motion of the vertex, for damping by vertex
 
   explicit Question(const compare::BendingCase& q)
       : asked(q), x(now_of(q, inputs)), before(inputs.stencil(q.start, 0)) {
@@ -80,8 +81,8 @@ struct Question {
   }
 };
 
-/// Returns the answers for the angles that are accepted now and at the start; also a zero answer where the hinge may
-/// count as collapsed.
+/// Returns the answers for all accepted angles now and at the start; also a zero answer if the hinge may count as
+/// collapsed.
 template <class AnswerAt>
 std::vector<ForceAnswer> over_angles(const Question& q, bool damped, AnswerAt answer_at) {
   const Fold<ByVertex> now(q.x);

@@ -1,6 +1,6 @@
-// The contact points of two closed faces, in double, and their distance over any number type. Newton's positions are
-// doubles between two detections, so the exact predicates of reference/geometry do not apply. They are not needed
-// either: the distance is continuous, with its slope, across the features.
+// Computes the contact points of two closed faces in double, and their distance over any number type. Newton's
+// positions are doubles between two detections, so the exact predicates of reference/geometry do not apply. They are
+// not needed either: the distance and its slope are continuous across the features.
 #pragma once
 
 #include <array>
@@ -11,26 +11,27 @@
 
 namespace ogc::reference {
 
-/// The features between which the distance is measured, by places in the vertices of the contact.
+/// The features that hold the contact points, with the places of their vertices in the form.
 enum class FormKind : std::uint8_t {
   points,        ///< 0, 1
   point_line,    ///< 0; 1 2
   point_plane,   ///< 0; 1 2 3
   lines,         ///< 0 1; 2 3
-  fixed_weights  ///< nearly parallel edges: the points of method.md §1.4, which do not move with the vertices
+  fixed_weights  ///< nearly parallel edges: the points of method.md §1.4, with constant weights
 };
 
-/// The contact points: x_first = Σ of the positive weights, x_second = −Σ of the negative ones.
+/// The contact points: the first is the sum with the positive weights, the second minus the sum with the negative ones.
 struct ClosestForm {
-  FormKind kind = FormKind::points;  ///< which faces hold the closest points
-  std::array<std::uint8_t, 4> at{};  ///< the vertices at the places of the form
-  /// by vertex of the contact; the weights of one side add up to 1, those of the other to −1
+  FormKind kind = FormKind::points;  ///< features that hold the contact points
+  std::array<std::uint8_t, 4> at{};  ///< the contact's vertex at each place of the form
+  /// by vertex of the contact; 1 in sum on the first side, −1 on the second
   std::array<double, 4> weight{};
 };
 
-/// Returns the form of a contact. A collapsed edge or triangle counts as the lower face that holds the closest point.
+/// Returns the form of a contact. A collapsed edge or triangle is replaced by the lower-dimensional face that holds the
+/// closest point.
 ClosestForm closest_form(compare::ContactSides sides, const std::array<Triple<double>, 4>& x);
-/// Returns the form of two edges without the rule for nearly parallel ones: never `fixed_weights`.
+/// Returns the form of two edges without the rule for nearly parallel edges; never `fixed_weights`.
 ClosestForm closest_edges(const std::array<Triple<double>, 4>& x);
 
 /// Returns Σ w_i x_i, the vector from the second contact point to the first.
@@ -41,7 +42,7 @@ Triple<T> separation(const std::array<Number, 4>& weight, const std::array<Tripl
   return sum;
 }
 
-/// Returns |h| for a height h that is given times ‖n‖.
+/// Returns |h|; `scaled` is h ‖n‖ of a height h along the normal n.
 template <class T>
 T height(const T& scaled, const Triple<T>& normal) {
   using std::sqrt;

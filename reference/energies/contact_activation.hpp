@@ -1,6 +1,6 @@
 // Contact energy over distance, over any number type: Eq. 18 with Eq. 19 corrected, and the variants of the ablation
-// (method.md §4.2). Radius and stiffness are plain numbers where only the distance is differentiated; they have the
-// distance's type where the condition of the answer is wanted, too.
+// (method.md §4.2). T is the type of the distance, P that of radius and stiffness: P is a plain number if only the
+// distance is differentiated, and T if the condition of the answer is computed, too.
 #pragma once
 
 #include "compare/problem/settings.hpp"
@@ -8,7 +8,7 @@
 
 namespace ogc::reference {
 
-/// Returns the quadratic stage from τ = r/2 on, below it k' (ln τ − ln d) + the quadratic value at τ.
+/// Returns the quadratic stage for d ≥ τ = r/2, and k' (ln τ − ln d) plus the quadratic value at τ below.
 template <class T, class P>
 T two_stage_energy(const T& d, const P& r, const P& k, const P& log_stiffness) {
   using std::log;
@@ -17,8 +17,8 @@ T two_stage_energy(const T& d, const P& r, const P& k, const P& log_stiffness) {
   return log_stiffness * (T(log(tau)) - log(d)) + T(P(0.5) * k * depth * depth);
 }
 
-/// Returns g(d) [J] by the formula that holds for 0 < d < r: radius r [m], stiffness k_c [N/m]. `ogc_as_printed` takes
-/// Eq. 19's numbers in metres.
+/// Returns g(d) [J] for 0 < d < r, with radius r [m] and stiffness k_c [N/m]. `ogc_as_printed` uses the numbers of Eq.
+/// 19 in metres.
 template <class T, class P>
 T activation_energy(compare::ContactActivation kind, const T& d, const P& r, const P& k) {
   using std::log;
@@ -37,11 +37,11 @@ T activation_energy(compare::ContactActivation kind, const T& d, const P& r, con
   return energy;
 }
 
-/// Properties of g where it is not smooth.
+/// Where and how g is not smooth.
 struct ActivationForm {
-  bool has_stages = false;  ///< another formula below τ = r/2
+  bool has_stages = false;  ///< g has another formula below τ = r/2
   bool jumps = false;       ///< g' jumps at τ
-  bool ends_flat = false;   ///< g' is 0 at r and has no slope there
+  bool ends_flat = false;   ///< g' is 0 at r, without a slope there
 };
 /// Returns the properties of one activation.
 inline ActivationForm form_of(compare::ContactActivation kind) {
@@ -55,7 +55,7 @@ inline ActivationForm form_of(compare::ContactActivation kind) {
   return {};
 }
 
-/// Returns g(d), 0 from r on.
+/// Returns g(d); 0 for d ≥ r.
 template <class T, class P>
 T contact_activation(compare::ContactActivation kind, const T& d, const P& r, const P& k) {
   return plain(d) >= r ? T(0.0) : activation_energy(kind, d, r, k);

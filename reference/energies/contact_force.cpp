@@ -9,7 +9,7 @@ namespace {
 using ByDistance = Derivative<Input, 1>;
 using ByDistanceTwice = Derivative<ByDistance, 1>;
 
-/// Returns d as a function of a vertex with this weight, at the origin of its displacements.
+/// Returns d as a function of the displacement of a vertex with this weight, at displacement 0.
 ByVertex distance_of(const Meeting& meeting, const Input& weight) {
   Triple<ByVertex> apart = fixed(meeting.separation());
   apart = apart + ByVertex(weight) * own_vertex();
@@ -22,7 +22,7 @@ struct Slopes {
 };
 
 Slopes slopes(const Meeting& meeting) {
-  // These activations have curvature 0 at r, exactly; a logarithm of r/r in double is not quite 0.
+  // These activations have exactly 0 curvature at r, but the logarithm of r/r in double is not quite 0.
   if (meeting.is_beyond() && form_of(meeting.activation).ends_flat) return {};
   const ByDistanceTwice variable(ByDistance(meeting.acting_distance(meeting.distance), 0), 0);
   const ByDistanceTwice energy = meeting.energy(variable);

@@ -6,8 +6,7 @@
 
 namespace ogc::reference {
 
-/// Returns the exact answer, then those for the features, stages and ends of action that a decision in its grey zone
-/// could give instead.
+/// Returns the exact answer, then the answers after a flip of each grey decision: features, stages and ends of action.
 std::vector<compare::ForceAnswer> contact_force(const compare::ContactForceCase& question);
 
 /// Computes all cases, in parallel over them.

@@ -1,6 +1,6 @@
-// Forward differentiation. A number carries its derivatives by N directions; the type nests, which gives second
-// derivatives and, with the inputs of a question as the innermost directions, the condition of every derivative. No
-// derivative of an energy is written by hand here.
+// Forward differentiation. A number holds its derivatives by N inputs. The type nests: this gives second derivatives
+// and, with a question's inputs as the innermost directions, the condition of every derivative. No derivative of an
+// energy is written by hand here.
 #pragma once
 
 #include <algorithm>
@@ -11,11 +11,11 @@
 
 namespace ogc::reference {
 
-/// Returns the number without its derivatives.
+/// Returns the value without derivatives.
 inline double plain(double x) { return x; }
 
-/// A number with its derivatives by N inputs. Slopes from `count` on are 0: most factors of an energy depend on few of
-/// its inputs, or on none, and zeros need not be computed.
+/// A number with its derivatives by N inputs. Slopes from `count` on are 0 and need not be computed: most factors of an
+/// energy depend on few of its inputs, or on none.
 template <class T, std::size_t N>
 struct Derivative {
   T value{};                 ///< of the expression
@@ -25,7 +25,7 @@ struct Derivative {
   Derivative() = default;
   Derivative(const T& constant) : value(constant) {}
   Derivative(double constant) requires(!std::is_same_v<T, double>) : value(constant) {}
-  /// Makes the variable of direction `direction`.
+  /// Makes the variable with the number `direction`.
   Derivative(const T& at, std::size_t direction) : value(at), count(direction + 1) { slope[direction] = T(1.0); }
 
   friend Derivative operator+(Derivative a, const Derivative& b) {
@@ -60,19 +60,20 @@ struct Derivative {
   Derivative& operator+=(const Derivative& b) { return *this = *this + b; }
   Derivative& operator-=(const Derivative& b) { return *this = *this - b; }
   Derivative& operator*=(const Derivative& b) { return *this = *this * b; }
-  /// Compares values, for branches.
+  /// Compares values only, for branches.
   friend bool operator==(const Derivative& a, double b) requires(!std::is_same_v<T, double>) { return a.value == b; }
   friend bool operator==(const Derivative& a, const T& b) { return a.value == b; }
 };
 
-/// Returns −1 where x < 0, else 1.
+/// Returns −1 if x < 0, else 1.
 inline double sign_of(double x) { return x < 0 ? -1.0 : 1.0; }
 template <class T, std::size_t N>
 double plain(const Derivative<T, N>& x) {
   return plain(x.value);
 }
 
-/// Returns max(0, x) with x's derivatives: the unit of a judged error must hold on both sides of the corner.
+/// Returns max(0, x) with the derivatives of x even for x < 0, because the unit of a judged error must hold on both
+/// sides of the corner.
 inline double positive_part(double x) { return std::max(0.0, x); }
 template <class T, std::size_t N>
 Derivative<T, N> positive_part(Derivative<T, N> x) {
@@ -80,8 +81,8 @@ Derivative<T, N> positive_part(Derivative<T, N> x) {
   return x;
 }
 
-/// Returns the same where x is the product of `factor` and another number, which may be negative: then only the other
-/// number's derivatives are kept.
+/// Returns the same if x is a product of `factor`. If the other number is negative, only its derivatives are kept,
+/// times `factor`.
 inline double positive_part(double x, double) { return std::max(0.0, x); }
 template <class T, std::size_t N>
 Derivative<T, N> positive_part(const Derivative<T, N>& x, const Derivative<T, N>& factor) {
@@ -89,7 +90,7 @@ Derivative<T, N> positive_part(const Derivative<T, N>& x, const Derivative<T, N>
   return factor * positive_part(x / factor);
 }
 
-/// Returns f(x) from the value and slope of f there.
+/// Returns f(x); `value` and `slope` are those of f there.
 template <class T, std::size_t N>
 Derivative<T, N> chained(const T& value, const T& slope, const Derivative<T, N>& x) {
   Derivative<T, N> result(value);
@@ -98,8 +99,7 @@ Derivative<T, N> chained(const T& value, const T& slope, const Derivative<T, N>&
   return result;
 }
 
-/// At 0 the derivative is taken as 0: energies reach the root only where it is multiplied by a quantity that vanishes
-/// there too.
+/// Takes the derivative at 0 as 0: energies reach the root only multiplied by a quantity that is 0 there, too.
 template <class T, std::size_t N>
 Derivative<T, N> sqrt(const Derivative<T, N>& x) {
   using std::sqrt;

@@ -8,11 +8,11 @@
 
 namespace ogc::reference {
 
-/// x0 and x1 of the edge, then the opposite vertices.
+/// The ends x0 and x1 of the edge, then the opposite vertices.
 template <class T>
 using Hinge = std::array<Triple<T>, 4>;
 
-/// Returns a truth value, or one for each lane.
+/// Returns a truth value; over lanes, one for each lane.
 template <class T>
 auto is_zero(const Triple<T>& a) {
   return plain(a[0]) == 0.0 && plain(a[1]) == 0.0 && plain(a[2]) == 0.0;
@@ -23,20 +23,20 @@ double plain_length(const Triple<T>& a) {
   return std::hypot(plain(a[0]), plain(a[1]), plain(a[2]));
 }
 
-/// The two normals of a hinge and the edge between its triangles.
+/// A hinge's edge and the normals of its triangles.
 template <class T>
 struct Fold {
   Hinge<T> x;                     ///< x0, x1, o0, o1 [m]
   Triple<T> edge, first, second;  ///< x1 − x0 [m], and the normals of both triangles [m²]
   explicit Fold(const Hinge<T>& at)
       : x(at), edge(x[1] - x[0]), first(cross(edge, x[2] - x[0])), second(cross(x[3] - x[0], edge)) {}
-  /// Returns whether a triangle or the edge has no direction, so that there is no angle; a truth value, or one for each
+  /// Returns whether the edge or a triangle is degenerate, so that there is no angle; over lanes, one value for each
   /// lane.
   auto collapsed() const { return is_zero(first) || is_zero(second); }
   /// Returns whether a kernel may treat the hinge as collapsed (compare/stages/bending.hpp).
   bool may_count_as_collapsed() const { return is_needle(first, x[2]) || is_needle(second, x[3]); }
-  /// Returns whether the sine at an end of the edge is below the contract's limit; the longer side has the smaller
-  /// sine.
+  /// Returns whether the sine at some end of the edge is below the contract's limit; the end with the longer side has
+  /// the smaller sine.
   bool is_needle(const Triple<T>& normal, const Triple<T>& opposite) const {
     const double side = std::max(plain_length(opposite - x[0]), plain_length(opposite - x[1]));
     return plain_length(normal) < compare::bending_needle * compare::unit_roundoff * plain_length(edge) * side;

@@ -6,7 +6,7 @@
 
 namespace ogc::reference {
 
-/// Returns the exact answer, then those for the contact's other acceptable answers.
+/// Returns the exact answer, then the answers for the contact's other accepted meetings.
 std::vector<compare::ForceAnswer> friction_force(const compare::FrictionForceCase& question);
 
 /// Computes all cases, in parallel over them.

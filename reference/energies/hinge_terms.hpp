@@ -1,5 +1,5 @@
-// The energies of a hinge over any number type, one for each bending model, and the block of one of its vertices
-// (method.md §4.7, §4.9).
+// The energies of a hinge over any number type, one for each bending model, and the block of one vertex (method.md
+// §4.7, §4.9).
 #pragma once
 
 #include <tuple>
@@ -11,8 +11,8 @@
 
 namespace ogc::reference {
 
-/// A hinge: c/2 ((θ − θ₀)² + k (θ − θᵗ)²), in the isometric model c/2 (‖Σ w x‖² + k (θ − θᵗ)²); terms of θ are 0 where
-/// a triangle has collapsed.
+/// A hinge: c/2 ((θ − θ₀)² + k (θ − θᵗ)²), in the isometric model c/2 (‖Σ w x‖² + k (θ − θᵗ)²). Terms with θ are 0 if a
+/// triangle has collapsed.
 template <class Number>
 struct HingeTermOf {
   std::array<compare::Index, 4> vertex{};
@@ -30,13 +30,13 @@ struct HingeTermOf {
     }
     return false;
   }
-  /// Returns the part that depends on the angle: the whole energy, or the isometric model's damping.
+  /// Returns the energy as a function of the angle: all of it, or the damping of the isometric model.
   template <class T>
   T energy_of(const T& angle) const {
     const T moved = angle - T(start), elastic = elastic_of(angle);
     return damping == 0.0 ? elastic : elastic + 0.5 * stiffness * damping * moved * moved;
   }
-  /// Returns the part that depends on positions without the angle: the isometric model's c/2 ‖Σ w x‖².
+  /// Returns the energy that depends on positions without the angle: c/2 ‖Σ w x‖² of the isometric model.
   template <class T>
   T energy_of(const Hinge<T>& x) const {
     T elastic(0.0);
@@ -66,10 +66,10 @@ struct HingeTermOf {
     return fold.collapsed() ? elastic : elastic + energy_of(fold.angle());
   }
 
-  /// Constants; see the head of stencil_terms.hpp.
+  /// Returns the constants (head of stencil_terms.hpp).
   auto numbers() { return std::tie(stiffness, rest_angle, damping, start, weight); }
   auto numbers() const { return std::tie(stiffness, rest_angle, damping, start, weight); }
-  /// What stencils side by side share; see the head of stencil_terms.hpp.
+  /// Returns the properties that stencils side by side must share (head of stencil_terms.hpp).
   auto kinds() { return std::tie(model); }
   auto kinds() const { return std::tie(model); }
 
@@ -91,7 +91,7 @@ struct HingeTermOf {
 /// A hinge over doubles.
 using HingeTerm = HingeTermOf<double>;
 
-/// Adds force and block of the terms of θ: c (1 + k) ∇θ ∇θᵀ, in the isometric model k c ∇θ ∇θᵀ.
+/// Adds force and block of the terms with θ: c (1 + k) ∇θ ∇θᵀ, in the isometric model k c ∇θ ∇θᵀ.
 template <class Number>
 void add_angle(const HingeTermOf<Number>& term, const ByOwn<Number>& angle, VertexSystemOf<Number>& sum) {
   const Second<1, Number> energy = along(angle.value, [&](const Second<1, Number>& a) { return term.energy_of(a); });

@@ -6,8 +6,8 @@ namespace ogc::reference {
 
 namespace {
 
-/// Returns a length as it counts in a condition: products of lengths below 2⁻¹⁰⁰ m with the factors of an energy may
-/// underflow.
+/// Returns a length for a condition, at least 2⁻¹⁰⁰ m if not 0: products of smaller lengths with the factors of an
+/// energy may underflow.
 double sized(double length) { return length == 0 ? 0 : std::max(length, 0x1p-100); }
 
 }  // namespace
@@ -49,7 +49,7 @@ double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) 
 }  // namespace
 
 double Inputs::stencil_condition(std::span<const Input> answer, const Range& stencil) const {
-  // The point at the origin comes first: moving it alone is the same as moving all others the other way.
+  // The point at the origin comes first: moving it is the same as moving all others by the opposite.
   std::vector<std::array<double, 3>> points(1);
   std::vector<double> norms(1);
   Rows origin(answer.size());

@@ -1,5 +1,5 @@
-// Differentiates first by the inputs of a stencil, so that each later derivative (force, block) comes with its
-// condition: the unit in which the judge counts errors (compare/stages/force.hpp).
+// Differentiates by the inputs of a stencil first, so that each later derivative (force, block) has a condition. The
+// condition is the unit in which the judge counts errors (compare/stages/force.hpp).
 #pragma once
 
 #include <span>
@@ -12,22 +12,22 @@ namespace ogc::reference {
 
 /// A number with its derivatives by the inputs of a question.
 using Input = Derivative<double, 28>;
-/// A number with its derivatives by the coordinates of the own vertex, whose force the question is about.
+/// A number with its derivatives by the own vertex, on which the question's force acts.
 using ByVertex = Derivative<Input, 3>;
 
 /// Collects the inputs of one stencil.
 class Inputs {
  public:
-  /// Returns p − from as one input. It is exact: differences of single-precision numbers of one size have no rounding
-  /// in double.
+  /// Returns p − from as one input. It is exact, because double holds the difference of two single-precision numbers of
+  /// similar size.
   Triple<Input> vector(const compare::Vec3f& p, const compare::Vec3f& from);
-  /// Returns a given number, known to u of itself.
+  /// Returns a given number with the error u |value|.
   Input number(double value) { return number(value, std::abs(value)); }
-  /// Returns a number known to u times `size`. If `size` is the condition of a computed number, that number's inputs
-  /// need not be carried along.
+  /// Returns a number with the error u · `size`. If `size` is the condition of a computed number, that number's own
+  /// inputs can be dropped.
   Input number(double value, double size);
-  /// Returns all points of a stencil relative to points[origin], whose entry is 0. A kernel may form its differences
-  /// from any one of them, so the condition is the largest over these choices.
+  /// Returns all points of a stencil relative to points[origin], whose entry is 0. A kernel may take any point as the
+  /// origin, so the condition is the largest over all origins.
   template <std::size_t N>
   std::array<Triple<Input>, N> stencil(const std::array<compare::Vec3f, N>& points, std::size_t origin) {
     std::array<Triple<Input>, N> relative;
@@ -43,7 +43,7 @@ class Inputs {
   struct Group {
     std::size_t first, count;
     double size;
-    std::array<double, 3> at{};  ///< the value of a vector
+    std::array<double, 3> at{};  ///< value, if the input is a vector
   };
   struct Range {
     std::size_t begin, end;
@@ -54,12 +54,11 @@ class Inputs {
   std::size_t used_ = 0;
 };
 
-/// Returns a point that does not move with the own vertex.
+/// Returns a point that does not depend on the own vertex.
 Triple<ByVertex> fixed(const Triple<Input>& point);
-/// Returns the own vertex, at the origin of the relative coordinates.
+/// Returns the own vertex, which is the origin of the relative coordinates.
 Triple<ByVertex> own_vertex();
 
-/// A sweep's block in Input numbers.
 using Block = BlockOf<Input>;
 
 /// Returns a force and its block as an answer.
@@ -67,12 +66,12 @@ compare::ForceAnswer answer(const Inputs& inputs, const VertexSystemOf<Input>& s
 /// Returns the answer of an energy, whose force is minus its slope, and a block.
 compare::ForceAnswer answer(const Inputs& inputs, const ByVertex& energy, const Block& block);
 
-/// Adds damping by vertex to an elastic force with block B: −k B moved, where `moved` is the vertex's motion since the
-/// start of the step and k is `damping`, and (1 + k) B for B.
+/// Adds damping by vertex to an elastic force with the block B: adds −k B `moved` to the force and k B to the block.
+/// `moved` is the vertex's motion since the start of the step, k is `damping`.
 compare::ForceAnswer damped_by_vertex(const Inputs& inputs, const VertexSystemOf<Input>& elastic, const Input& damping,
                                       const Triple<Input>& moved);
 
-/// Multiplies the units of error, for a model whose tolerances differ from those of its stage.
+/// Multiplies the units of error, for a model with other tolerances than its stage.
 compare::ForceAnswer with_units(compare::ForceAnswer answer, double force, double block);
 /// Adds two answers that are rounded separately.
 compare::ForceAnswer sum(compare::ForceAnswer a, const compare::ForceAnswer& b);

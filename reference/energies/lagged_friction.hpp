@@ -1,14 +1,13 @@
 // IPC's lagged potential of a slip in Input numbers (method.md §4.4), for contacts of all kinds. f₀ is the integral of
-// f₁; the energy's derivative by the squared slip, f₁(y)/(2 y), is given explicitly and is finite where the slip
-// vanishes.
+// f₁. The energy's derivative by the squared slip, f₁(y)/(2 y), has its own formula, which is finite for zero slip.
 #pragma once
 
 #include "reference/energies/inputs.hpp"
 
 namespace ogc::reference {
 
-/// Returns ‖u‖. Where u, which is known to `units` of u · condition, can't be told from 0, it has no direction, and ‖u‖
-/// grows by the length of any change of u.
+/// Returns ‖u‖, where the error of u is `units` of u · condition. If u may be 0, it has no direction, and ‖u‖ changes
+/// by the length of any change of u.
 inline Input slip_length(const Inputs& inputs, const Triple<Input>& slip, double units) {
   Input y = sqrt(dot(slip, slip));
   if (y.value > units * compare::unit_roundoff * inputs.condition(slip)) return y;

@@ -27,8 +27,8 @@ Input foot(const Triple<Input>& p, const Triple<Input>& a, const Triple<Input>& 
   return dot(p - a, e) / dot(e, e);
 }
 
-/// Returns a parameter that is clamped to `end`. Where the free one can't be told from the end it may move, and keeps
-/// the derivatives that it has without the clamp.
+/// Returns `free`, clamped to `end`. Within rounding of the end it keeps the derivatives of the unclamped parameter,
+/// because it may move there.
 Input at_end(const Inputs& inputs, Input free, double end) {
   if (!(std::abs(free.value - end) <= compare::contact_grey * compare::unit_roundoff * inputs.condition({&free, 1})))
     return Input(end);
@@ -36,7 +36,7 @@ Input at_end(const Inputs& inputs, Input free, double end) {
   return free;
 }
 
-/// Returns the parameters of the foot in the triangle's plane.
+/// Returns the parameters of the point's foot in the triangle's plane.
 Parameters in_plane(const Vertices& x) {
   const auto &p = x[0], &a = x[1], &b = x[2], &c = x[3];
   const Triple<Input> n = cross(b - a, c - a);
@@ -72,7 +72,7 @@ std::vector<Parameters> all_on_triangle(const Inputs& inputs, const ContactForce
   return all;
 }
 
-/// Returns the parameters for a point and a segment: end 0, end 1, interior, in the order that breaks the tie of a
+/// Returns the parameters for a point and a segment: end 0, end 1, interior, in the order that breaks ties of a
 /// collapsed segment.
 std::vector<Parameters> all_on_segment(const Inputs& inputs, const ContactForceCase& q, const Vertices& x) {
   const Vec3f &p = q.vertex[0], &a = q.vertex[1], &b = q.vertex[2];
@@ -94,8 +94,8 @@ std::vector<Parameters> all_on_segment(const Inputs& inputs, const ContactForceC
   return all;
 }
 
-/// Returns the parameter on the first of two edges, for its feature opposite a feature of the second. `skew`: whether
-/// their lines have closest points.
+/// Returns the parameter on the first of two edges; `feature` and `other` are the features of both edges. `skew`:
+/// whether their lines have unique closest points.
 Input on_edge(const Inputs& inputs, bool skew, EdgeFeature feature, const Triple<Input>& u0, const Triple<Input>& u1,
               EdgeFeature other, const Triple<Input>& v0, const Triple<Input>& v1) {
   if (!skew && feature != EdgeFeature::interior && other == EdgeFeature::interior)
@@ -111,7 +111,7 @@ Parameters on_edges(const Inputs& inputs, bool skew, EdgeFeatures features, cons
           on_edge(inputs, skew, features.second, x[2], x[3], features.first, x[0], x[1])};
 }
 
-/// Applies the rule for nearly parallel edges: the middle of the overlap, then its projection.
+/// Applies the rule for nearly parallel edges: the middle of the overlap, and its projection.
 Parameters middle_of_overlap(const Vertices& x) {
   const Input s = Input(0.5) * (within_unit(foot(x[2], x[0], x[1])) + within_unit(foot(x[3], x[0], x[1])));
   return {s, within_unit(foot(x[0] + s * (x[1] - x[0]), x[2], x[3]))};
@@ -124,8 +124,8 @@ std::vector<Parameters> all_on_edges(const Inputs& inputs, const ContactForceCas
   if (rule.certain) return {middle_of_overlap(x)};
   std::vector<Parameters> all;
   if (rule.exact) all.push_back(middle_of_overlap(x));
-  // Edges whose interiors hold the closest points overlap, so the rule covers them wherever the angle is small: nearly
-  // parallel lines need no crossing.
+  // If the interiors hold the closest points, the edges overlap, so the rule applies at every small angle. Then no
+  // crossing of nearly parallel lines is computed.
   const Margin angle = parallel(q.vertex[0], q.vertex[1], q.vertex[2], q.vertex[3]);
   const bool is_small = sign(angle) < 0 && !grey(angle), certain = are_closest(pair, closest).certain;
   if (!(is_small && closest == interiors)) all.push_back(on_edges(inputs, !is_small, closest, x));
@@ -158,9 +158,9 @@ std::array<Input, 4> weights(ContactSides sides, const Input& first, const Input
   return {one, -one, zero, zero};
 }
 
-/// Returns e_k as one number. Beside its condition its size has the square of the normal's error, 4 u ‖e‖‖e'‖ by two
-/// products and a difference of rounded edges. It is the only error where the edges are parallel and the first order
-/// vanishes.
+/// Returns e_k as one input. Its size is its condition plus the square of the normal's error, 4 u ‖e‖‖e'‖ from two
+/// products and a difference of rounded edges. For parallel edges, where the first order vanishes, this is the only
+/// error.
 Input mollified(const ContactForceCase& q, Inputs& inputs) {
   Inputs own;
   const Triple<Input> e = own.vector(q.previous[1], q.previous[0]), f = own.vector(q.previous[3], q.previous[2]);
@@ -171,7 +171,7 @@ Input mollified(const ContactForceCase& q, Inputs& inputs) {
   return inputs.number(result.value, own.condition({&result, 1}) + square);
 }
 
-/// Returns e_k of nearly parallel loose edges, the share of their overlap.
+/// Returns e_k of nearly parallel loose edges: their overlap share.
 Input shared(const ContactForceCase& q, Inputs& inputs) {
   Inputs own;
   const auto& x = q.previous;
@@ -180,7 +180,7 @@ Input shared(const ContactForceCase& q, Inputs& inputs) {
   return inputs.number(result.value, own.condition({&result, 1}));
 }
 
-/// Returns e_k: the exact one, then the one across a grey decision.
+/// Returns the exact e_k, then the one after a flip of a grey decision.
 std::vector<Input> energy_shares(const ContactForceCase& q, Inputs& inputs) {
   if (q.sides != ContactSides::edge_edge) return {one};
   if (q.rest_squared[0] > 0 && q.rest_squared[1] > 0) return {mollified(q, inputs)};
@@ -192,7 +192,7 @@ std::vector<Input> energy_shares(const ContactForceCase& q, Inputs& inputs) {
   return rule.exact ? std::vector{share, one} : std::vector{one, share};
 }
 
-/// Returns vertices relative to the base of Meeting::vertex.
+/// Returns vertices relative to the origin of Meeting::vertex.
 Vertices relative(ContactSides sides, const std::array<Vec3f, 4>& at, Inputs& inputs) {
   Vertices vertices;
   const std::size_t base = sides == ContactSides::edge_edge ? 0 : 1;
@@ -201,7 +201,7 @@ Vertices relative(ContactSides sides, const std::array<Vec3f, 4>& at, Inputs& in
   return vertices;
 }
 
-/// Returns a meeting with everything except the weights and e_k.
+/// Returns a meeting without weights and e_k.
 Meeting begun(const ContactForceCase& q) {
   Meeting meeting;
   meeting.vertex = relative(q.sides, q.vertex, meeting.inputs);
@@ -219,8 +219,8 @@ void measure(Meeting& meeting) {
   meeting.distance_doubt = factor * meeting.inputs.condition({&meeting.distance, 1});
 }
 
-/// Returns whether a face is a needle: with the longest side as unit, a foot at distance d on a triangle of height h is
-/// known to u d/h² of the width across h: 3/64 at h = 2⁻⁹, d = 3.
+/// Returns whether a face is a needle. In units of the longest side, a foot at distance d on a triangle of height h has
+/// an error of u d/h² of the width across h: 3/64 for h = 2⁻⁹, d = 3.
 bool has_needle(const ContactForceCase& q, const Vertices& x) {
   constexpr double least_squared = 0x1p-18;
   const auto squared = [&](std::size_t a, std::size_t b) { return dot(x[a] - x[b], x[a] - x[b]).value; };
@@ -254,7 +254,7 @@ bool near_features(const ContactForceCase& q) {
 
 Input modulus(const Input& x) { return x.value < 0 ? -x : x; }
 
-/// Returns the weights of the own vertex and then of those that are updated together with it.
+/// Returns the weight of the own vertex, then the weights of the vertices that are updated with it.
 std::vector<Input> updated_weights(const Meeting& meeting, const ContactForceCase& q) {
   const auto own = static_cast<std::size_t>(q.own);
   std::vector<Input> all{meeting.weight[own]};
@@ -286,7 +286,7 @@ double Meeting::slope_doubt() const {
 
 namespace {
 
-/// Sets the weights, each known to u on its own, beside the errors of its inputs.
+/// Sets the weights. Each has an error of u, besides those of its inputs.
 void weigh(Meeting& meeting, ContactSides sides, const Parameters& at) {
   const bool has_parameters = sides != ContactSides::point_point;
   const Input first = has_parameters ? meeting.inputs.number(0, 1) : zero,
@@ -294,7 +294,7 @@ void weigh(Meeting& meeting, ContactSides sides, const Parameters& at) {
   meeting.weight = weights(sides, at[0] + first, at[1] + second);
 }
 
-/// Returns each way of meeting with the constants of `common`.
+/// Returns a meeting with the constants of `common` for each accepted place of the contact points.
 std::vector<Meeting> weighed(const ContactForceCase& question, Meeting common) {
   std::vector<Meeting> all;
   common.needle = has_needle(question, common.vertex);
@@ -338,7 +338,7 @@ LargestSlopes largest_slopes(const ContactForceCase& question, double distance) 
   using Twice = Derivative<Once, 1>;
   const double r = question.contact_radius;
   LargestSlopes largest;
-  // −g' falls from the nearest distance on, except that of ogc_as_printed, which jumps at τ.
+  // −g' falls with the distance, except for ogc_as_printed, which jumps at τ.
   for (const double d : {std::clamp(distance, 0x1p-23 * r, r), std::clamp(distance, 0.5 * r, r)}) {
     const Twice g = activation_energy(question.activation, Twice(Once(d, 0), 0), r, double{question.stiffness});
     largest = {std::max(largest.first, -g.value.slope[0]), std::max(largest.second, g.slope[0].slope[0])};
@@ -361,7 +361,7 @@ std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings, 
     }
     if (acts || ends) all.push_back(acting(meeting));
     none = none || !acts || ends;
-    // A needle's contact points may also lie elsewhere, at any larger distance.
+    // The contact points of a needle may also lie elsewhere, at any larger distance.
     const bool touches = meeting.doubt > 0 && meeting.may_touch(), of_needle = meeting.needle && (acts || ends);
     const double distance = touches ? 0 : meeting.distance.value - meeting.distance_doubt;
     if (touches || of_needle) nearest = any ? std::min(nearest, distance) : distance;

@@ -5,7 +5,7 @@
 
 namespace ogc::reference {
 
-/// Returns the exact answer; where the stable Neo-Hookean model has no normal also one that covers every normal.
+/// Returns the exact answer; if the stable Neo-Hookean model has no normal, also an answer that covers every normal.
 std::vector<compare::ForceAnswer> membrane(const compare::MembraneCase& question);
 
 /// Computes all cases, in parallel over them.

@@ -1,5 +1,5 @@
-// The energies of a triangle over any number type, one for each membrane model, and the block of one of its corners
-// (method.md §4.6, §4.9).
+// The energies of a triangle over any number type, one for each membrane model, and the block of one corner (method.md
+// §4.6, §4.9).
 #pragma once
 
 #include <tuple>
@@ -13,18 +13,18 @@ namespace ogc::reference {
 template <class T>
 using Deformation = std::array<Triple<T>, 2>;
 
-/// G by its components xx, xy, yy.
+/// The components xx, xy, yy of G.
 template <class T>
 using Strain = std::array<T, 3>;
 
-/// Returns ϕ(G) = λ/2 tr(G)² + μ ‖G‖² [J/m²]. The constants, here and below, may be plain numbers.
+/// Returns ϕ(G) = λ/2 tr(G)² + μ ‖G‖² [J/m²]. Constants may be plain numbers.
 template <class T, class Lame>
 T density(const Strain<T>& g, const Lame& lambda, const Lame& mu) {
   const T trace = g[0] + g[2];
   return Lame(0.5) * lambda * trace * trace + mu * (g[0] * g[0] + Lame(2.0) * g[1] * g[1] + g[2] * g[2]);
 }
 
-/// Returns F of the map from the rest plane that takes the corners to x.
+/// Returns F of the map from the rest plane to the corners x.
 template <class T, class Gradient>
 Deformation<T> deformation(const std::array<Triple<T>, 3>& x, const std::array<std::array<Gradient, 2>, 3>& gradient) {
   Deformation<T> f;
@@ -40,8 +40,8 @@ Strain<T> strain(const Deformation<T>& f) {
 }
 
 /// Returns μ/2 (‖F‖² − 2) − μ (J − 1) + (λ + μ)/2 (J − 1)², J = ‖f₁ × f₂‖ [J/m²]. Near rest the first two terms cancel,
-/// and their rounding would exceed the whole energy of a cloth in free fall; ‖F‖² − 2 J = (‖F‖⁴ − 4 J²)/(‖F‖² + 2 J),
-/// whose numerator is a sum of squares, loses nothing.
+/// and their rounding would exceed the whole energy of a freely falling cloth. So they are computed as μ/2 (‖F‖² − 2 J)
+/// with ‖F‖² − 2 J = (‖F‖⁴ − 4 J²)/(‖F‖² + 2 J), whose numerator is a sum of squares.
 template <class T, class Lame>
 T neo_hookean_density(const Deformation<T>& f, const Lame& lambda, const Lame& mu) {
   using std::sqrt;
@@ -95,10 +95,10 @@ struct MembraneTermOf {
     return damping == 0.0 ? psi : psi + damping_of(g);
   }
 
-  /// Constants; see the head of stencil_terms.hpp.
+  /// Returns the constants (head of stencil_terms.hpp).
   auto numbers() { return std::tie(gradient, area, lambda, mu, damping, start); }
   auto numbers() const { return std::tie(gradient, area, lambda, mu, damping, start); }
-  /// What stencils side by side share; see the head of stencil_terms.hpp.
+  /// Returns the properties that stencils side by side must share (head of stencil_terms.hpp).
   auto kinds() { return std::tie(model); }
   auto kinds() const { return std::tie(model); }
 
@@ -117,20 +117,21 @@ struct MembraneTermOf {
 /// A triangle over doubles.
 using MembraneTerm = MembraneTermOf<double>;
 
-/// F and G as functions of one corner, and G as three variables.
+/// F and G as functions of one corner, and G as three independent variables.
 template <class Number>
 struct MembraneCorner {
   Deformation<ByOwnTwice<Number>> f;
   Strain<ByOwnTwice<Number>> g, by_strain;
 
-  /// Takes the corners [m]; the one at `place` is the variable.
+  /// Takes the corners [m]; the corner at `place` is the variable.
   MembraneCorner(const MembraneTermOf<Number>& term, std::size_t place, const std::array<Triple<Number>, 3>& corners)
       : f(deformation<ByOwnTwice<Number>>(with_own<ByOwnTwice<Number>>(corners, place), term.gradient)), g(strain(f)) {
     for (std::size_t i = 0; i < 3; ++i) by_strain[i] = variable(g[i].value, i);
   }
 };
 
-/// Adds force and material part of an energy of the strain: its second derivative along the derivatives of G.
+/// Adds force and material part of the block of an energy of the strain: its second derivative along the derivatives of
+/// G.
 template <class Number>
 void add_strain(const Strain<ByOwnTwice<Number>>& g, const ByOwnTwice<Number>& energy, VertexSystemOf<Number>& sum) {
   for (std::size_t i = 0, k = 0; i < 3; ++i) {
@@ -140,7 +141,7 @@ void add_strain(const Strain<ByOwnTwice<Number>>& g, const ByOwnTwice<Number>& e
   }
 }
 
-/// Adds the geometric part of the block, from the elastic stress, where it is positive: G is a quadratic function whose
+/// Adds the geometric part of the block, from the elastic stress, if it is positive. G is a quadratic function whose
 /// second derivative is a multiple of the identity.
 template <class Number>
 void add_geometric(const Number& area, const Strain<ByOwnTwice<Number>>& g, const ByOwnTwice<Number>& elastic,
@@ -150,7 +151,7 @@ void add_geometric(const Number& area, const Strain<ByOwnTwice<Number>>& g, cons
   add_identity(positive_part(geometric, area), sum.block);
 }
 
-/// Adds the exact second derivative, with max(0, ·) of its eigenvalue along the normal.
+/// Adds the exact second derivative, but max(0, ·) of its eigenvalue along the normal.
 template <class Number>
 void add_neo_hookean(const Number& area, const ByOwnTwice<Number>& energy, const Triple<Number>& normal,
                      VertexSystemOf<Number>& sum) {

@@ -13,7 +13,7 @@ struct Mollifier {
       : sine(dot(cross(e, f), cross(e, f))), limit(T(1e-3) * rest_squared_e * rest_squared_f) {}
   /// Returns whether e_k is below 1.
   bool acts() const { return plain(sine) < plain(limit); }
-  /// Returns e_k where it acts.
+  /// Returns e_k, if it is below 1.
   T value() const {
     const T share = sine / limit;
     return share * (T(2.0) - share);

@@ -1,4 +1,5 @@
-// Computes all cases of a batch in parallel. Each case has its place in the result, so threads change nothing.
+// Computes all cases of a batch in parallel. Each case has its own place in the result, so the number of threads
+// changes nothing.
 #pragma once
 
 #include <utility>
@@ -10,14 +11,14 @@
 
 namespace ogc::reference {
 
-/// The truth about one case: the acceptable answers, the exact one first, and whether a decision is near.
+/// The truth about one case: the accepted answers, and whether a decision is near.
 struct Accepted {
   std::vector<compare::ForceAnswer> answers;  ///< the exact one first
-  bool near = false;                          ///< within near_factor of a decision
+  bool near = false;                          ///< whether some decision lies within near_factor
   Accepted(std::vector<compare::ForceAnswer> all, bool is_near = false) : answers(std::move(all)), near(is_near) {}
 };
 
-/// Computes the truth about each case by `truth_of`.
+/// Computes the truth about each case with `truth_of`.
 template <class Case, class TruthOf>
 compare::ForceTruth for_all(const std::vector<Case>& cases, TruthOf truth_of) {
   compare::ForceTruth truth{std::vector<std::vector<compare::ForceAnswer>>(cases.size()),

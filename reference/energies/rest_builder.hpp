@@ -1,6 +1,6 @@
-// Holds the rest state to which each kind of element adds its own. Each quantity is written once, as polynomials over
-// a number type: exact numbers give the value, so that no needle, flat hinge or fold loses a bit before the one root,
-// quotient or angle at the end; numbers that know their inputs give the unit of its error.
+// Collects the rest state; each kind of element adds its own part. Each quantity is written once, as polynomials over a
+// number type. Exact numbers give the value, so needles, flat hinges and folds lose no bit before the last root,
+// quotient or angle. Input numbers give the unit of the value's error.
 #pragma once
 
 #include <CGAL/Mpzf.h>
@@ -11,15 +11,15 @@
 
 namespace ogc::reference {
 
-/// Polynomials of coordinates are computed in these numbers.
+/// The numbers in which polynomials of coordinates are computed.
 using Exact = CGAL::Mpzf;
 
-/// Returns 64 bits or more of an exact number: a second double takes the rest that the first one leaves.
+/// Returns at least 64 bits of an exact number: a second double holds the rest of the first one.
 inline long double number(const Exact& x) {
   const double high = x.to_double();
   return static_cast<long double>(high) + static_cast<long double>((x - Exact(high)).to_double());
 }
-/// Returns it as it is.
+/// Returns it unchanged.
 inline Input number(const Input& x) { return x; }
 
 /// Converts a vertex without loss.
@@ -39,20 +39,20 @@ inline Point<Input> input(Inputs& inputs, const compare::Vec3& p, const compare:
 /// Returns the unit of the error of one number.
 inline double unit_of(const Inputs& inputs, const Input& answer) { return inputs.condition({&answer, 1}); }
 
-/// The truth about a scene while kinds add to it.
+/// Collects the truth about a scene.
 struct RestBuilder {
   const compare::Scene& scene;
   const compare::Topology& topology;
   std::vector<compare::Index> body_of_vertex = compare::body_of_vertex(scene);
   compare::RestStateTruth truth{};
   std::vector<long double> mass = std::vector<long double>(body_of_vertex.size());  ///< by vertex [kg]
-  std::vector<double> mass_scale = std::vector<double>(body_of_vertex.size());      ///< its unit of error
+  std::vector<double> mass_scale = std::vector<double>(body_of_vertex.size());  ///< unit of the mass's error, by vertex
 
   /// Returns the rest position of a vertex [m].
   const compare::Vec3& at(compare::Index v) const { return scene.rest_positions[static_cast<std::size_t>(v)]; }
   const compare::Body& body(compare::Index b) const { return scene.bodies[static_cast<std::size_t>(b)]; }
 
-  /// Adds an element's mass in equal parts to its vertices; `scale` is the unit of the error of its size.
+  /// Adds an element's mass in equal parts to its vertices; `scale` is the unit of the error of `size`.
   template <class Vertices>
   void add_mass(const Vertices& vertices, double density, long double size, double scale) {
     for (const compare::Index vertex : vertices) {

@@ -6,7 +6,6 @@
 namespace ogc::reference {
 namespace {
 
-/// The two normals of a hinge about its edge.
 template <class T>
 struct Fold {
   Point<T> edge, first, second;
@@ -14,21 +13,22 @@ struct Fold {
   Fold(const Point<T>& x0, const Point<T>& x1, const Point<T>& o0, const Point<T>& o1)
       : edge(x1 - x0), first(cross(edge, o0 - x0)), second(cross(o1 - x0, edge)) {}
 
-  /// From the first normal to the second, positive about the edge: tan θ = (n₀ × n₁)·e / (‖e‖ n₀·n₁).
+  /// Returns the angle from the first normal to the second, positive about the edge: tan θ = (n₀ × n₁)·e / (‖e‖ n₀·n₁).
   auto angle() const {
     using std::atan2, std::sqrt;
     const auto turned = number(dot(cross(first, second), edge)), length = sqrt(number(dot(edge, edge)));
     const auto same = number(dot(first, second)) * length;
     return atan2(turned, same);
   }
-  /// 3 ‖e‖²/(A₀ + A₁).
+  /// Returns 3 ‖e‖²/(A₀ + A₁).
   auto factor() const {
     using std::sqrt;
     const auto ee = number(dot(edge, edge)), twice_first = sqrt(number(dot(first, first))),
                twice_second = sqrt(number(dot(second, second)));
     return decltype(ee)(6.0) * ee / (twice_first + twice_second);
   }
-  /// Sums of cotangents over the edge's length: of x1, o0, o1, given the vectors to the opposite vertices from x0.
+  /// Returns the weights of x1, o0, o1: sums of cotangents over the edge's length. Takes the vectors from x0 to the
+  /// opposite vertices.
   auto weights(const Point<T>& to_first, const Point<T>& to_second) const {
     using std::sqrt;
     const auto length = sqrt(number(dot(edge, edge))), twice_first = sqrt(number(dot(first, first))),
@@ -39,7 +39,7 @@ struct Fold {
   }
 };
 
-/// Adds the weights of the last hinge; they are 0 but in the isometric model.
+/// Adds the weights of the last hinge; they are 0 in all models but the isometric one.
 void add_weights(compare::BendingModel model, const Fold<Exact>& fold, const Fold<Input>& reacting,
                  const std::array<Point<Exact>, 2>& opposite, const std::array<Point<Input>, 2>& reacting_opposite,
                  const Inputs& inputs, compare::RestStateTruth& truth) {

@@ -15,7 +15,7 @@ void add_edge(RestBuilder& to, const compare::Edge& edge) {
   to.truth.edge_length_squared_scale.push_back(unit_of(inputs, dot(reacting, reacting)));
 }
 
-/// The harmonic mean as the reciprocal of the mean reciprocal.
+/// Computes the harmonic mean of the stiffnesses as the reciprocal of the mean reciprocal.
 void add_meeting(compare::RestStateTruth& truth, const compare::Material& a, const compare::Material& b) {
   const long double ka = a.contact_stiffness, kb = b.contact_stiffness;
   const long double stiffness = ka == 0 || kb == 0 ? 0 : 2 / (1 / ka + 1 / kb);

@@ -6,8 +6,8 @@
 namespace ogc::reference {
 namespace {
 
-/// A tetrahedron by what its coordinates give before any quotient: normals of the faces opposite its corners, inward,
-/// of twice the area, and 6V. ∇N_k = n_k/(6V).
+/// A tetrahedron as polynomials of its coordinates: 6V, and the inward normals n_k of the faces opposite to the
+/// corners, with twice the faces' areas. ∇N_k = n_k/(6V).
 template <class T>
 struct SolidShape {
   Point<T> normal[4];
@@ -16,7 +16,7 @@ struct SolidShape {
   SolidShape(const Point<T>& a, const Point<T>& b, const Point<T>& c)
       : normal{cross(c - a, b - a), cross(b, c), cross(c, a), cross(a, b)}, six_volumes(dot(a, normal[1])) {}
 
-  /// V ∇N_k·∇N_l.
+  /// Returns V ∇N_k·∇N_l.
   auto weight(std::size_t k, std::size_t l) const {
     const auto sixth = number(six_volumes);
     return number(dot(normal[k], normal[l])) / (decltype(sixth)(6.0) * sixth);

@@ -12,16 +12,16 @@ T area_of(const Point<T>& normal) {
   return T(0.5) * sqrt(dot(normal, normal));
 }
 
-/// A triangle by what its coordinates give before any root: e = x1 − x0, n = e × (x2 − x0).
+/// A triangle as polynomials of its coordinates: e = x1 − x0, n = e × (x2 − x0).
 template <class T>
 struct Shape {
-  Point<T> edge, normal, across[2];  ///< across[k]: the edge opposite corner k + 1, from its first end to its second
+  Point<T> edge, normal, across[2];  ///< across[k]: the edge opposite to corner k + 1, from its first end to its second
 
   Shape(const Point<T>& x0, const Point<T>& x1, const Point<T>& x2)
       : edge(x1 - x0), normal(cross(edge, x2 - x0)), across{x0 - x2, x1 - x0} {}
 };
 
-/// ∇N_k = n × (edge opposite k) / ‖n‖², in the frame of e and n × e.
+/// Returns ∇N_k = n × (edge opposite to k) / ‖n‖², in the frame of e and n × e.
 template <class T>
 auto gradient(const Shape<T>& shape, std::size_t k) {
   using std::sqrt;

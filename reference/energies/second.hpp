@@ -1,7 +1,7 @@
 // Forward differentiation to second order of a function of N variables: value, gradient and one triangle of the
-// Hessian. Nesting Derivative in itself would carry the other triangle too; Newton's method differentiates each stencil
-// of a mesh in each iteration, so a separate type is worthwhile. `Number` is a double, or several of them side by side
-// (lanes.hpp).
+// Hessian. Derivative nested in itself would compute the other triangle, too. A separate type pays off, because
+// Newton's method differentiates each stencil of a mesh in each iteration. `Number` is a double, or several of them
+// side by side (lanes.hpp).
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace ogc::reference {
 
-/// Calls visit(i, j, k) for each entry k = (i, j), j ≤ i, of a triangle of N rows. The loop is unrolled: short loops of
-/// changing length cost more than their bodies.
+/// Calls visit(i, j, k) for each entry k = (i, j), j ≤ i, of a triangle of N rows. The loop is unrolled, because short
+/// loops of varying length cost more than their bodies.
 template <std::size_t N, class Visit>
 [[gnu::always_inline]] inline void for_triangle(Visit visit) {
   [&]<std::size_t... I>(std::index_sequence<I...>) {
@@ -28,9 +28,8 @@ template <std::size_t N, class Visit>
   (std::make_index_sequence<N>{});
 }
 
-/// A number with gradient and Hessian. Value and slope are public. Second derivatives are read by `bend`, because they
-/// are not stored for linear numbers (positions, edges and F): there they would be more than three quarters of all that
-/// is copied, and of what the cache must hold.
+/// A number with gradient and Hessian. `bend` returns second derivatives, which linear numbers (positions, edges and F)
+/// do not store: they would be more than three quarters of the copied data.
 template <std::size_t N, class Number = double>
 class Second {
  public:
@@ -118,7 +117,7 @@ class Second {
       for (std::size_t k = 0; k < bends; ++k) result.bend_[k] += first * x.bend_[k];
     return result;
   }
-  /// At 0 all derivatives are taken as 0, as by Derivative.
+  /// Takes all derivatives at 0 as 0, like Derivative.
   friend Second sqrt(const Second& x) {
     using std::sqrt;
     if (x.value == 0.0) return {};
@@ -129,7 +128,7 @@ class Second {
     using std::log;
     return composed(log(x.value), 1.0 / x.value, -1.0 / (x.value * x.value), x);
   }
-  /// Returns the imaginary part of log z, z = x + iy ≠ 0; its second derivative is the imaginary part of z''/z −
+  /// Returns the imaginary part of log z, z = x + iy ≠ 0. Its second derivative is the imaginary part of z''/z −
   /// (z'/z)².
   friend Second atan2(const Second& y, const Second& x) {
     using std::atan2;
@@ -147,12 +146,12 @@ class Second {
   }
 
  private:
-  /// Makes a constructor leave slopes and bends open; they must be filled at once.
+  /// Selects the constructor that leaves slopes and bends uninitialised; the caller must fill them at once.
   struct Open {};
   Second(Open, const Number& at) : value(at), linear_(false) {}
 
   std::array<Number, bends> bend_;
-  bool linear_ = true;  ///< all second derivatives are 0; bend_ is not read
+  bool linear_ = true;  ///< whether all second derivatives are 0; bend_ is then not read
 };
 
 template <std::size_t N, class Number>

@@ -38,11 +38,11 @@ struct Separation {
   }
 };
 
-/// Returns what the block of a stitch may lack beyond the first order [N/m], where its length is lost in the error of Σ
-/// wᵢ xᵢ, which is known to 4 units of u · cond (compare/stages/spring.hpp). Where l is more than twice that, its
-/// inverse is known to twice its first order, for which the tolerances have room. Where it is less, l₀/l may come out
-/// as anything up to 1: the block may then lack all of max(0, 1 − l₀/l)(I − n nᵀ) if l₀ > 0. The loss in n, and in l₀/l
-/// where l comes out as 0, is at most √2 l₀/l, and the first order accepts 44/8 of it.
+/// Returns the error of a stitch's block beyond the first order [N/m], if the error of Σ wᵢ xᵢ hides its length l. That
+/// error is 4 units of u · cond (compare/stages/spring.hpp). If l is more than twice the error, 1/l has at most twice
+/// its first-order error, for which the tolerances have room. Otherwise l₀/l may become anything up to 1. If l₀ > 0,
+/// the block may then lack all of max(0, 1 − l₀/l)(I − n nᵀ). The error in n, and in l₀/l if l becomes 0, is at most √2
+/// l₀/l; the first order accepts 44/8 of it.
 double lost_block(const Inputs& inputs, const compare::SpringCase& q, const Separation& ends, const Input& length) {
   if (q.ratio == 0 || q.rest_length == 0) return 0;
   const Triple<Input> apart{ends.apart[0].value, ends.apart[1].value, ends.apart[2].value};

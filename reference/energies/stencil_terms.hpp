@@ -1,7 +1,8 @@
 // The energy of each kind of stencil as one scalar function of its vertices, over any number type (method.md §4).
-// Newton's method differentiates these by all vertices; the stages of the sweep differentiate by one vertex and share
-// strain and angle with them. `Number` is the type of a stencil's constants: a double, or one for each of several
-// stencils side by side. `numbers` lists these constants, `kinds` what all stencils side by side must have in common.
+// Newton's method differentiates it by all vertices. The stages of the sweep differentiate by one vertex and use the
+// same strains and angles. `Number` is the type of a stencil's constants: a double, or one double for each of several
+// stencils side by side. `numbers` returns these constants. `kinds` returns the properties that all stencils side by
+// side must share.
 #pragma once
 
 #include <tuple>
@@ -17,7 +18,7 @@
 
 namespace ogc::reference {
 
-/// A contact: e_k g(d). The form is found when the energy is evaluated.
+/// A contact: e_k g(d). The form is determined when the energy is evaluated.
 template <class Number>
 struct ContactTermOf {
   compare::ContactSides sides = compare::ContactSides::point_point;
@@ -38,17 +39,18 @@ struct ContactTermOf {
     return energy_at(form_distance(form, x));
   }
 
-  /// Constants; see the head of this file.
+  /// Returns the constants (head of this file).
   auto numbers() { return std::tie(contact_radius, stiffness, mollifier); }
   auto numbers() const { return std::tie(contact_radius, stiffness, mollifier); }
-  /// What stencils side by side share; see the head of this file.
+  /// Returns the properties that stencils side by side must share (head of this file).
   auto kinds() { return std::tie(activation); }
   auto kinds() const { return std::tie(activation); }
 };
 /// A contact over doubles.
 using ContactTerm = ContactTermOf<double>;
 
-/// Lagged friction of a contact: μ λ f₀(‖u‖), u = (I − n nᵀ)(Σ wᵢ xᵢ − Σ wᵢ xᵢᵗ), with λ, n and w of a fixed state.
+/// Lagged friction of a contact: μ λ f₀(‖u‖), u = (I − n nᵀ)(Σ wᵢ xᵢ − Σ wᵢ xᵢᵗ); λ, n and w are those of a fixed
+/// state.
 template <class Number>
 struct FrictionTermOf {
   compare::ContactSides sides = compare::ContactSides::point_point;
@@ -62,14 +64,14 @@ struct FrictionTermOf {
   Triple<T> slip(const std::array<Triple<T>, N>& x) const {
     return slip_between(separation(weight, x));
   }
-  /// Returns u by Σ wᵢ xᵢ.
+  /// Returns u from Σ wᵢ xᵢ.
   template <class T>
   Triple<T> slip_between(Triple<T> moved) const {
     for (std::size_t k = 0; k < 3; ++k) moved[k] = moved[k] - T(start[k]);
     const T along = normal[0] * moved[0] + normal[1] * moved[1] + normal[2] * moved[2];
     return moved - Triple<T>{normal[0] * along, normal[1] * along, normal[2] * along};
   }
-  /// Returns the energy by ‖u‖². f₀' = f₁: y − ε/3 beyond ε, y²/ε − y³/(3ε²) below, 0 at rest.
+  /// Returns the energy from ‖u‖². f₀' = f₁: f₀ = y − ε/3 for y ≥ ε, y²/ε − y³/(3ε²) below, so that f₀(0) = 0.
   template <class T>
   T energy_of(const T& squared) const {
     using std::sqrt;
@@ -82,7 +84,7 @@ struct FrictionTermOf {
   T energy(const std::array<Triple<T>, N>& x) const {
     return energy_between(separation(weight, x));
   }
-  /// Returns the energy by Σ wᵢ xᵢ.
+  /// Returns the energy from Σ wᵢ xᵢ.
   template <class T>
   T energy_between(const Triple<T>& apart) const {
     const Triple<T> u = slip_between(apart);

@@ -30,7 +30,7 @@ struct Elastic {
   T ratio(const std::array<Triple<T>, 4>& x) const {
     return inverse * dot(x[1] - x[0], cross(x[2] - x[0], x[3] - x[0]));
   }
-  /// Returns force and block of the part of the energy that depends on x₀.
+  /// Returns force and block of the energy terms that depend on x₀.
   VertexSystemOf<Input> system() const {
     using T = ByOwnTwice<Input>;
     const std::array<Triple<T>, 4> x = with_own<T>(corner, 0);
@@ -49,11 +49,11 @@ struct Elastic {
 
 double length_of(const Triple<Input>& v) { return std::hypot(v[0].value, v[1].value, v[2].value); }
 
-/// Adds errors that the condition lacks. Two edges of the opposite face are rounded separately, so that their normal,
-/// of 6 units, errs by their lengths even where its inputs cancel: a far corner beside two near ones. The face's
-/// longest edges count, and for J the longest way to them. It also adds what is lost beyond the first order where J − 1
-/// and the normal nearly vanish and their errors, of 12 and 6 units (compare/stages/tetrahedron.hpp), multiply.
-/// `resisted`: k ‖moved‖ of damping by vertex, whose block is `grown` times the elastic one.
+/// Adds errors that the condition lacks. The edges of the opposite face are rounded separately. So their normal, of 6
+/// units, has an error of 6 u times its two longest edges even if its inputs cancel (a far corner beside two near
+/// ones); J has this error times the longest distance to the face. Also adds the product of the errors of J − 1 and the
+/// normal, of 12 and 6 units (compare/stages/tetrahedron.hpp), which remains if both nearly vanish. `resisted`: k
+/// ‖moved‖ of damping by vertex, whose block is `grown` times the elastic block.
 compare::ForceAnswer with_rounded_edges(const Elastic& elastic, compare::ForceAnswer answer, double resisted = 0,
                                         double grown = 1) {
   constexpr double u = compare::unit_roundoff, ratio_units = 12, normal_units = 6;
@@ -87,7 +87,7 @@ Gradients gradients_of(const compare::TetrahedronCase& q, Inputs& inputs) {
   return gradient;
 }
 
-/// Returns Gᵗ, each component with the unit of its error.
+/// Returns Gᵗ; each component comes with the unit of its error.
 std::array<std::pair<double, double>, 6> strain_at_start(const compare::TetrahedronCase& q) {
   Inputs inputs;
   const std::array<Triple<Input>, 4> x = inputs.stencil(q.start, 0);

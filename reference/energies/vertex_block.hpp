@@ -1,7 +1,6 @@
-// Force and sweep block of one vertex, over any number type: over doubles they drive whole runs
-// (solvers/vertex_system.hpp), over Input numbers they are the answers of the stages, with their conditions. The block
-// of each energy is derived once, beside the energy (membrane_terms.hpp, hinge_terms.hpp, spring_terms.hpp); this file
-// has their common parts.
+// Force and sweep block of one vertex, over any number type: over doubles for whole runs (solvers/vertex_system.hpp),
+// over Input numbers for the stages' answers with their conditions. The block of each energy is derived once, beside
+// the energy (membrane_terms.hpp, hinge_terms.hpp, spring_terms.hpp); this file has the common parts.
 #pragma once
 
 #include "reference/energies/derivative.hpp"
@@ -20,13 +19,13 @@ struct VertexSystemOf {
   BlockOf<Number> block{};  ///< [N/m]
 };
 
-/// Numbers with derivatives by the vertex's own coordinates, to first and to second order.
+/// Numbers with derivatives by the vertex's own coordinates, to first and second order.
 template <class Number>
 using ByOwn = Derivative<Number, 3>;
 template <class Number>
 using ByOwnTwice = Second<3, Number>;
 
-/// Returns the variable of direction `direction`.
+/// Returns the variable with the number `direction`.
 template <class Number>
 ByOwnTwice<Number> variable(const Number& value, std::size_t direction) {
   ByOwnTwice<Number> x(value);
@@ -34,7 +33,7 @@ ByOwnTwice<Number> variable(const Number& value, std::size_t direction) {
   return x;
 }
 
-/// Sets the three variables at x.
+/// Sets the three own variables to x.
 template <class Number>
 void set_own(Triple<ByOwn<Number>>& to, const Triple<Number>& x) {
   for (std::size_t axis = 0; axis < 3; ++axis) to[axis] = ByOwn<Number>(x[axis], axis);
@@ -44,7 +43,7 @@ void set_own(Triple<ByOwnTwice<Number>>& to, const Triple<Number>& x) {
   for (std::size_t axis = 0; axis < 3; ++axis) to[axis] = variable(x[axis], axis);
 }
 
-/// Returns the corners of a stencil over T, with the one at `place` as the variable.
+/// Returns the corners of a stencil over T; the corner at `place` is the variable.
 template <class T, class Number, std::size_t Count>
 std::array<Triple<T>, Count> with_own(const std::array<Triple<Number>, Count>& corners, std::size_t place) {
   std::array<Triple<T>, Count> x;
@@ -54,7 +53,7 @@ std::array<Triple<T>, Count> with_own(const std::array<Triple<Number>, Count>& c
   return x;
 }
 
-/// Returns a function of one measure with its slope and curvature.
+/// Returns the energy as a function of one measure, with slope and curvature.
 template <class Number, class Energy>
 Second<1, Number> along(const Number& measure, Energy energy) {
   Second<1, Number> x(measure);
@@ -62,13 +61,13 @@ Second<1, Number> along(const Number& measure, Energy energy) {
   return energy(x);
 }
 
-/// force −= slope · gradient.
+/// Subtracts slope · gradient from the force.
 template <class Number>
 void add_force(const std::type_identity_t<Number>& slope, const Triple<Number>& gradient, VertexSystemOf<Number>& sum) {
   for (std::size_t i = 0; i < 3; ++i) sum.force[i] -= slope * gradient[i];
 }
 
-/// block += weight · a bᵀ, made symmetric.
+/// Adds weight · a bᵀ, made symmetric, to the block.
 template <class Number>
 void add_outer(const std::type_identity_t<Number>& weight, const Triple<Number>& a, const Triple<Number>& b,
                BlockOf<Number>& block) {
@@ -76,13 +75,13 @@ void add_outer(const std::type_identity_t<Number>& weight, const Triple<Number>&
     for (std::size_t j = i; j < 3; ++j, ++k) block[k] += 0.5 * weight * (a[i] * b[j] + a[j] * b[i]);
 }
 
-/// block += weight · I.
+/// Adds weight · I to the block.
 template <class Number>
 void add_identity(const std::type_identity_t<Number>& weight, BlockOf<Number>& block) {
   for (const std::size_t k : {0u, 3u, 5u}) block[k] += weight;
 }
 
-/// Adds an energy of the vertex: its slope to the force, its exact second derivative to the block.
+/// Adds an energy of the vertex: minus its slope to the force, its exact second derivative to the block.
 template <class Number>
 void add_exactly(const ByOwnTwice<Number>& energy, VertexSystemOf<Number>& sum) {
   add_force(1.0, energy.slope, sum);

@@ -1,5 +1,4 @@
-// Normal force and friction have inputs of their own: for friction λ is one number, whose error is given by its
-// condition.
+// Normal force and friction have separate inputs: friction takes λ as one number, whose error is its condition.
 #include "reference/energies/volume_force.hpp"
 
 #include "reference/energies/lagged_friction.hpp"
@@ -8,25 +7,25 @@
 namespace ogc::reference {
 namespace {
 
-/// Returns n as an input that is given, not computed: it is one vector whose error is u of its length.
+/// Returns n as one given vector, whose error is u of its length.
 Triple<Input> direction_of(Inputs& inputs, const compare::VolumeForceCase& q) {
   return inputs.vector({q.direction[0], q.direction[1], q.direction[2]}, {});
 }
 
-/// Returns the frozen weights by vertex, as they act (1, −w₁, −w₂, −w₃).
+/// Returns the frozen weights by vertex with their signs (1, −w₁, −w₂, −w₃).
 std::array<Input, 4> weights_of(Inputs& inputs, const compare::VolumeForceCase& q) {
   std::array<Input, 4> weight{Input(1.0)};
   for (std::size_t k = 0; k < 3; ++k) weight[k + 1] = -inputs.number(q.weights[k]);
   return weight;
 }
 
-/// The normal force of a contact that is taken to act.
+/// The normal force of a contact, if it acts.
 struct Pressed {
   Inputs inputs;
   Input overlap;  ///< r − φ [m]
   ByVertex energy;
   Block block;
-  double force = 0, doubt = 0;  ///< λ, and its error in single precision, in units of u [N]
+  double force = 0, doubt = 0;  ///< λ, and its single-precision error in units of u [N]
 
   explicit Pressed(const compare::VolumeForceCase& q) {
     const Input radius = inputs.number(q.contact_radius), stiffness = inputs.number(q.stiffness);
@@ -43,7 +42,7 @@ struct Pressed {
     force = lambda.value;
     doubt = inputs.condition({&lambda, 1});
   }
-  /// Returns |r − φ| over u · condition.
+  /// Returns |r − φ| in units of u · condition.
   double distance_from_end() const {
     const double size = inputs.condition({&overlap, 1});
     return std::abs(overlap.value) / (compare::unit_roundoff * size);
@@ -69,20 +68,20 @@ Rubbed rubbed(const compare::VolumeForceCase& q, const Pressed& pressed) {
   const Triple<ByVertex> step = own_weight * own_vertex();
   const Triple<ByVertex> slip = tangential(fixed(moved) + step);
   const Triple<Input> u{slip[0].value, slip[1].value, slip[2].value};
-  constexpr double slip_units = 10;  // as counted by volume_force_tolerance
+  constexpr double slip_units = 10;  // counted like this by volume_force_tolerance
   const Input y = slip_length(inputs, u, slip_units), stiffness = strength * slope_over_slip(y, limit);
   const ByVertex energy = chained(Input(strength * lagged_potential(y, limit)), Input(Input(0.5) * stiffness),
                                   dot(slip, slip));
   Block block;
-  // w (I − n nᵀ) times w: the derivative of the slip, without the normal part, which a unit vector does not have.
+  // w (I − n nᵀ) times w: the derivative of the slip, without the normal part, which is 0 for a unit vector.
   for (std::size_t i = 0, k = 0; i < 3; ++i)
     for (std::size_t j = i; j < 3; ++j, ++k) {
       const Input plane = (i == j ? Input(1.0) : Input(0.0)) - n[i] * n[j];
       block[k] = stiffness * own_weight.value * own_weight.value * plane;
     }
   Rubbed result{answer(inputs, energy, block), false};
-  // Errors beyond the first order: the product of both doubts where λ and u vanish together; and, where u can't be told
-  // from 0, f₁/y, which may come out as anything up to 2/ε.
+  // Errors beyond the first order: the product of both errors if λ and u vanish together, and f₁/y, which may become
+  // anything up to 2/ε if u may be 0.
   const double unit = compare::unit_roundoff, w = std::abs(own_weight.value.value),
                doubt_of_force = compare::volume_force_grey * unit * pressed.doubt,
                doubt_of_slip = slip_units * unit * inputs.condition(u),

@@ -5,7 +5,7 @@
 
 namespace ogc::reference {
 
-/// Returns the exact answer; where r − φ is grey, also that of the other side of the jump.
+/// Returns the exact answer; if r − φ is grey, also the answer on the other side of the jump.
 std::vector<compare::ForceAnswer> volume_force(const compare::VolumeForceCase& question);
 
 /// Computes all cases, in parallel over them.

@@ -1,5 +1,5 @@
-// A contact with a volume as an energy of its point and of the triangle's corners (§3.9). n and w are those of the
-// detection and do not move.
+// A contact with a volume as an energy of its point and the triangle's corners (§3.9). n and w are those of the
+// detection and stay constant.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace ogc::reference {
 
-/// A contact with a volume: the point comes first, then the corners of the triangle.
+/// A contact with a volume: first the point, then the corners of the triangle.
 struct VolumeTerm {
   std::array<compare::Index, 4> vertex{-1, -1, -1, -1};
   std::array<double, 4> weight{1, 0, 0, 0};  ///< 1, −w₁, −w₂, −w₃
@@ -16,7 +16,7 @@ struct VolumeTerm {
   double contact_radius = 0, stiffness = 0;  ///< r [m], k [N/m]
   double friction = 0, slip_limit = 0;       ///< μ [1], ε_v h [m]
 
-  /// Returns r − φ by Σ wᵢ xᵢ [m].
+  /// Returns r − φ from Σ wᵢ xᵢ [m].
   template <class T>
   T overlap(const Triple<T>& apart) const {
     return T(contact_radius) - (normal[0] * apart[0] + normal[1] * apart[1] + normal[2] * apart[2]);
@@ -27,7 +27,7 @@ struct VolumeTerm {
     const T depth = overlap(separation(weight, x));
     return plain(depth) > 0 ? 0.5 * stiffness * depth * depth : T(0.0);
   }
-  /// Returns the friction with λ of these positions.
+  /// Returns the friction with λ at these positions.
   FrictionTerm friction_at(const std::array<Triple<double>, 4>& x) const {
     const double force = friction * stiffness * std::max(0.0, overlap(separation(weight, x)));
     return {compare::ContactSides::point_triangle, vertex, weight, normal, start, force, slip_limit};

@@ -1,5 +1,5 @@
-// A question about a given point is one conjunction. A question about the point of an edge that is closest to something
-// first decides which face of the edge holds that point; where several could, the answers for all of them are accepted.
+// A question about a given point is one conjunction. A question about the closest point of an edge first decides which
+// face of the edge holds that point. If several faces are possible, the answers of all of them are accepted.
 #include "reference/geometry/block.hpp"
 
 #include <tbb/blocked_range.h>
@@ -19,14 +19,14 @@ struct Answer {
   bool near = false;
 };
 
-/// Adds the answer that x lies in the block, under a premise that holds or could hold.
+/// Adds one way in which x may lie in the block: the premise (a face that may hold x), and membership in the block.
 void add(Answer& answer, const Membership& premise, const Membership& block) {
   answer.inside = answer.inside || (premise.exact && block.exact);
   answer.may_be_inside = answer.may_be_inside || (premise.possible && block.possible);
   answer.may_be_outside = answer.may_be_outside || (premise.possible && !block.certain);
 }
 
-/// Adds the condition to both; its margin is examined once.
+/// Adds the condition to both results; examines its margin once.
 void require(Membership& membership, Nearness& nearness, const Condition& condition) {
   const MarginAnswer margin = examine(condition.margin);
   const bool held = (margin.sign > 0) == condition.positive;
@@ -47,8 +47,7 @@ Answer vertex_in_surface(const Complex& mesh, const Vec3f& x, Face a) {
   return answer;
 }
 
-/// Decides Eq. 14: whether the foot on a lies between a's ends, which is where the closest point of a lies in its
-/// interior.
+/// Decides Eq. 14: whether the closest point of edge a lies in its interior.
 Answer edge_in_edge(const Complex& mesh, Index e, Index a) {
   const auto ends = [&mesh](Index edge) {
     return std::array{mesh.at(mesh.edge(edge)[0]), mesh.at(mesh.edge(edge)[1])};
@@ -68,8 +67,8 @@ Answer edge_in_edge(const Complex& mesh, Index e, Index a) {
   return answer;
 }
 
-/// Decides Eq. 15 for the point of cd that is closest to v: `plane(w)` is positive where that point lies on w's side of
-/// the plane through v.
+/// Decides Eq. 15 for the point of edge cd that is closest to v. `plane(w)` is positive if that point lies on w's side
+/// of the plane through v.
 template <class Plane>
 Membership vertex_block(const Complex& mesh, Index v, Nearness& nearness, Plane plane) {
   Membership block;

@@ -5,8 +5,8 @@
 
 namespace ogc::reference {
 
-/// Returns the exact answers, and which of them a relative change of 16 u of the coordinates could turn. Answers all
-/// questions, in parallel over them.
+/// Answers all questions exactly, in parallel, and marks the answers that a relative change of 16 u of the coordinates
+/// could flip.
 compare::BlockTruth block(const compare::BlockIn& in);
 
 }  // namespace ogc::reference

@@ -1,5 +1,5 @@
-// The square of each distance and each plane test are multiplied by positive lengths. All tests are signs of
-// polynomials, so nothing here rounds.
+// Squared distances and plane tests are multiplied by positive lengths, so all tests are signs of polynomials and
+// nothing rounds.
 #include "reference/geometry/blocks.hpp"
 
 #include <algorithm>

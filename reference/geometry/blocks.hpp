@@ -1,5 +1,5 @@
-// Block membership: the conditions of Eq. 8–10 (manifold), 14 and 15 (edge-only manifold), each with the face that lies
-// across its boundary.
+// Writes block membership as conditions: Eq. 8–10 (manifold), 14 and 15 (edge-only manifold). Each condition has the
+// face on the other side of its boundary.
 #pragma once
 
 #include <span>
@@ -68,14 +68,14 @@ inline Face face_of(const Complex& mesh, Index edge, compare::EdgeFeature featur
   return vertex_face(mesh.edge(edge)[static_cast<std::size_t>(feature)]);
 }
 
-/// A condition of a block, and the face whose block begins where the condition ends.
+/// A condition of a block, and the face whose block lies beyond its boundary.
 struct Boundary {
   Condition condition;  ///< holds in the block
-  Face across;          ///< the face whose block begins where it ends
+  Face across;          ///< its block begins where the condition fails
 };
 
-/// Visits all boundaries of U_a except the distance, for the point x (Eq. 8, 9, 10); visit(Boundary) returns false to
-/// stop. Both faces that share a margin write it with its vertices in the same order.
+/// Visits all boundaries of U_a for the point x, except the distance (Eq. 8, 9, 10); visit(Boundary) returns false to
+/// stop. If two faces share a margin, both write it with its vertices in the same order.
 template <class Visit>
 void visit_block(const Complex& mesh, Face face, const Vec3f& x, Visit visit) {
   if (face.kind == FaceKind::vertex) {
@@ -102,7 +102,7 @@ void visit_block(const Complex& mesh, Face face, const Vec3f& x, Visit visit) {
   }
 }
 
-/// Returns the distance from x to the point, line or plane of a face, as a gap.
+/// Returns d² − r² (a gap) of x and the point, line or plane of a face.
 Margin face_gap(const Complex& mesh, Face face, const Vec3f& x, float contact_radius);
 
 /// Checks whether x ∈ U_a, closed at distance r (Eq. 8, 9, 10).
@@ -119,14 +119,14 @@ struct FacePair {
 /// Returns the pair with the lower-numbered face first.
 inline FacePair ordered(Face a, Face b) { return a < b ? FacePair{a, b} : FacePair{b, a}; }
 
-/// A condition on a pair of faces, and the pair that holds the closest points where the condition ends.
+/// A condition on a pair of faces, and the pair that has the closest points beyond its boundary.
 struct PairBoundary {
-  Condition condition;  ///< holds where the pair has the closest points
-  FacePair across;      ///< the pair that has them where it ends
+  Condition condition;  ///< holds if this pair has the closest points
+  FacePair across;      ///< has the closest points if the condition fails
 };
 
-/// Visits the conditions that the closest point of each of the two faces lies in the other's block (Eq. 14, 15, 17),
-/// and that these are their closest points.
+/// Visits the conditions under which vertex p and the interior of edge e have the closest points. These are: each
+/// closest point lies in the block of the other face (Eq. 14, 15, 17).
 template <class Visit>
 void visit_vertex_edge(const Complex& mesh, Index p, Index e, Visit visit) {
   const auto [a, b] = mesh.edge(e);
@@ -139,7 +139,7 @@ void visit_vertex_edge(const Complex& mesh, Index p, Index e, Visit visit) {
   }
 }
 
-/// Visits the conditions of Eq. 15 from both sides, for two ends.
+/// Visits the conditions under which vertices p and q lie in each other's blocks (Eq. 15 twice).
 template <class Visit>
 void visit_vertex_vertex(const Complex& mesh, Index p, Index q, Visit visit) {
   for (const Index e : mesh.edges_of(p)) {
@@ -152,7 +152,7 @@ void visit_vertex_vertex(const Complex& mesh, Index p, Index q, Visit visit) {
   }
 }
 
-/// Visits the conditions of Eq. 14 from both sides, for two interiors.
+/// Visits the conditions under which the interiors of edges e and f have the closest points (Eq. 14 twice).
 template <class Visit>
 void visit_edge_edge(const Complex& mesh, Index e, Index f, Visit visit) {
   const auto [p0, p1] = mesh.edge(e);
@@ -172,11 +172,11 @@ void visit_pair(const Complex& mesh, const FacePair& pair, Visit visit) {
   visit_vertex_vertex(mesh, pair.first.index, pair.second.index, visit);
 }
 
-/// Returns the distance of the points, point and line, or lines of two faces of the edge-only manifold, as a gap.
+/// Returns d² − r² (a gap) of the two points, the point and the line, or the two lines of a pair of faces.
 Margin pair_gap(const Complex& mesh, const FacePair& pair, float contact_radius);
 
-/// Returns whether a pair of primitives, given by their vertices, is left out although they share no vertex
-/// (compare::Exclusions).
+/// Returns whether a pair of primitives without a common vertex is excluded (compare::Exclusions). Both primitives are
+/// given by their vertices.
 bool is_excluded(const compare::ExclusionView& exclusions, std::span<const Index> first, std::span<const Index> second);
 
 }  // namespace ogc::reference

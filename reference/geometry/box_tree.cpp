@@ -12,11 +12,11 @@ namespace {
 constexpr std::uint32_t leaf_size = 4;
 constexpr std::uint32_t worth_a_thread = 2048;
 
-/// Returns the numbers of nodes of trees of `count` and of `count + 1` primitives: halves differ by at most one, so
-/// each level has only two such numbers.
+/// Returns the numbers of nodes of trees with `count` and with `count + 1` primitives. Two halves differ by at most one
+/// primitive, so each level has only two different numbers.
 std::array<std::uint32_t, 2> node_counts(std::uint32_t count) {
   if (count + 1 <= leaf_size) return {1, 1};
-  const auto halves = node_counts(count / 2);  // of ⌊count/2⌋ and ⌊count/2⌋ + 1
+  const auto halves = node_counts(count / 2);
   const std::uint32_t even = 1 + 2 * halves[0], odd = 1 + halves[0] + halves[1], next = 1 + 2 * halves[1];
   const auto kept = [](std::uint32_t of, std::uint32_t nodes) { return of <= leaf_size ? 1 : nodes; };
   return count % 2 == 0 ? std::array{kept(count, even), kept(count + 1, odd)}
@@ -71,8 +71,8 @@ BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxe
   build(0, 1, 0, count);
 }
 
-/// Stores the nodes below `node` from `free` on: two children, then all nodes below the first, then all below the
-/// second. All indices are known beforehand.
+/// Stores the tree below `node` in the nodes from `free` on: the two children, then the tree below the first child,
+/// then the tree below the second.
 void BoxTree::build(std::uint32_t node, std::uint32_t free, std::uint32_t first, std::uint32_t count) {
   Box box;
   for (std::uint32_t k = first; k < first + count; ++k) include(box, boxes_[static_cast<std::size_t>(order_[k])]);

@@ -20,9 +20,9 @@ struct Box {
 
 /// Grows the box until it holds a point.
 void include(Box& box, const compare::Vec3f& point);
-/// Grows the box until it holds another one.
+/// Grows the box until it holds another box.
 void include(Box& box, const Box& other);
-/// Returns the box, wider by `distance` [m] on all sides, up to one rounding of double.
+/// Returns the box, widened on all sides by `distance` [m], up to one rounding of double.
 Box widened(Box box, double distance);
 /// Returns whether two closed boxes have a point in common.
 bool meet(const Box& a, const Box& b);
@@ -32,7 +32,7 @@ class BoxTree {
  public:
   explicit BoxTree(std::vector<Box> boxes);
 
-  /// Calls visit(number) for every primitive whose box meets `query`; the order is fixed by the tree, not by the query.
+  /// Calls visit(number) for every primitive whose box meets `query`. The order depends on the tree only.
   template <class Visit>
   void query(const Box& query, Visit visit) const {
     if (nodes_.empty()) return;

@@ -1,6 +1,6 @@
-// The seven regions are disjoint for a triangle of positive area, and lower-dimensional ones are closed towards
-// higher-dimensional ones, so one conjunction of conditions a feature decides everything; the order of the features
-// breaks the ties of collapsed triangles.
+// The regions of a triangle of positive area are disjoint. Lower-dimensional regions are closed towards
+// higher-dimensional ones, so one conjunction of conditions for each feature decides. The order of the features breaks
+// the ties of collapsed triangles.
 #include "reference/geometry/closest_face.hpp"
 
 #include <tbb/blocked_range.h>
@@ -18,8 +18,8 @@ namespace {
 
 constexpr int feature_count = 7;
 
-/// The nine margins that separate the regions, each examined once: 0 … 2 along an edge from its first end, 3 … 5 from
-/// its second end, 6 … 8 across it.
+/// The nine margins that separate the regions, each examined at most once: 0 … 2 along an edge from its first end, 3 …
+/// 5 along it from its second end, 6 … 8 across it.
 class Regions {
  public:
   Regions(const Corners& triangle, const Vec3f& point) : corners_(triangle), point_(point) {}
@@ -34,8 +34,8 @@ class Regions {
     return *known;
   }
 
-  /// Conditions of a feature's region. Corner k: on or behind both planes across its edges. Edge k: between its ends,
-  /// on or beyond its side plane. Interior: inside all side planes.
+  /// The conditions of a feature's region. Corner k: on or behind the planes across both of its edges. Edge k: between
+  /// its ends, on or beyond its side plane. Interior: inside all side planes.
   struct Conditions {
     std::array<int, 3> margins{};
     std::array<bool, 3> positive{};
@@ -91,8 +91,7 @@ class Regions {
   mutable std::array<std::optional<MarginAnswer>, 9> margins_;
 };
 
-/// Returns the margins whose shares of their sum are the weights of the feature's corners, by corner; −1 where the
-/// weight is 0.
+/// Returns, by corner, the margin that is proportional to the corner's weight; −1 if the weight is 0.
 std::array<int, 3> weight_margins(int f) {
   if (f == 6) return {7, 8, 6};
   std::array<int, 3> margins{-1, -1, -1};
@@ -101,7 +100,7 @@ std::array<int, 3> weight_margins(int f) {
   return margins;
 }
 
-/// Returns the shares in exact numbers, for weights that double does not resolve.
+/// Returns the weights in exact numbers, for cases that double does not resolve.
 std::array<double, 3> exact_weights(const Corners& t, int f, const Vec3f& p) {
   std::array<double, 3> weights{};
   if (f == 6) {
@@ -117,7 +116,7 @@ std::array<double, 3> exact_weights(const Corners& t, int f, const Vec3f& p) {
   return weights;
 }
 
-/// Weights in double, and their largest error.
+/// Weights in double, and the limit of their error.
 struct Weights {
   std::array<double, 3> values{};
   double error = 0;
@@ -139,7 +138,7 @@ Weights weights_of(const Regions& regions, int feature) {
   if (!(error <= 0.25 * sum)) return {{}, std::numeric_limits<double>::infinity()};
   for (int k = 0; k < 3; ++k)
     if (margins[k] >= 0) weights.values[k] = std::max(0.0, regions.margin(margins[k]).value / sum);
-  // A share m/Σ of a margin with error e is off by (e + m/Σ Σe)/(Σ − Σe), and by three roundings.
+  // A share m/Σ whose margins have the error e is off by (e + m/Σ Σe)/(Σ − Σe), and by three roundings.
   weights.error = 3 * error / sum + 0x1p-51;
   return weights;
 }
@@ -158,8 +157,8 @@ double spread(const Vector& slope, const Vector& delta) {
   return std::abs(slope.x * delta.x) + std::abs(slope.y * delta.y) + std::abs(slope.z * delta.z);
 }
 
-/// Returns the spread of w_b = (p − a)·e/‖e‖², e = b − a: ∂w/∂p = e/‖e‖², ∂w/∂b = (p − a − 2 w e)/‖e‖², ∂w/∂a = −∂w/∂p
-/// − ∂w/∂b.
+/// Returns the spread of the weight w of b (w‖e‖² = (p − a)·e, e = b − a): ∂w/∂p = e/‖e‖², ∂w/∂b = (p − a − 2 w
+/// e)/‖e‖², ∂w/∂a = −∂w/∂p − ∂w/∂b.
 double edge_spread(const Vec3f& a, const Vec3f& b, const Vec3f& p, const Vec3f& origin) {
   const Vector e = between(a, b), x = between(a, p);
   const double squared = dot(e, e), w = dot(x, e) / squared;

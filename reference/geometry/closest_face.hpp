@@ -15,22 +15,22 @@ using Corners = std::array<Vec3f, 3>;
 /// Returns whether the triangle has area, decided exactly.
 bool has_area(const Corners& triangle);
 
-/// Returns the exact closest feature. For a collapsed triangle it is a corner where one is closest, otherwise the
-/// lowest-numbered edge, never the interior.
+/// Returns the closest feature, exactly. A collapsed triangle has no interior: the result is a corner if one is
+/// closest, otherwise the lowest-numbered edge.
 TriangleFeature closest_feature(const Corners& triangle, const Vec3f& point);
 
-/// Returns whether a feature is the closest one, or could be after a flip of grey conditions.
+/// Returns whether a feature is the closest one, exactly and after any flip of grey conditions.
 Membership is_closest(const Corners& triangle, TriangleFeature feature, const Vec3f& point);
 
-/// Returns a mask: bit k is set where feature k is, or could be, the closest one. Where the closest one is certain, no
-/// other region can begin: only its bit is set.
+/// Returns a mask: bit k is set if feature k is the closest one or could be. If the closest feature is certain, only
+/// its bit is set.
 std::uint8_t possible_features(const Corners& triangle, const Vec3f& point);
 
 /// Returns whether the point lies near the boundary of a feature's region (compare::near_factor).
 bool near_feature(const Corners& triangle, TriangleFeature feature, const Vec3f& point);
 
-/// Returns the distance to the corner, line or plane of a feature, as a gap; it is the distance to the triangle where
-/// the feature is the closest one.
+/// Returns d² − r² (a gap) of the point and the corner, line or plane of a feature. For the closest feature, d is the
+/// distance to the triangle.
 Margin feature_gap(const Corners& triangle, TriangleFeature feature, const Vec3f& point);
 
 /// Computes all cases, in parallel over them.

@@ -1,5 +1,5 @@
-// The distance of two segments is a convex function of two parameters, so the optimality conditions of a pair of
-// features are necessary and sufficient; each is the sign of one polynomial.
+// The distance of two segments is a convex function of two parameters. So the optimality conditions of a pair of
+// features are necessary and sufficient, and each condition is the sign of one polynomial.
 #include "reference/geometry/closest_points.hpp"
 
 #include <tbb/blocked_range.h>
@@ -18,8 +18,8 @@ struct Conditions {
   int count = 0;
 };
 
-/// Returns the conditions for end `i` of e and the interior of f: the end projects between f's ends, and leaving it
-/// along e does not come nearer.
+/// Returns the conditions under which end `i` of e and the interior of f have the closest points: the end projects
+/// between f's ends, and a step from it along e does not come nearer.
 Conditions end_to_interior(const std::array<Vec3f, 2>& e, std::size_t i, const std::array<Vec3f, 2>& f) {
   const Vec3f& p = e[i];
   return {{Condition{along(f[0], f[1], p), true}, Condition{along(f[1], f[0], p), true},
@@ -45,7 +45,8 @@ bool hold(const Conditions& conditions) {
   return std::all_of(conditions.items.begin(), conditions.items.begin() + conditions.count, holds);
 }
 
-/// Returns whether some end of the second edge projects beyond end `from` of the first edge towards its other end.
+/// Returns whether some end of the second edge projects beyond end `from` of the first edge, towards the first edge's
+/// other end.
 Membership some_end_beyond(const EdgePair& pair, std::size_t from) {
   Membership either{false, false, false};
   for (const Vec3f& end : pair.second) {

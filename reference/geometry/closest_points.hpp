@@ -18,24 +18,24 @@ struct EdgePair {
 
 /// The part of each of two edges that is closest to the other.
 struct EdgeFeatures {
-  EdgeFeature first = EdgeFeature::end_0, second = EdgeFeature::end_0;  ///< of the first edge, of the second
+  EdgeFeature first = EdgeFeature::end_0, second = EdgeFeature::end_0;  ///< of the first edge, of the second edge
   friend bool operator==(const EdgeFeatures&, const EdgeFeatures&) = default;
 };
 
-/// Number of combinations. They are ordered so that ends come first, which breaks ties.
+/// Number of pairs of features. In their order, ends come first; this order breaks ties.
 inline constexpr int edge_feature_pairs = 9;
-/// Returns the pair with this number, below edge_feature_pairs.
+/// Returns the pair of features with this number, below edge_feature_pairs.
 inline EdgeFeatures edge_features(int number) {
   return {static_cast<EdgeFeature>(number / 3), static_cast<EdgeFeature>(number % 3)};
 }
 
 /// Returns the faces whose interiors hold the closest points, without the rule for nearly parallel edges. They are
-/// unique unless the edges are exactly parallel; then they are the first in the order of edge_features. A zero-length
-/// edge counts as its end_0.
+/// unique unless the edges are exactly parallel; then the first pair in the order of edge_features is returned. A
+/// zero-length edge counts as its end_0.
 EdgeFeatures closest_features(const EdgePair& pair);
 
-/// Returns whether the features are the closest ones, or could be after a flip of grey conditions. Where the closest
-/// ones are certain no others can be, except those of exactly parallel edges at the other end of their overlap.
+/// Returns whether the features are the closest ones, exactly and after any flip of grey conditions. If they are
+/// certain, no other pair is possible, except the features at the other end of the overlap of exactly parallel edges.
 Membership are_closest(const EdgePair& pair, EdgeFeatures features);
 
 /// Returns whether ‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖² and the projection of the second edge on the line of the first overlaps the
@@ -44,12 +44,12 @@ Membership are_nearly_parallel(const EdgePair& pair);
 /// Returns the exact answer of are_nearly_parallel.
 bool nearly_parallel(const EdgePair& pair);
 
-/// Returns whether the answer lies near a boundary: of the rule for nearly parallel edges or, where that does not hold,
-/// of the region of the closest features.
+/// Returns whether the answer lies near a boundary: near the boundary of the rule for nearly parallel edges or, if that
+/// rule does not hold, near the boundary of the region of the closest features.
 bool is_near_decision(const EdgePair& pair, EdgeFeatures closest, bool is_parallel);
 
-/// Returns the distance of the points, point and line, or lines of the features, as a gap; it is the distance of the
-/// edges where these are the closest features.
+/// Returns d² − r² (a gap) of the points, point and line, or lines of the features. For the closest features, d is the
+/// distance of the edges.
 Margin feature_gap(const EdgePair& pair, EdgeFeatures features);
 
 /// Computes all cases, in parallel over them.

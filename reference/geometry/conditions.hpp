@@ -1,5 +1,5 @@
-// A region of space is a conjunction of conditions on margins. The exact answer is whether all hold; the grey zone is
-// decided by which could hold after rounding.
+// Describes a region of space as a conjunction of conditions on margins. The exact answer is whether all conditions
+// hold. The answer is grey if rounding could change it.
 #pragma once
 
 #include "reference/geometry/margin.hpp"
@@ -22,22 +22,21 @@ struct Membership {
   bool certain = true;   ///< all hold, none of them in the grey zone
 };
 
-/// Adds one condition to a conjunction, by whether it holds and whether its margin is grey. Once `possible` is false
-/// the other conditions do not matter.
+/// Adds one condition: whether it holds, and whether its margin is grey.
 inline void require(Membership& membership, bool held, bool doubtful) {
   membership.exact = membership.exact && held;
   membership.possible = membership.possible && (held || doubtful);
   membership.certain = membership.certain && held && !doubtful;
 }
 
-/// Adds a condition to a conjunction.
+/// Adds a condition; examines its margin.
 inline void require(Membership& membership, const Condition& condition) {
   const MarginAnswer margin = examine(condition.margin);
   require(membership, (margin.sign > 0) == condition.positive, margin.grey);
 }
 
-/// Whether a conjunction is near a change: conditions fail only near their boundaries, and some condition is near its
-/// boundary.
+/// Decides whether a conjunction is near a change: some condition is near its boundary, and every condition that fails
+/// is near its boundary.
 class Nearness {
  public:
   /// Adds a condition: whether it holds, and whether it is near its boundary.
@@ -51,7 +50,7 @@ class Nearness {
   }
   /// Returns whether no condition fails far from its boundary.
   bool within_reach() const { return within_reach_; }
-  /// Returns whether a boundary is near, and all conditions within reach.
+  /// Returns whether some condition is near its boundary, and no condition fails far from its boundary.
   bool is_near() const { return within_reach_ && near_; }
 
  private:

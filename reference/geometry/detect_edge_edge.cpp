@@ -1,5 +1,5 @@
-// Runs Algorithm 2 over unordered pairs, each visited once, from its lower-numbered edge. As in detect_vertex_facet the
-// grey zone is examined separately, for all nine pairs of faces of two edges within r.
+// Runs Algorithm 2 over unordered pairs; each pair is visited once, from its lower-numbered edge. A separate pass
+// examines the grey zone, for all nine pairs of faces of two edges within r.
 #include "reference/geometry/detect_edge_edge.hpp"
 
 #include <tbb/blocked_range.h>
@@ -25,7 +25,7 @@ bool is_candidate_pair(const compare::DetectIn& in, Index e, Index f) {
   return !adjacent && !is_excluded(in.exclusions, a, b);
 }
 
-/// What the pairs of one lower-numbered edge add to the answer.
+/// Collects the results of all pairs with one lower-numbered edge.
 struct EdgeAnswer {
   std::vector<Generated> generated;
   std::vector<Doubt> doubts;
@@ -85,7 +85,7 @@ class EdgeQuery {
     if (rule.possible) enter_interiors(other, pair, rule, within, doubtful);
     if (rule.certain) return;
     const Membership local = are_closest(pair, closest);
-    // Unless the pair certainly counts without the rule as well, its interiors may be missing.
+    // If the contact is not certain without the rule, interiors may be missing from the answer.
     if (rule.possible && !(local.certain && membership(faces_of(other, closest)).certain)) accept_absence(other);
     enter_features(other, pair, closest, closest, rule);
     if (local.certain) return;
@@ -106,10 +106,9 @@ class EdgeQuery {
     if (doubtful || !tested.certain) accept_absence(other);
   }
 
-  /// Returns whether closest points of nearly parallel edges lie in each other's blocks: those at one of the overlap's
-  /// ends, where the edges are exactly parallel. Rounding can make closest any features that may be closest. So it is
-  /// certain where every possible pair of features certainly passes, or where one passes that is closest without a
-  /// doubt.
+  /// Returns whether closest points of nearly parallel edges lie in each other's blocks. Exactly parallel edges have
+  /// them at both ends of the overlap; one end is enough. The answer is certain in two cases: every possible pair of
+  /// features certainly passes, or some certainly closest pair certainly passes.
   Membership in_blocks_where_closest(Index other, const EdgePair& pair) const {
     Membership some{false, false, false};
     bool all_certain = true;
@@ -126,8 +125,8 @@ class EdgeQuery {
     return some;
   }
 
-  /// Checks the conditions of the features' blocks that are not conditions of the closest points of the two edges
-  /// alone.
+  /// Checks the conditions of the features' blocks, without those that concern only the closest points of the two
+  /// edges.
   Membership in_other_blocks(Index other, EdgeFeatures features) const {
     Membership inside;
     visit_pair(mesh_, faces_of(other, features), [&](const PairBoundary& boundary) {
@@ -145,8 +144,8 @@ class EdgeQuery {
     return face.index == mesh_.edge(e)[0] || face.index == mesh_.edge(e)[1];
   }
 
-  /// Adds one of the nine pairs of faces. A pair that ties with the closest one (edges of zero length) is left to the
-  /// order of closest_features.
+  /// Adds one of the nine pairs of faces, unless it ties exactly with the closest pair (edges of zero length): there
+  /// the order of closest_features decides.
   void enter_features(Index other, const EdgePair& pair, EdgeFeatures features, EdgeFeatures closest,
                       const Membership& rule) {
     const FacePair faces = faces_of(other, features);
@@ -157,7 +156,7 @@ class EdgeQuery {
     }
     const Membership inside = membership(faces);
     if (!inside.possible) return;
-    // The rule for nearly parallel edges gives the interiors too, so it puts only other features in doubt.
+    // Without the rule, the interiors would be entered as well, so the rule puts only other features in doubt.
     const bool is_interiors = features == EdgeFeatures{EdgeFeature::interior, EdgeFeature::interior};
     const bool unaffected = is_interiors || !rule.possible;
     add(faces, other, is_closest && inside.exact && (is_interiors || !rule.exact),
@@ -203,7 +202,7 @@ std::vector<Box> edge_boxes(const compare::DetectIn& in) {
   return boxes;
 }
 
-/// Returns whether a pair that is too far apart for a contact, also for a grey one, lowers no smallest distance either.
+/// Returns whether a pair is surely too far apart for a contact, exact or grey, and for lowering a smallest distance.
 bool changes_nothing(const compare::DetectIn& in, Index e, Index other, Smallest& of_edge) {
   const compare::Edge &a = in.topology->edges[static_cast<std::size_t>(e)],
                       &b = in.topology->edges[static_cast<std::size_t>(other)];

@@ -6,12 +6,12 @@
 namespace ogc::reference {
 
 /// Detects contacts, in parallel over edges; the answer does not depend on the number of threads. Nearly parallel edges
-/// nearer than r count as interior–interior where some of their closest points lie in each other's blocks, and wherever
+/// nearer than r count as interior–interior in two cases: some of their closest points lie in each other's blocks, or
 /// neither edge has a triangle.
 compare::DetectEdgeEdgeTruth detect_edge_edge(const compare::DetectIn& in);
 
-/// Returns the truth's `exact` alone, for solvers: pairs that are too far apart to be a contact or to lower a smallest
-/// distance are not examined.
+/// Returns only `exact` of the truth, for solvers. Skips pairs that are too far apart to be a contact or to lower a
+/// smallest distance.
 compare::DetectEdgeEdgeOut exact_edge_edge(const compare::DetectIn& in);
 
 }  // namespace ogc::reference

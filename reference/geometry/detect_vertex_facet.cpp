@@ -1,6 +1,6 @@
-// Runs Algorithm 1 in its own order: distance, smallest distances, closest face, feasible region. The grey zone is
-// examined separately, for every face of every triangle within r: a doubtful face of a neighbour matters even where
-// Algorithm 1 never looks at it.
+// Runs Algorithm 1 in its order: distance, smallest distances, closest face, feasible region. A separate pass examines
+// the grey zone for every face of every triangle within r, because a doubtful face of a neighbour matters even if
+// Algorithm 1 never examines it.
 #include "reference/geometry/detect_vertex_facet.hpp"
 
 #include <tbb/blocked_range.h>
@@ -23,7 +23,7 @@ namespace {
 using compare::VertexFacetContact;
 using Grey = compare::GreyDecision<VertexFacetContact>;
 
-/// What one vertex adds to the answer.
+/// Collects the results of one vertex.
 struct VertexAnswer {
   std::vector<VertexFacetContact> contacts;
   std::vector<Grey> grey;
@@ -84,7 +84,7 @@ class VertexQuery {
                        [&](const VertexFacetContact& c) { return c.face == face; });
   }
 
-  /// Does lines 9–20 of Alg. 1.
+  /// Executes lines 9–20 of Alg. 1.
   void enter(Face face) {
     if (entered(face)) return;
     if (face.kind != FaceKind::triangle) {
@@ -99,8 +99,8 @@ class VertexQuery {
     answer_.contacts.push_back(contact(face));
   }
 
-  /// Notes the faces of a triangle within r that are or could be closest: which of them are doubtful, and which faces
-  /// could replace them.
+  /// Notes the faces of a triangle within r that may be closest: whether they are doubtful, and which faces could
+  /// replace them.
   void ask_about(Index t, const Corners& corners) {
     const std::uint8_t features = possible_features(corners, x_);
     std::vector<Face> closest;
@@ -111,8 +111,8 @@ class VertexQuery {
     if (!has_area(corners)) note_ties(closest);
   }
 
-  /// Notes the closest faces of a collapsed triangle, which has several at once: Algorithm 1 takes one, another order
-  /// of the corners would take another.
+  /// Notes the closest faces of a collapsed triangle, which has several: Algorithm 1 takes one, and another order of
+  /// the corners would give another.
   void note_ties(const std::vector<Face>& closest) {
     for (const Face face : closest) {
       if (!membership(face).possible) continue;
@@ -165,8 +165,7 @@ class VertexQuery {
     return {inside.exact && below, below || doubtful, inside.certain && below && !doubtful};
   }
 
-  /// Eq. 12 ranges over faces of triangles; at least one of these triangles must make a pair with the vertex that is
-  /// not left out.
+  /// Returns whether some triangle of the face makes a pair with the vertex that is not excluded (Eq. 12).
   bool is_candidate(Face face) const {
     const std::vector<Index> around = triangles_around(face);
     return std::any_of(around.begin(), around.end(), [&](Index t) {
@@ -192,7 +191,7 @@ BoxTree triangle_tree(const compare::DetectIn& in) {
   return BoxTree(std::move(boxes));
 }
 
-/// Returns whether a pair that is too far apart for a contact, also for a grey one, lowers no smallest distance either.
+/// Returns whether a pair is surely too far apart for a contact, exact or grey, and for lowering a smallest distance.
 bool changes_nothing(const compare::DetectIn& in, Index v, Index t, Smallest& of_vertex, Smallest& of_triangle) {
   const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(t)];
   const auto at = [&](Index k) { return in.positions[static_cast<std::size_t>(k)]; };

@@ -8,8 +8,8 @@ namespace ogc::reference {
 /// Detects contacts, in parallel over vertices; the answer does not depend on the number of threads.
 compare::DetectVertexFacetTruth detect_vertex_facet(const compare::DetectIn& in);
 
-/// Returns the truth's `exact` alone, for solvers: pairs that are too far apart to be a contact or to lower a smallest
-/// distance are not examined.
+/// Returns only `exact` of the truth, for solvers. Skips pairs that are too far apart to be a contact or to lower a
+/// smallest distance.
 compare::DetectVertexFacetOut exact_vertex_facet(const compare::DetectIn& in);
 
 }  // namespace ogc::reference

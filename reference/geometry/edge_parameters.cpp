@@ -1,5 +1,5 @@
-// Computes values from exact margins where a quotient can cancel, and derivatives from the same formulas over
-// differentiating numbers.
+// Computes values from exact margins where a quotient can cancel, and derivatives from the same formulas over dual
+// numbers.
 #include "reference/geometry/edge_parameters.hpp"
 
 #include <algorithm>
@@ -51,11 +51,10 @@ double condition_of(const std::array<Number, 2>& parameters, const std::array<Po
   return std::isfinite(worst) ? worst : std::numeric_limits<double>::infinity();
 }
 
-/// Returns m / (m + m'), the parameter of a point whose margins from the two ends are m and m'.
+/// Returns m / (m + m'), the parameter of a point; m and m' are its margins from the two ends.
 Number share(const Number& margin, const Number& other) { return margin / (margin + other); }
 
-/// Returns the parameter on one of the edges of its point closest to the other edge; the features of both closest
-/// points are given.
+/// Returns the parameter of the closest point on edge e. The features of both closest points are given.
 double parameter_value(const std::array<Vec3f, 2>& e, EdgeFeature feature, const std::array<Vec3f, 2>& other,
                        EdgeFeature other_feature) {
   if (feature != EdgeFeature::interior) return feature == EdgeFeature::end_1 ? 1 : 0;
@@ -84,7 +83,7 @@ T clamped(const T& x) {
   return value_of(x) < 0 ? T(0) : value_of(x) > 1 ? T(1) : x;
 }
 
-/// Returns the middle of the overlap on the first edge, then its projection on the second.
+/// Returns the parameters of the overlap's middle on the first edge, and of its projection on the second edge.
 template <class T>
 std::array<T, 2> middle_of_overlap(const std::array<Point<T>, 4>& ends) {
   const Point<T> u = ends[1] - ends[0], v = ends[3] - ends[2];

@@ -1,5 +1,5 @@
-// The places of contact points on two edges, as parameters from end_0 to end_1, and how much they react to the
-// coordinates.
+// Computes where contact points lie on two edges, as parameters from end_0 to end_1, and how sensitive these parameters
+// are to the coordinates.
 #pragma once
 
 #include <array>
@@ -8,20 +8,20 @@
 
 namespace ogc::reference {
 
-/// One pair of contact points, by its parameters.
+/// The parameters of one pair of contact points.
 struct EdgeParameters {
   std::array<double, 2> values{};  ///< in [0, 1]
-  /// The larger Σ|∂s/∂δᵢ||δᵢ| of the two, δ relative to the first edge's end_0; at least 1, infinite where undefined.
+  /// The larger Σ|∂s/∂δᵢ||δᵢ| of the two parameters s, at least 1; δ are the coordinates relative to the first edge's
+  /// end_0. Infinite if undefined.
   double condition = 1;
   double distance = 0;  ///< of the two points [m]; set by parallel_parameters only
 };
 
-/// Returns the parameters of the closest points, whose features are given.
+/// Returns the parameters of the closest points, which lie on the given features.
 EdgeParameters closest_parameters(const EdgePair& pair, EdgeFeatures features);
 
 /// Returns the parameters for nearly parallel edges: the middle of the overlap on the first edge, and its projection on
-/// the closed second edge. They are computed in long double: every quotient has a denominator of the size of its terms,
-/// so nothing cancels.
+/// the closed second edge. Computes in long double, where no quotient loses digits by cancellation.
 EdgeParameters parallel_parameters(const EdgePair& pair);
 
 }  // namespace ogc::reference

@@ -1,5 +1,5 @@
-// Each thread adds to its own counters, which no other thread writes; the lock is taken when a thread starts or ends
-// and when the sum is computed. The list is never destroyed, so that it outlives all threads.
+// Each thread writes only its own counters. The lock is taken only when a thread starts or ends and when the sum is
+// computed. The list is never destroyed, so that it outlives all threads.
 #include "reference/geometry/filter_counts.hpp"
 
 #include <atomic>
@@ -50,7 +50,7 @@ class OwnCounters {
 
  private:
   using Counter = std::atomic<std::uint64_t>;
-  /// Only the owner writes, so this is an ordinary addition.
+  /// Adds one without an atomic read-modify-write, because only the owner writes.
   static void increment(Counter& counter) {
     counter.store(counter.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   }

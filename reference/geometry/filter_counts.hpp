@@ -1,5 +1,5 @@
-// Counts how often double and interval arithmetic decide without exact numbers. Every predicate with a filter is
-// counted, thread by thread, so that counting costs no more than an addition.
+// Counts how often double and interval arithmetic decide a predicate without exact numbers. Each thread has its own
+// counters, so one count costs one addition.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace ogc::reference {
 
-/// A predicate behind an interval filter: the signs of the margins (in the order of MarginKind), a distance rounded
-/// down, and which of two distances is smaller.
+/// The predicates with an interval filter: the signs of the margins (in the order of MarginKind), a distance rounded
+/// down, and the comparison of two distances.
 enum class Filtered : std::uint8_t {
   along,
   side,
@@ -28,10 +28,10 @@ inline constexpr std::size_t filtered_predicates = 10;  ///< enumerators of Filt
 /// Returns a name such as "gap_plane".
 std::string_view name(Filtered predicate);
 
-/// How often one predicate was evaluated, and needed exact numbers.
+/// Counts the evaluations of one predicate.
 struct FilterCount {
   std::uint64_t calls = 0;      ///< evaluations of the predicate
-  std::uint64_t undecided = 0;  ///< of these, left to exact numbers
+  std::uint64_t undecided = 0;  ///< evaluations that needed exact numbers
   friend bool operator==(const FilterCount&, const FilterCount&) = default;
 };
 
@@ -42,12 +42,11 @@ struct FilterCounts {
   const FilterCount& operator[](Filtered predicate) const { return of[static_cast<std::size_t>(predicate)]; }
   /// Returns the sum over all predicates.
   FilterCount total() const;
-  /// Returns the counts since `earlier`.
+  /// Returns these counts minus `earlier`.
   FilterCounts since(const FilterCounts& earlier) const;
 };
 
-/// Returns the counts of all threads since the program began. They are complete for work that has been joined;
-/// evaluations that another thread does meanwhile may be missing.
+/// Returns the counts of all threads since the program began. Evaluations that run at the same time may be missing.
 FilterCounts filter_counts();
 
 /// Counts one evaluation; called by the predicates.

@@ -1,6 +1,5 @@
-// Every polynomial of the contact geometry, written once over a number type: intervals and exact numbers decide its
-// sign, differentiating numbers give its sensitivity. Squaring and multiplying by positive lengths has removed all
-// roots and divisions.
+// Holds every polynomial of the contact geometry, once, over a number type: intervals and exact numbers decide its
+// sign, and dual numbers give its sensitivity. Multiplication by positive lengths has removed all roots and divisions.
 #pragma once
 
 #include <array>
@@ -30,29 +29,29 @@ Point<T> cross(const Point<T>& a, const Point<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Returns (p−a)·(b−a): > 0 where p lies on b's side of the plane through a across the line ab (Eq. 8, 9, 14, 15).
+/// Returns (p−a)·(b−a): > 0 if p lies on b's side of the plane through a perpendicular to ab (Eq. 8, 9, 14, 15).
 template <class T>
 T along(const Point<T>& a, const Point<T>& b, const Point<T>& p) {
   return dot(p - a, b - a);
 }
 
-/// Returns ((b−a)×(p−a))·((b−a)×(c−a)): > 0 where p lies on c's side of the plane through ab across the plane of abc
-/// (Eq. 9 times −‖e‖², Eq. 10).
+/// Returns ((b−a)×(p−a))·((b−a)×(c−a)): > 0 if p lies on c's side of the plane through ab perpendicular to the triangle
+/// abc (Eq. 9 times −‖e‖², Eq. 10).
 template <class T>
 T side(const Point<T>& a, const Point<T>& b, const Point<T>& c, const Point<T>& p) {
   const Point<T> e = b - a;
   return dot(cross(e, p - a), cross(e, c - a));
 }
 
-/// Returns ((q₀−p)×(q₁−q₀))·((x−p)×(q₁−q₀)): > 0 where a step from p towards x comes nearer to the line q₀q₁. With c
-/// the foot of p on that line it is ‖q₁−q₀‖² (c−p)·(x−p), the plane test of Eq. 15 for c.
+/// Returns ((q₀−p)×(q₁−q₀))·((x−p)×(q₁−q₀)): > 0 if a step from p towards x comes nearer to the line q₀q₁. With the
+/// foot c of p on that line, it equals ‖q₁−q₀‖² (c−p)·(x−p), the plane test of Eq. 15 for c.
 template <class T>
 T turn(const Point<T>& p, const Point<T>& x, const Point<T>& q0, const Point<T>& q1) {
   const Point<T> v = q1 - q0;
   return dot(cross(q0 - p, v), cross(x - p, v));
 }
 
-/// Returns 10⁶ ‖e×e'‖² − ‖e‖² ‖e'‖²: < 0 where the edges are nearly parallel (method.md §1.4).
+/// Returns 10⁶ ‖e×e'‖² − ‖e‖² ‖e'‖²: < 0 if the edges are nearly parallel (method.md §1.4).
 template <class T>
 T parallel(const Point<T>& p0, const Point<T>& p1, const Point<T>& q0, const Point<T>& q1) {
   const Point<T> u = p1 - p0, v = q1 - q0;
@@ -60,10 +59,10 @@ T parallel(const Point<T>& p0, const Point<T>& p1, const Point<T>& q0, const Poi
   return T(1e6) * dot(c, c) - dot(u, u) * dot(v, v);
 }
 
-/// A squared distance as numerator over positive denominator.
+/// A squared distance as a fraction; the denominator is positive.
 template <class T>
 struct Quotient {
-  T numerator{}, denominator{};  ///< their quotient is the squared distance
+  T numerator{}, denominator{};
 };
 
 /// Returns the squared distance between two points [m²].

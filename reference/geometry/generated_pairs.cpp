@@ -1,4 +1,4 @@
-// Sorting by faces, then edges, puts all generators of a contact side by side with the lowest-numbered first.
+// Sorting by faces, then edges, makes all generators of a contact adjacent, with the lowest-numbered one first.
 #include "reference/geometry/generated_pairs.hpp"
 
 #include <algorithm>
@@ -18,13 +18,12 @@ bool is_on(const Complex& mesh, Face face, Index edge) {
   return mesh.edge(edge)[0] == face.index || mesh.edge(edge)[1] == face.index;
 }
 
-/// Returns the contact with its generating edges in the order of the faces.
+/// Returns the contact; its edges are in the order of its faces.
 EdgeEdgeContact contact(const Complex& mesh, const Generated& g) {
   if (is_on(mesh, g.faces.first, g.edge)) return {g.faces.first, g.faces.second, g.edge, g.other};
   return {g.faces.first, g.faces.second, g.other, g.edge};
 }
 
-/// All generators of one pair of faces.
 struct Candidate {
   std::span<const Generated> generators;
   bool certain() const { return first_certain() != generators.end(); }
@@ -50,7 +49,7 @@ Candidates candidates_of(std::span<const Generated> sorted) {
   return candidates;
 }
 
-/// Adds the decision of a contact that stands in any case but whose lowest generators are doubtful.
+/// Adds the decision about the owner of a certain contact whose lowest generators are doubtful.
 void add_doubtful_owner(const Complex& mesh, const Candidate& candidate, std::vector<Grey>& grey) {
   const auto certain = candidate.first_certain();
   if (certain == candidate.generators.begin()) return;
@@ -74,7 +73,7 @@ GreyGroups<FacePair> doubtful_pairs(const Candidates& candidates, const std::vec
   return doubtful;
 }
 
-/// Sorts, and drops repetitions and decisions that leave no choice.
+/// Sorts the decisions; removes repetitions, and decisions that leave no choice.
 void tidy(std::vector<Grey>& grey) {
   for (Grey& decision : grey) {
     std::sort(decision.contacts.begin(), decision.contacts.end());

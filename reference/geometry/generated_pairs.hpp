@@ -1,4 +1,5 @@
-// The contacts that edge pairs generate. Equal pairs of faces become one contact under their lowest-numbered edges.
+// Merges the contacts that pairs of edges generate. Several edge pairs can generate the same pair of faces; it becomes
+// one contact with its lowest-numbered edges.
 #pragma once
 
 #include <vector>
@@ -8,28 +9,27 @@
 
 namespace ogc::reference {
 
-/// A contact `faces` that edges `edge` < `other` generate, exactly or possibly.
+/// A contact that the edges `edge` < `other` generate, certainly or possibly.
 struct Generated {
   FacePair faces;               ///< the contact
   Index edge = -1, other = -1;  ///< the edges that generate it
-  bool exact = false;           ///< the exact answer of Algorithm 2
-  bool certain = false;         ///< exact, and no grey boundary is near
+  bool exact = false;           ///< whether Algorithm 2 generates it exactly
+  bool certain = false;         ///< whether no grey decision can remove it
   friend auto operator<=>(const Generated&, const Generated&) = default;
 };
 
-/// A doubtful pair of faces: on the other side of one of its boundaries another pair replaces it (`joined`), or nothing
-/// does.
+/// A doubtful pair of faces. Beyond one of its boundaries another pair replaces it (`joined`), or it is absent.
 struct Doubt {
-  FacePair faces, other;  ///< the doubtful pair, and the one that replaces it
+  FacePair faces, other;  ///< the doubtful pair, and its replacement
   bool joined = false;    ///< whether `other` replaces it
 };
 
-/// The canonical contacts of a list of generated pairs in any order, and the grey decisions.
+/// The canonical contacts of a detection, and its grey decisions.
 struct Assembled {
-  std::vector<compare::EdgeEdgeContact> contacts;                     ///< all grey decisions
-  std::vector<compare::GreyDecision<compare::EdgeEdgeContact>> grey;  ///< all there are
+  std::vector<compare::EdgeEdgeContact> contacts;                     ///< the exact answer
+  std::vector<compare::GreyDecision<compare::EdgeEdgeContact>> grey;  ///< every decision that rounding could change
 };
-/// Makes one contact of equal pairs of faces each, with its decision.
+/// Merges equal pairs of faces into one contact each, and collects the grey decisions. `generated` may have any order.
 Assembled assemble(const Complex& mesh, std::vector<Generated> generated, const std::vector<Doubt>& doubts);
 
 }  // namespace ogc::reference

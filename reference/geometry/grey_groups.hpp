@@ -1,4 +1,5 @@
-// Groups contacts that share a grey boundary into one decision: which of them stands, and whether none may stand.
+// Groups contacts that share a grey boundary into one decision: which of them is accepted, and whether none is
+// accepted, too.
 #pragma once
 
 #include <map>
@@ -7,17 +8,17 @@
 
 namespace ogc::reference {
 
-/// Doubtful contacts, named by keys, joined into groups by the boundaries that they share.
+/// Groups doubtful contacts, named by keys, by the boundaries that they share.
 template <class Key>
 class GreyGroups {
  public:
-  /// Adds a doubtful contact. `absence`: on the other side of one of its boundaries no doubtful contact replaces it.
+  /// Adds a doubtful contact. `absence`: beyond one of its boundaries no doubtful contact replaces it.
   void add(const Key& key, bool absence) {
     Entry& entry = entries_.try_emplace(key, Entry{key}).first->second;
     entry.absence = entry.absence || absence;
   }
 
-  /// Joins two contacts one of which ends where the other begins; both must have been added when groups() is called.
+  /// Joins two contacts on both sides of one boundary. Doubtful ones must have been added when groups() is called.
   void join(const Key& a, const Key& b) { joins_.emplace_back(a, b); }
 
   /// Returns whether no contact is doubtful.
@@ -28,11 +29,11 @@ class GreyGroups {
   /// The contacts of one decision.
   struct Group {
     std::vector<Key> keys;  ///< any one of them is accepted
-    bool absence = false;   ///< whether none of them is accepted, too
+    bool absence = false;   ///< whether an answer without any of them is accepted, too
   };
 
-  /// Returns the groups by their smallest key, keys ascending. Where a contact is joined to one that is not doubtful,
-  /// its absence is accepted.
+  /// Returns the groups in the order of their smallest keys; keys ascend. A contact that is joined to a certain one may
+  /// be absent.
   std::vector<Group> groups() {
     for (const auto& [a, b] : joins_) unite(a, b);
     std::map<Key, Group> by_root;

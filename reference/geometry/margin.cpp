@@ -1,5 +1,5 @@
-// Tries double with an error bound first, then intervals, then exact numbers. One in some ten thousand random cases
-// needs the last; structured meshes with few digits need none, because an interval without rounding is a point.
+// Tries double with an error bound first, then intervals, then exact numbers. About one in ten thousand random cases
+// needs exact numbers. Structured meshes with few digits need none, because intervals without rounding are points.
 #include "reference/geometry/margin.hpp"
 
 #include <CGAL/Gmpq.h>
@@ -26,7 +26,7 @@ namespace {
 using Interval = CGAL::Interval_nt<false>;
 using Exact = CGAL::Mpzf;
 
-/// Sets the rounding mode that intervals need, during its lifetime.
+/// Sets the rounding mode of intervals while the object lives.
 using UpwardRounding = CGAL::Protect_FPU_rounding<true>;
 
 // Filtered names the kinds of margins first, in their order.
@@ -46,7 +46,7 @@ Points<T> widen(const Margin& margin) {
   return points;
 }
 
-/// Returns the degree in the coordinates.
+/// Returns the degree of the margin in the coordinates.
 int degree(MarginKind kind) {
   switch (kind) {
     case MarginKind::along:
@@ -97,7 +97,7 @@ T evaluate(const Margin& margin) {
   return evaluate(margin.kind, widen<T>(margin), T(static_cast<double>(margin.radius)));
 }
 
-/// Returns −1, 0 or 1 where the interval leaves only one sign.
+/// Returns the sign if the interval has only one.
 std::optional<int> sign_of(const Interval& value) {
   if (value.inf() > 0) return 1;
   if (value.sup() < 0) return -1;
@@ -110,7 +110,7 @@ std::optional<int> interval_sign(const Margin& margin) {
   return sign_of(evaluate<Interval>(margin));
 }
 
-/// Returns the difference of two squared distances, times positive numbers.
+/// Returns the difference of two squared distances, times both (positive) denominators.
 template <class T>
 T difference(const Margin& a, const Margin& b) {
   const Quotient<T> p = squared_distance(a.kind, widen<T>(a)), q = squared_distance(b.kind, widen<T>(b));
@@ -124,7 +124,7 @@ std::optional<int> interval_order(const Margin& a, const Margin& b) {
 
 int exact_sign(const Margin& margin) { return static_cast<int>(evaluate<Exact>(margin).sign()); }
 
-/// Returns the points relative to the first one, as differences in double: the δ of the grey zone.
+/// Returns the points relative to the first one in double: the δ of the grey zone.
 std::array<std::array<double, 3>, 4> relative(const Margin& margin) {
   std::array<std::array<double, 3>, 4> delta{};
   const Vec3f& o = margin.at[0];
@@ -189,8 +189,8 @@ double gap_sensitivity(const Points<double>& at, double radius, bool is_plane) {
   return spread(by_u, u) + spread(by_w - by_v, w) + spread(by_v, at[3]);
 }
 
-/// Returns Σ|∂m/∂δᵢ||δᵢ| with derivatives written out, because every doubtful decision needs them; `delta`: the result
-/// of `relative`.
+/// Returns Σ|∂m/∂δᵢ||δᵢ| with explicit derivatives, because every doubtful decision needs it. `delta` comes from
+/// `relative`.
 double sensitivity_at(const Margin& margin, const std::array<std::array<double, 3>, 4>& delta) {
   const Points<double> at = constants<double>(delta);
   switch (margin.kind) {
@@ -207,10 +207,10 @@ double sensitivity_at(const Margin& margin, const std::array<std::array<double, 
   return gap_sensitivity(at, margin.radius, margin.kind == MarginKind::gap_plane);
 }
 
-/// Largest error of a value in double, in units of its modulus. On the longest way from a coordinate to a margin lie 18
-/// roundings (for a plane's gap: a difference twice, a product and a difference for n; a difference, a product and two
-/// sums for the height; that twice, the square, and the difference from r² n²); the modulus itself may be too small by
-/// as much. Nothing overflows or underflows: terms lie between 2⁻¹⁴⁹ˣ⁶ and 2¹²⁹ˣ⁶.
+/// Largest error of a value in double, relative to its modulus. At most 18 roundings lie between a coordinate and a
+/// margin (for a plane's gap: a difference twice, a product and a difference for n; a difference, a product and two
+/// sums for the height; that twice, the square, and the difference from r² n²). The modulus may be too small by as
+/// much. Nothing overflows or underflows: terms lie between 2⁻¹⁴⁹ˣ⁶ and 2¹²⁹ˣ⁶.
 constexpr double rounding = 0x1p-48;
 
 /// Returns the margin in double, with the sum of the moduli of its terms.
@@ -218,7 +218,7 @@ Measured measured(const Margin& margin, const std::array<std::array<double, 3>, 
   return evaluate(margin.kind, constants<Measured>(delta), Measured(margin.radius));
 }
 
-/// Returns the leading bits: long double keeps 64 of 106 or more.
+/// Returns x rounded to long double, whose 64 bits hold the leading bits of 106 or more.
 long double to_long_double(const Exact& x) {
   const double high = x.to_double();
   const Exact rest = x - Exact(high);
@@ -232,7 +232,7 @@ float round_down(double x) {
   return static_cast<double>(f) > x ? std::nextafter(f, 0.0f) : f;
 }
 
-/// Returns the distance as an interval; from 0 to infinity where the denominator's interval holds 0.
+/// Returns an interval that holds the distance: from 0 to infinity if the denominator's interval holds 0.
 std::pair<double, double> distance_interval(const Margin& gap) {
   const UpwardRounding upwards;
   const Quotient<Interval> squared = squared_distance(gap.kind, widen<Interval>(gap));
@@ -242,13 +242,14 @@ std::pair<double, double> distance_interval(const Margin& gap) {
   return {root.inf(), root.sup()};
 }
 
-/// Returns m / √q for the exact q ≥ 0 that turns the margin into a length.
+/// Returns m / √q; the exact q ≥ 0 scales the margin to a length.
 double over_root(const Exact& m, const Exact& q) {
   if (q.is_zero()) return 0;
   return static_cast<double>(to_long_double(m) / std::sqrt(to_long_double(q)));
 }
 
-/// Corrects a close guess to the exact answer: the gap about f is not negative where f is not above the distance.
+/// Returns the distance rounded down, from a close guess f. A number f is at most the distance if the gap with radius f
+/// is not negative.
 float settle_below(const Margin& gap, float f) {
   while (f > 0 && exact_sign(with_radius(gap, f)) < 0) f = std::nextafter(f, 0.0f);
   for (;;) {
@@ -269,15 +270,15 @@ int filtered_sign(const Margin& margin, const Measured& m) {
   return decided ? *decided : exact_sign(margin);
 }
 
-/// Returns an interval that holds the distance; nothing is known where the first number is the larger one. A numerator
-/// is the square of a number or vector. Each component of that is off by at most `rounding` times the modulus of its
-/// own terms, so the root of the numerator is off by `rounding` times the root of the sum of their squares.
+/// Returns an interval that holds the distance; (1, 0) if nothing is known. A numerator is the square of a number or a
+/// vector. Each component has an error of at most `rounding` times its modulus, so the numerator's root has an error of
+/// at most `rounding` times the root of the numerator's modulus.
 std::pair<double, double> filtered_distance(const Margin& gap) {
   const Quotient<Measured> squared = squared_distance(gap.kind, constants<Measured>(relative(gap)));
   const Measured& d = squared.denominator;
   const double least = d.value - rounding * d.modulus;
   if (!(least > 0)) return {1, 0};
-  // Two roots, their quotient, the slack and the sums: six roundings.
+  // Six roundings: two roots, their quotient, the slack and the sums.
   const double root = std::sqrt(squared.numerator.value), slack = rounding * std::sqrt(squared.numerator.modulus);
   const double low = std::max(0.0, root - slack) / std::sqrt(d.value + rounding * d.modulus) * (1 - 0x1p-50);
   return {low, (root + slack) / std::sqrt(least) * (1 + 0x1p-50)};
@@ -316,7 +317,7 @@ MarginAnswer examine(const Margin& margin) {
   const Measured m = measured(margin, delta);
   MarginAnswer answer{filtered_sign(margin, m), false, false, m.value, rounding * m.modulus};
   const double modulus = std::abs(m.value);
-  // Twice the bound, so that the roundings of m cannot hide a near case.
+  // The factor 2 keeps the roundings of m from hiding a near case.
   if (modulus > 2 * compare::near_factor * degree(margin.kind) * m.modulus) return answer;
   const double reach = sensitivity_at(margin, delta);
   answer.grey = reach > 0 && modulus <= compare::grey_factor * reach;
@@ -347,7 +348,7 @@ GapDistance measure(const Margin& gap) {
   if (known || !one_left) count_filter(Filtered::distance_below, !known);
   if (!known && !one_left) answer.below = settle_below(gap, round_down(answer.distance));
   if (!one_left) return answer;
-  // One number is undecided, mostly because the distance is exactly that number.
+  // Only whether `next` is below the distance is undecided, mostly because the distance is exactly `next`.
   const Margin about_next = with_radius(gap, next);
   const std::optional<int> decided = interval_sign(about_next);
   count_filter(Filtered::distance_below, !decided);

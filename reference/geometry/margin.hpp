@@ -1,5 +1,5 @@
-// A margin is a polynomial in given coordinates whose sign decides something. Its sign is exact. Whether it is grey,
-// and its sensitivity to the coordinates, come from the same formula. CGAL stays behind this header.
+// A margin is a polynomial in given coordinates; its sign decides a predicate. This header gives the exact sign,
+// whether rounding of the inputs could change it (grey), and the sensitivity to the coordinates. It hides CGAL.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@ namespace ogc::reference {
 
 using compare::Vec3f;
 
-/// Names a formula of formulas.hpp. A gap is numerator − r² · denominator of a squared distance, < 0 where the distance
-/// is smaller than r.
+/// Names a formula of formulas.hpp. A gap is numerator − r² · denominator of a squared distance: < 0 if the distance is
+/// below r.
 enum class MarginKind : std::uint8_t { along, side, turn, parallel, gap_points, gap_line, gap_plane, gap_lines };
 
-/// A formula with its points; the coordinates δ of the grey zone are relative to the first one.
+/// A formula and its points. The coordinates δ of the grey zone are relative to the first point.
 struct Margin {
   MarginKind kind = MarginKind::along;  ///< which formula
   std::array<Vec3f, 4> at{};            ///< its points [m]; unused ones are 0
@@ -54,18 +54,18 @@ inline Margin gap_lines(const Vec3f& p0, const Vec3f& p1, const Vec3f& q0, const
   return {MarginKind::gap_lines, {p0, p1, q0, q1}, radius};
 }
 
-/// Returns the same gap for another radius [m].
+/// Returns the gap with another radius [m].
 inline Margin with_radius(Margin gap, float radius) {
   gap.radius = radius;
   return gap;
 }
 
-/// All that a decision needs of a margin.
+/// Holds the results that decisions use.
 struct MarginAnswer {
   int sign = 0;                 ///< exact: −1, 0 or 1
   bool grey = false;            ///< the result of grey(margin)
   bool near = false;            ///< |m| ≤ 2¹¹ u Σ|∂m/∂δᵢ||δᵢ| (compare::near_factor)
-  double value = 0, error = 0;  ///< m in double, and its largest error
+  double value = 0, error = 0;  ///< m in double, and an upper limit of its error
 };
 
 /// Examines a margin. Coordinates must be finite.
@@ -74,47 +74,47 @@ MarginAnswer examine(const Margin& margin);
 /// Returns the exact sign: −1, 0 or 1. Coordinates must be finite.
 int sign(const Margin& margin);
 
-/// Returns Σ|∂m/∂δᵢ||δᵢ|, δᵢ the coordinates relative to the first point; the radius carries no derivative.
+/// Returns Σ|∂m/∂δᵢ||δᵢ|, where δᵢ are the coordinates relative to the first point. The radius counts as exact.
 double sensitivity(const Margin& margin);
 
-/// Returns whether 0 < 16 u Σ|∂m/∂δᵢ||δᵢ| ≥ |m| (method.md §2.5); the radius is given and carries no derivative. Where
-/// the sum is 0 no relative change of the δᵢ changes the margin's sign, so there is no other side: a vertex straight
-/// above a vertex of an axis-parallel grid is not grey.
+/// Returns whether 0 < 16 u Σ|∂m/∂δᵢ||δᵢ| ≥ |m| (method.md §2.5); the radius counts as exact. If the sum is 0, no
+/// relative change of the δᵢ changes the sign: a vertex straight above a vertex of an axis-parallel grid is not grey.
 bool grey(const Margin& margin);
 
 /// Returns the distance of a gap [m], within 1 ulp of double. The denominator must be positive.
 double distance(const Margin& gap);
 
-/// Returns the largest single-precision number that is not above the distance of the gap [m]. The denominator must be
-/// positive.
+/// Returns the distance of the gap, rounded down to single precision [m]. The denominator must be positive.
 float distance_below(const Margin& gap);
 
-/// Both distances of a gap, computed together and faster; the distance is only within 2⁻⁴⁰ max(d, Σ|δᵢ|).
+/// The distance of a gap, and the distance rounded down. Computing both together is faster; `distance` is then within
+/// 2⁻⁴⁰ max(d, Σ|δᵢ|).
 struct GapDistance {
   double distance = 0;  ///< [m]
   float below = 0;      ///< the result of distance_below [m]
 };
-/// Returns both distances of a gap.
+/// Returns the distance of a gap, and the distance rounded down.
 GapDistance measure(const Margin& gap);
 
-/// Returns whether scale · d < b for the distance d of the gap, exactly; scale, b ≥ 0. The denominator must be
+/// Returns whether scale · d < b, exactly, where d is the distance of the gap; scale, b ≥ 0. The denominator must be
 /// positive.
 bool scaled_distance_less(const Margin& gap, float scale, float b);
 
-/// Returns −1, 0 or 1: the distance of `a` is smaller than, equal to, or larger than that of `b`, exactly. The
-/// denominators must be positive.
+/// Compares two distances exactly: returns −1, 0 or 1 if the distance of `a` is smaller than, equal to, or larger than
+/// that of `b`. The denominators must be positive.
 int compare_distances(const Margin& a, const Margin& b);
 
-/// Returns (scale · d)² [m²] for the distance d of the gap, as a fraction in lowest terms: "num/den". The denominator
-/// must be positive.
+/// Returns (scale · d)² [m²], where d is the distance of the gap, as a fraction in lowest terms: "num/den". The
+/// denominator must be positive.
 std::string squared_distance(const Margin& gap, float scale = 1);
 
-/// Returns the margin as a length [m] with its sign, within 1 ulp of double: for `along` and `side` the distance of the
-/// last point from the plane, for a gap d − r (without cancellation). Returns 0 where the line or plane is not defined.
-/// Throws std::logic_error for `turn` and `parallel`, which are no lengths.
+/// Returns the margin as a signed length [m], within 1 ulp of double: for `along` and `side` the distance of the last
+/// point from the plane, for a gap d − r (without cancellation). Returns 0 if the line or plane is not defined. Throws
+/// std::logic_error for `turn` and `parallel`, which are no lengths.
 double signed_length(const Margin& margin);
 
-/// Returns m_k / Σ m_j for margins that are no gaps and whose exact sum is positive; each within 1 ulp of double.
+/// Returns m_k / Σ m_j, each within 1 ulp of double. The margins must not be gaps, and their exact sum must be
+/// positive.
 std::vector<double> shares(std::span<const Margin> margins);
 
 }  // namespace ogc::reference

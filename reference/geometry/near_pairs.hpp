@@ -1,4 +1,4 @@
-// All pairs of primitives within a distance, for users that must not miss one.
+// Finds all pairs of primitives within a distance, without missing one.
 #pragma once
 
 #include "compare/stages/plane.hpp"
@@ -21,9 +21,9 @@ namespace ogc::reference {
 
 /// A vertex and a triangle.
 struct FacetPair {
-  compare::PrimitivePair name;  ///< by numbers
-  std::array<Index, 1> first;   ///< the vertex
-  std::array<Index, 3> second;  ///< the corners
+  compare::PrimitivePair name;  ///< kind, and numbers of the primitives
+  std::array<Index, 1> first;   ///< the vertex's number
+  std::array<Index, 3> second;  ///< the corners' numbers
   Vec3f point;                  ///< [m]
   Corners corners;              ///< [m]
 
@@ -36,9 +36,9 @@ struct FacetPair {
 
   /// Returns the feature of the triangle that is closest to the vertex.
   TriangleFeature closest() const { return closest_feature(corners, point); }
-  /// Returns their distance, as a gap.
+  /// Returns the gap of vertex and triangle.
   Margin gap() const { return feature_gap(corners, closest(), point); }
-  /// Returns whether they are certainly farther apart than this [m].
+  /// Returns whether they are certainly farther apart than `distance` [m].
   bool surely_beyond(double distance) const {
     return surely_beyond_triangle({point, corners[0], corners[1], corners[2]}, distance);
   }
@@ -46,9 +46,9 @@ struct FacetPair {
 
 /// Two edges.
 struct EdgesPair {
-  compare::PrimitivePair name;         ///< by numbers
-  std::array<Index, 2> first, second;  ///< ends
-  EdgePair ends;                       ///< [m]
+  compare::PrimitivePair name;         ///< kind, and numbers of the edges
+  std::array<Index, 2> first, second;  ///< the ends' numbers
+  EdgePair ends;                       ///< positions of the ends [m]
 
   EdgesPair(const Complex& mesh, Index e, Index f)
       : name{compare::PrimitivePair::Kind::edge_edge, e, f},
@@ -58,16 +58,16 @@ struct EdgesPair {
 
   /// Returns the closest features of both.
   EdgeFeatures closest() const { return closest_features(ends); }
-  /// Returns their distance, as a gap.
+  /// Returns the gap of the edges.
   Margin gap() const { return feature_gap(ends, closest()); }
-  /// Returns whether they are certainly farther apart than this [m].
+  /// Returns whether they are certainly farther apart than `distance` [m].
   bool surely_beyond(double distance) const {
     return surely_beyond_edge({ends.first[0], ends.first[1], ends.second[0], ends.second[1]}, distance);
   }
 };
 
-/// The pairs of a mesh that are no farther apart than `reach` [m], and some that are farther; adjacent and excluded
-/// pairs are left out. Threads share the work, so visitors must be safe to call concurrently.
+/// Lists all pairs of a mesh within `reach` [m], and some that are farther apart. Adjacent and excluded pairs are left
+/// out. Threads share the work, so visitors must be safe to call concurrently.
 class NearPairs {
  public:
   NearPairs(const Complex& mesh, const compare::ExclusionView& exclusions, double reach)

@@ -1,5 +1,5 @@
-// Computes directions and offsets in long double and stores them. Whether the stored plane holds both sides is then
-// decided exactly, by the same comparison that judges planes (plane.hpp).
+// Computes directions and offsets in long double and stores them. Then decides exactly whether all vertices keep the
+// stored plane, by the same comparison that judges planes (plane.hpp).
 #include "reference/geometry/pair_planes.hpp"
 
 #include <tbb/combinable.h>
@@ -37,10 +37,10 @@ Long inner(const Direction& a, const Direction& b) { return a[0] * b[0] + a[1] *
 Direction cross(const Direction& a, const Direction& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-/// Returns `line`, a normal of both sides, with the sign that points along `way`.
+/// Returns `line` or −`line`, whichever points along `way`.
 Direction along(const Direction& line, const Direction& way) { return inner(line, way) < 0 ? times(-1, line) : line; }
 
-/// Returns the vector from the point to the triangle's feature closest to it.
+/// Returns the vector from the point to the closest feature of the triangle.
 Direction to_closest(const FacetPair& pair) {
   const TriangleFeature feature = pair.closest();
   const Corners& c = pair.corners;
@@ -53,7 +53,7 @@ Direction to_closest(const FacetPair& pair) {
   return minus(w, times(inner(w, e) / inner(e, e), e));
 }
 
-/// Returns the vector from the first edge's closest feature to the second edge's.
+/// Returns the vector from the closest feature of the first edge to that of the second edge.
 Direction to_closest(const EdgesPair& edges) {
   const EdgeFeatures on = edges.closest();
   const EdgePair& pair = edges.ends;
@@ -120,7 +120,7 @@ class PlaneMaker {
     std::ranges::sort(pairs_, {}, order);
   }
 
-  /// Returns n·x in long double: three products of 48 bits and two sums.
+  /// Returns n·x in long double: three exact products and two sums.
   static Long height(const Vec3f& n, const Vec3f& x) { return Long{n.x} * x.x + Long{n.y} * x.y + Long{n.z} * x.z; }
 
   bool is_fixed(const NearPair& pair, bool second) const {
@@ -129,7 +129,7 @@ class PlaneMaker {
     return true;
   }
 
-  /// Returns the first side's share of 2γ_p d where both sides can move.
+  /// Returns the first side's share of 2γ_p d; both sides can move.
   Long first_part(const NearPair& pair) const {
     if (in_.displacement.empty()) return 0.5;
     std::array<Long, 2> approach{0, 0};
@@ -159,7 +159,7 @@ class PlaneMaker {
     const Long gap = bottom - top;
     const bool first_fixed = is_fixed(pair, false), second_fixed = is_fixed(pair, true);
     const Long part = first_part(pair);
-    // A fixed side's offset lies half way to the other's; no vertex bears it.
+    // The offset of a fixed side is put half way to the other side, and no vertex uses it.
     const auto room = [share](bool fixed, bool other_fixed, Long own_part) {
       return fixed ? Long{0.5} - share : (other_fixed ? 2 * share : 2 * share * own_part);
     };

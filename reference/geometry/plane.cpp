@@ -1,10 +1,10 @@
-// Decides exactly what an answer holds apart: n·x − o in double first, in fractions where its rounding could hide the
-// sign. Distances are computed only for pairs that no plane separates and that are not surely beyond what their
-// vertices' balls need.
+// Decides exactly which pairs the answer keeps apart: compares heights in double first, and in exact numbers if
+// rounding could hide the sign. Computes distances only for pairs that no plane separates and that are not surely far
+// enough apart for their vertices' balls.
 //
-// The room that it leaves to the vertices is measured in double. Distances (within 2⁻⁴⁰ of their scale) and rooms have
-// errors far below the units in which they are judged. Which pair must have a plane is decided with the tolerances of a
-// single-precision kernel, so that no rounding of its distances decides.
+// Measures the room of the vertices in double: the errors of distances (within 2⁻⁴⁰ of their scale) and rooms are far
+// below the units in which they are judged. Decides with the tolerances of a single-precision kernel which pairs must
+// have a plane, so that no rounding in a kernel decides.
 #include "reference/geometry/plane.hpp"
 
 #include <CGAL/Gmpq.h>
@@ -50,11 +50,11 @@ class AnsweredPlanes {
 
   bool moves(Index v) const { return in_.is_fixed[static_cast<std::size_t>(v)] == 0; }
 
-  /// Returns the offset of the pair's plane as v bears it; v must bear it.
+  /// Returns the offset of the pair's plane in v's half-space, which must exist.
   double offset(Index v, const compare::PrimitivePair& pair) const { return plane_of(v, pair)->offset; }
 
-  /// Returns the normal of the plane that holds the pair apart, as its first side bears it. Empty where no plane does:
-  /// a vertex that can move bears none or one of other bits, or there is no room between the sides.
+  /// Returns the normal of the plane that separates the pair, from the first side to the second. Empty if no plane
+  /// separates it: a movable vertex has no such half-space, their normals differ, or the sides overlap.
   template <class Pair>
   std::optional<Vec3f> separating_normal(const Pair& pair) const {
     const std::optional<Vec3f> normal = common_normal(pair);
@@ -91,7 +91,7 @@ class AnsweredPlanes {
     return normal;
   }
 
-  /// Returns how far along n a vertex may come: its offset, or the position of a fixed vertex.
+  /// Returns the height up to which a vertex may move along n: its offset, or its position if it is fixed.
   Height limit(Index v, const compare::PrimitivePair& pair, const Vec3f& normal, bool is_second) const {
     if (!moves(v)) return {normal, in_.positions[static_cast<std::size_t>(v)], 0};
     return {{}, {}, is_second ? -offset(v, pair) : offset(v, pair)};
@@ -101,8 +101,7 @@ class AnsweredPlanes {
   const compare::PlaneOut& out_;
 };
 
-/// Counts of pairs that are separated, and of those that are neither separated nor covered, with the first of the
-/// latter.
+/// Counts separated pairs, and pairs that neither a plane nor balls keep apart; `worst` is the first uncovered pair.
 struct Findings {
   std::size_t separated = 0, uncovered = 0;
   PrimitivePair worst;
@@ -131,13 +130,13 @@ class PlaneCheck {
   }
 
  private:
-  /// The product of single-precision numbers is exact in double. A bound that is not finite is too large.
+  /// A bound that is not finite is too large. The product of single-precision numbers is exact in double.
   bool is_too_large(Index v) const {
     return answered_.moves(v) && in_.topology->on_surface(v) &&
            !(double{out_.bound[at(v)]} <= double{in_.bounds_relaxation} * double{in_.query_radius});
   }
 
-  /// Returns the largest ball of the vertices, which must fit into γ_p d.
+  /// Returns the largest bound of the vertices that can move.
   template <class Pair>
   float largest_bound(const Pair& pair) const {
     float largest = 0;
@@ -173,7 +172,7 @@ std::tuple<PrimitivePair::Kind, Index, Index> order(const PrimitivePair& pair) {
   return {pair.kind, pair.first, pair.second};
 }
 
-/// A pair within r_q, or one that a kernel may take for such a pair.
+/// A pair within r_q, or one that a kernel's rounding may put within r_q.
 struct MeasuredPair {
   PrimitivePair name;
   std::array<Index, 4> vertices{};
@@ -181,14 +180,14 @@ struct MeasuredPair {
   double scale = 0;           ///< max(d, Σ|δ|) [m]
   bool has_room = false;      ///< whether single precision has room for a plane
   bool is_separated = false;  ///< whether the answer's planes separate it
-  double together = 0;        ///< how far both sides may come together along the plane that separates them [m]
+  double together = 0;        ///< how far both sides together may approach along the separating plane's normal [m]
   double division = 0;        ///< PlaneFreedom::division of this pair
 
-  /// Returns a lower limit of the distance that a kernel may compute: d less its tolerance.
+  /// Returns a lower limit of the distance that a kernel may compute.
   double surely_above() const { return std::max(0.0, distance - compare::detect_below_tolerance * u * scale); }
 };
 
-/// Returns whether single precision can hold a plane of the pair (PlaneFreedom).
+/// Returns whether single precision can hold a plane for the pair (PlaneFreedom).
 bool has_room_for_plane(double distance, double scale, double largest_coordinate, double share) {
   return distance > 0 && distance >= 0x1p-18 * scale &&
          std::min(share, 1 - 2 * share) * distance >= 0x1p-45 * largest_coordinate;
@@ -211,8 +210,8 @@ class FreedomCheck {
   }
 
  private:
-  /// Returns whether a kernel may take the primitives for a pair within r_q. The search for all pairs may miss pairs so
-  /// slender that their distance has few bits, so they are measured here.
+  /// Returns whether a kernel may put the pair within r_q. Pairs so slender that their distance has few bits may be
+  /// missing from `pairs_`, so a missing pair is measured here.
   bool may_have_plane(const PrimitivePair& name) const {
     const auto found = std::ranges::lower_bound(pairs_, order(name), {},
                                                 [](const MeasuredPair& pair) { return order(pair.name); });
@@ -265,7 +264,7 @@ class FreedomCheck {
     return std::ranges::any_of(side, [this](Index v) { return answered_.moves(v); });
   }
 
-  /// Returns the distance along `sign` n from the farthest of all vertices of a side to its offset, times the length of
+  /// Returns the distance along `sign` n from the farthest vertex of a side to the side's offset, times the length of
   /// n.
   template <class Vertices>
   Long way_to_offset(const PrimitivePair& name, const Vertices& side, const Vec3f& n, Long sign) const {
@@ -277,7 +276,7 @@ class FreedomCheck {
     return offset - farthest;
   }
 
-  /// Returns the largest `sign` n·w of a side's vertices, which may be negative, over the length of n.
+  /// Returns the largest `sign` n·w of a side's vertices, over the length of n; it may be negative.
   template <class Vertices>
   Long speed_of(const Vertices& side, const Vec3f& n, Long sign) const {
     Long largest = -Long{infinity};
@@ -285,8 +284,8 @@ class FreedomCheck {
     return largest / std::sqrt(inner(n, n));
   }
 
-  /// Returns the error of the division. Where rounding can hide whether one side approaches at all, and the other side
-  /// does not, any division is right: W/(a + b) has no bound there.
+  /// Returns the error of the division. Any division is accepted if rounding can hide whether the sides approach: W/(a
+  /// + b) has no limit there.
   template <class Pair>
   double division(const Pair& pair, const Vec3f& n, const MeasuredPair& measured) const {
     if (!can_move(pair.first) || !can_move(pair.second)) return 0;
@@ -305,8 +304,8 @@ class FreedomCheck {
     return static_cast<double>(error / (u * (measured.scale + doubtful)));
   }
 
-  /// Returns how far a side may come along `sign` n, times the length of n, by the vertex nearest to its offset; 0
-  /// where no vertex can move.
+  /// Returns how far a side may move along `sign` n, times the length of n: the least over its vertices; 0 if no vertex
+  /// can move.
   template <class Vertices>
   double room(const PrimitivePair& name, const Vertices& side, const Vec3f& n, double sign) const {
     double least = infinity;
@@ -320,7 +319,7 @@ class FreedomCheck {
     return least < infinity ? least : 0;
   }
 
-  /// Returns for each vertex a threshold: pairs nearer than this are among its nearest, whatever rounding does.
+  /// Returns a threshold for each vertex: pairs nearer than this have a plane for any rounding in a kernel.
   std::vector<double> thresholds() const {
     constexpr std::size_t most = compare::planes_of_vertex;
     std::vector<std::vector<double>> distances(in_.positions.size());
@@ -338,7 +337,7 @@ class FreedomCheck {
   void judge_planes(const std::vector<double>& threshold) {
     for (const MeasuredPair& pair : pairs_) {
       const auto is_among_nearest = [&](Index v) { return pair.distance < threshold[at(v)]; };
-      // A pair of fixed vertices comes only from a wrong form, not from a question.
+      // Only a wrong form has pairs of fixed vertices, no question has.
       const auto moves = [&](Index v) { return answered_.moves(v); };
       const bool is_due = pair.has_room && is_within(pair.distance) && std::ranges::any_of(pair.vertices, moves) &&
                           std::ranges::all_of(pair.vertices, is_among_nearest);
@@ -392,8 +391,8 @@ void require(bool holds, const char* what, std::size_t count, std::size_t vertic
 
 }  // namespace
 
-/// Sums seven terms with exact products; each addition loses at most 2⁻⁵³ of their moduli: under 2⁻⁴⁹ of the sum of the
-/// moduli.
+/// Sums seven terms with exact products. Each addition loses at most 2⁻⁵³ of the moduli, all together less than 2⁻⁴⁹ of
+/// the sum of the moduli.
 int compared(const Height& a, const Height& b) {
   double sum = a.offset - b.offset, size = std::abs(a.offset) + std::abs(b.offset);
   const auto add = [&](float n, float x, double sign) {

@@ -1,6 +1,6 @@
-// Works in two rounds. The first lowers each distance by neighbours across the mesh, which are near in most states; the
-// second searches each primitive's own box, widened by the distance known then. Pairs are visited from both sides, so
-// each primitive finds its own nearest and depends on no other primitive's search.
+// Works in two rounds. The first lowers each distance by neighbours across the mesh, which are near in most states. The
+// second searches each primitive's box, widened by the distance known so far. Pairs are visited from both sides, so the
+// search of one primitive does not depend on that of another.
 #include "reference/geometry/primitive_distances.hpp"
 
 #include <tbb/blocked_range.h>
@@ -21,7 +21,6 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Calls work(i) for each i, in parallel.
 template <class Work>
 void for_each(std::size_t count, Work work) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 16), [&](const tbb::blocked_range<std::size_t>& range) {
@@ -29,7 +28,7 @@ void for_each(std::size_t count, Work work) {
   });
 }
 
-/// Distances of vertices and triangles.
+/// Holds the distances of vertices and triangles.
 class Facets {
  public:
   explicit Facets(const compare::DetectIn& in)
@@ -58,14 +57,14 @@ class Facets {
   }
 
  private:
-  /// Visits the vertices opposite to the triangle in the triangles that share an edge with it.
+  /// Visits the vertices that lie opposite to the triangle's edges in the neighbouring triangles.
   void meet_ring(Index t) {
     for (const Index e : in_.topology->triangle_edges[at(t)])
       for (const Index other : mesh_.triangles_of(e))
         if (other != t) meet(mesh_.opposite(other, e), t, in_.query_radius);
   }
 
-  /// Lowers both distances by that of the pair, unless it is surely beyond `known`.
+  /// Lowers both distances to that of the pair, unless the pair is surely beyond `known`.
   void meet(Index v, Index t, float known) {
     const compare::Triangle& corners = mesh_.triangle(t);
     if (!in_.topology->on_surface(v) || !in_.topology->on_surface(corners)) return;
@@ -83,7 +82,7 @@ class Facets {
   Smallest of_vertex_, of_triangle_;
 };
 
-/// Distances of edges.
+/// Holds the distances of edges.
 class Edges {
  public:
   explicit Edges(const compare::DetectIn& in)
@@ -103,14 +102,14 @@ class Edges {
   }
 
  private:
-  /// Visits the edges around the vertices opposite to the edge.
+  /// Visits the edges around the vertices that lie opposite to the edge.
   void meet_ring(Index e) {
     for (const Index t : mesh_.triangles_of(e))
       for (const Index other : mesh_.edges_of(mesh_.opposite(t, e))) meet(e, other, of_edge_.so_far(at(e)));
   }
 
-  /// Lowers both distances by that of the pair, unless it is surely beyond `known`. The lower-numbered edge comes
-  /// first, as in the detection, so that the last bit agrees.
+  /// Lowers both distances to that of the pair, unless the pair is surely beyond `known`. Puts the lower-numbered edge
+  /// first like the detection, so that the last bit agrees.
   void meet(Index e, Index other, float known) {
     const compare::Edge &a = mesh_.edge(std::min(e, other)), &b = mesh_.edge(std::max(e, other));
     if (!in_.topology->on_surface(a) || !in_.topology->on_surface(b)) return;

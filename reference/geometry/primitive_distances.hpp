@@ -1,5 +1,5 @@
-// The smallest distances of a detection, from which bounds follow, without contacts and grey zones (the detections) and
-// without the exact decision which pair holds them (nearest.hpp).
+// Computes only the smallest distances of a detection, from which bounds follow. detect_*.hpp adds contacts and grey
+// zones; nearest.hpp adds the exact decision which pair has the distance.
 #pragma once
 
 #include <vector>
@@ -8,14 +8,14 @@
 
 namespace ogc::reference {
 
-/// d_min,v, d_min,e and d_min,t [m] by primitive (Alg. 1 line 6, Alg. 2; Eq. 22, 24, 26), r_q where nothing is nearer;
-/// equal to those of detect_vertex_facet and detect_edge_edge, bit by bit.
+/// d_min,v, d_min,e and d_min,t [m] (Alg. 1 line 6, Alg. 2; Eq. 22, 24, 26); r_q if no primitive is nearer. They equal
+/// those of detect_vertex_facet and detect_edge_edge bit by bit.
 struct PrimitiveDistances {
   std::vector<float> vertex, edge, triangle;  ///< by number of the primitive [m]
 };
 
 /// Computes the distances in parallel; the answer does not depend on the number of threads. Each primitive is searched
-/// as far as its nearest known neighbour across the mesh, so that r_q matters only where there is none.
+/// only up to the distance of its nearest known neighbour across the mesh, or up to r_q if it has none.
 PrimitiveDistances primitive_distances(const compare::DetectIn& in);
 
 /// Returns b_v of Eq. 21 [m], by vertex, rounded down. Throws only when memory runs out.

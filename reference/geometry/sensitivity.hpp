@@ -1,5 +1,5 @@
-// Two number types that measure how a formula reacts to its inputs: forward-mode derivatives, and the sum of the moduli
-// of all terms, which also bounds the rounding error of the value.
+// Two number types that measure how sensitive a formula is to its inputs: forward-mode derivatives, and the sum of the
+// moduli of all terms, which also bounds the rounding error of the value.
 #pragma once
 
 #include <array>
@@ -40,12 +40,12 @@ struct Dual {
   }
 };
 
-/// A value in double, and the value of the formula when every term counts with its modulus. For a homogeneous
-/// polynomial m of degree k the latter bounds Σ|∂m/∂δᵢ||δᵢ| ≤ k · modulus, because each monomial contributes its
-/// modulus once for each of its at most k factors. n roundings on the longest way from an input to the value change it
-/// by at most n 2⁻⁵³ · modulus, to first order.
+/// A value in double, and its modulus: the value of the formula with every term replaced by its absolute value. For a
+/// homogeneous polynomial m of degree k, Σ|∂m/∂δᵢ||δᵢ| ≤ k · modulus, because each monomial has at most k factors. If n
+/// roundings lie on the longest way from an input to the value, they change it by at most n 2⁻⁵³ · modulus, to first
+/// order.
 struct Measured {
-  double value = 0, modulus = 0;  ///< in double; the sum of the moduli of its terms
+  double value = 0, modulus = 0;
 
   Measured() = default;
   explicit Measured(double x) : value(x), modulus(std::abs(x)) {}

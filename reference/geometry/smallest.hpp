@@ -8,30 +8,30 @@
 
 namespace ogc::reference {
 
-/// An array of distances [m], each starting at r_q.
+/// An array of distances [m], all initially r_q.
 class Smallest {
  public:
   Smallest(std::size_t count, float start) : values_(count, start) {}
 
-  /// Sets entry i to the smaller one of itself and `distance` [m].
+  /// Sets entry i to `distance` [m] if that is smaller.
   void lower(std::size_t i, float distance) {
     const std::atomic_ref<float> value(values_[i]);
     float seen = value.load(std::memory_order_relaxed);
     while (distance < seen && !value.compare_exchange_weak(seen, distance, std::memory_order_relaxed)) {}
   }
 
-  /// Returns entry i as it is now; it only falls later.
+  /// Returns the present value of entry i, which later calls can only lower.
   float so_far(std::size_t i) { return std::atomic_ref<float>(values_[i]).load(std::memory_order_relaxed); }
 
-  /// Returns the distances and empties this.
+  /// Returns the distances and empties the array.
   std::vector<float> take() { return std::move(values_); }
 
  private:
   std::vector<float> values_;
 };
 
-/// Boxes are searched a little beyond r_q, so that a grey distance just outside r is found even where r_q = r. The grey
-/// zone of a distance is wider than this only for faces whose shape leaves fewer than some ten bits of it.
+/// Factor of the search radius beyond r_q. It finds grey distances just outside r even if r_q = r. The grey zone of a
+/// distance is wider than this only for slender faces, whose distance has fewer than about ten correct bits.
 inline constexpr double search_margin = 1 + 1.0 / 64;
 
 }  // namespace ogc::reference

@@ -1,18 +1,17 @@
-// The flag is the sign of a gap of two points; the scaled position has no cancellation, so long double rounds to the
-// right double.
+// The flag of a ball is the sign of a gap of two points. The scaled position has no cancellation, so long double rounds
+// to the right double.
 //
-// Which half-spaces a proposal violates is decided exactly. Positions are in long double: n·x of single-precision
-// numbers has three products that are exact there, and two sums that lose 2⁻⁶⁴ of their moduli.
+// Decides exactly which half-spaces a proposal violates. Positions are in long double: the three products of
+// single-precision numbers in n·x are exact there, and the two sums lose 2⁻⁶⁴ of their moduli.
 //
 // A right answer may be off the exact position by
 //
 //   s   storing, and steps that bring the stored position back inside: truncate_region_tolerance u (‖X_prev‖ + b)
-//   a   the standoff from a half-space, `truncate_standoff` u Σ|n_k x_k| across it, which is ‖w‖/(n·w) times that along
-//       a way w
-//   k   the solve w = H⁻¹n, with a backward error ε ‖H‖: ‖δw‖ ≤ ε κ/(1 − ε κ) ‖w‖, κ = ‖H‖ ‖H⁻¹‖; it moves the point
-//       where w meets the half-space by at most (1 + ‖n‖ ‖w‖/(n·w)) times the same share of the way
+//   a   the standoff from a half-space: `truncate_standoff` u Σ|n_k x_k| along n, hence ‖w‖/(n·w) times that along w
+//   k   the solve w = H⁻¹n, with a backward error ε ‖H‖: ‖δw‖ ≤ ε κ/(1 − ε κ) ‖w‖, κ = ‖H‖ ‖H⁻¹‖. It moves the point
+//       where w meets the half-space by at most (1 + ‖n‖ ‖w‖/(n·w)) ‖δw‖/‖w‖ times the length of the way
 //
-// and, once the ball brings it in, by a and k times b over its distance.
+// If the ball brings the point in, a and k are multiplied by b over the point's distance.
 #include "reference/geometry/truncate.hpp"
 
 #include <algorithm>
@@ -35,7 +34,6 @@ compare::Vec3 scaled_back(const Vec3f& from, const Vec3f& to, float length) {
           static_cast<double>(from.z + scale * dz)};
 }
 
-/// The fields of TruncateTruth for one case.
 struct RegionTruth {
   bool cut = false, grey = false, near = false;
   compare::Vec3 position;
@@ -61,13 +59,13 @@ double size_at(const HalfSpace& h, const Point& x) {
 Long excess_at(const HalfSpace& h, const Point& x) { return inner(wide(h.normal), x) - Long{h.offset}; }
 double standoff(const HalfSpace& h, const Point& x) { return compare::truncate_standoff * u * size_at(h, x); }
 
-/// H⁻¹n, and the effect of a solver's error on its direction.
+/// The direction H⁻¹n, and its error.
 struct Way {
   Point w{};
   double relative_error = infinity;  ///< ‖δw‖/‖w‖
 };
 
-/// Solves by cofactors; κ is taken in Frobenius norms, at most three times that of ‖·‖₂.
+/// Solves by cofactors. κ is computed in Frobenius norms and is at most three times that of ‖·‖₂.
 Way way_out(const std::array<float, 6>& block, const Vec3f& normal) {
   const auto [xx, xy, xz, yy, yz, zz] = std::array<Long, 6>{block[0], block[1], block[2], block[3], block[4], block[5]};
   const std::array<Long, 6> cofactor{yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy,
@@ -134,14 +132,14 @@ class RegionCheck {
     truth_.grey = truth_.grey && !certain;
   }
 
-  /// Accepts any position of the region; the current position is one.
+  /// Accepts any position of the region, for example the current one.
   void leave_free() {
     truth_.position = narrow(current_);
     truth_.accepted = infinity;
   }
 
-  /// Finds the largest share of the way that every half-space and the ball allow, less the distance that each may be
-  /// kept away.
+  /// Finds the largest share of the step that every half-space and the ball allow; `least` is that share if each limit
+  /// keeps its largest distance.
   void along_path() {
     const Point step = plus(proposal_, -1, current_);
     const double whole = length(step);
@@ -170,8 +168,8 @@ class RegionCheck {
     truth_.accepted = (share - std::max(0.0, least)) * whole + stored_;
   }
 
-  /// Counts half-spaces that the way does not climb and that are so near to it that storing its end may leave them. The
-  /// stored position may be stepped away from one; between two or more there may be no room for that.
+  /// Counts the half-spaces that the step does not approach and that rounding of its end may violate. One can be
+  /// repaired by a step away from it; two or more may leave no room.
   std::ptrdiff_t beside(const Point& end, const Point& step) const {
     return std::ranges::count_if(half_spaces_, [&](const HalfSpace& h) {
       const Point n = wide(h.normal);
@@ -179,8 +177,8 @@ class RegionCheck {
     });
   }
 
-  /// Returns the half-space that alone is violated, or so nearly that a kernel may take it for violated; null where
-  /// there are more. `is_ball`: set where there is none.
+  /// Returns the half-space if exactly one is violated, also by a kernel's rounding; otherwise null. Sets `is_ball` if
+  /// none is violated.
   const HalfSpace* only_violated(bool& is_ball) const {
     const HalfSpace* only = nullptr;
     int count = 0;
@@ -208,8 +206,8 @@ class RegionCheck {
     into_ball(landed, solved + standoff(*plane, landed) * stretch, plane);
   }
 
-  /// Sets the position, from the end of the slide and its error. Where another half-space may interfere, or X_prev lies
-  /// next to one, any position of the region is accepted.
+  /// Moves the end of the slide into the ball and sets the accepted error. Accepts any position of the region if
+  /// another half-space may be violated or the error is large against the bound.
   void into_ball(const Point& landed, double error, const HalfSpace* along) {
     const Point away = plus(landed, -1, centre_);
     const double distance = length(away);
@@ -232,7 +230,7 @@ class RegionCheck {
   RegionTruth truth_;
 };
 
-/// Returns the truth of case i, which has half-spaces; `ball`: d² − b² of its proposal and X_prev.
+/// Returns the truth of case i, which has half-spaces. `ball` is d² − b² of the proposal and X_prev.
 RegionTruth truncate_region(const compare::TruncateIn& in, std::size_t i, const MarginAnswer& ball) {
   return RegionCheck(in, i, ball).truth();
 }
@@ -272,7 +270,7 @@ compare::Vec3f stored_within(const compare::Vec3& position, const compare::Vec3f
 }
 
 compare::Vec3f stored_in_region(const compare::Vec3& position, const compare::TruncateIn& in, std::size_t i) {
-  constexpr int attempts = 4;  // each attempt leaves the half-spaces by as much as storing may move the point
+  constexpr int attempts = 4;  // each attempt moves away from the half-spaces by as much as storing may move the point
   const auto half_spaces = in.half_spaces.of(i);
   const auto is_kept = [](const compare::HalfSpace& h, const Vec3f& x) { return keeps({{}, h.normal, h.offset}, x); };
   compare::Vec3 y = position;

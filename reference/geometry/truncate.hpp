@@ -5,14 +5,14 @@
 
 namespace ogc::reference {
 
-/// Cuts exactly where ‖x − x_prev‖ > b_v or a half-space is violated. Without half-spaces a cut position is x_prev + (x
-/// − x_prev) b_v / ‖x − x_prev‖; with them it follows TruncateOut.
+/// Decides exactly whether ‖x − x_prev‖ > b_v or a half-space is violated; these positions are cut. Without
+/// half-spaces, a cut position is x_prev + (x − x_prev) b_v / ‖x − x_prev‖; with half-spaces, it follows TruncateOut.
 compare::TruncateTruth truncate(const compare::TruncateIn& in);
 
-/// Returns the nearest single-precision position, stepped towards X_prev until it obeys the bound.
+/// Rounds a position to single precision, then moves it towards X_prev until it obeys the bound.
 compare::Vec3f stored_within(const compare::Vec3& position, const compare::Vec3f& previous, float bound);
 
-/// Returns the nearest single-precision position, stepped back until it is within the bound and the half-spaces of case
+/// Rounds a position to single precision, then moves it back until it is within the bound and the half-spaces of case
 /// i. If that fails, returns the vertex's current position.
 compare::Vec3f stored_in_region(const compare::Vec3& position, const compare::TruncateIn& in, std::size_t i);
 

@@ -23,8 +23,8 @@ double force_at(ContactActivation kind, double distance, double stiffness) {
   return 0 - energy_at(kind, distance, stiffness).slope[0];
 }
 
-/// Returns the distance where the energy pushes with this force. Forces fall with the distance, so bisection of its
-/// logarithm finds it, to the last bit of a double in 64 steps.
+/// Returns the distance at which the energy has this force. Forces fall with the distance, so 64 bisections of its
+/// logarithm find it to the last bit of a double.
 double distance_of(ContactActivation kind, double force, double stiffness) {
   double near = std::log(0x1p-100), far = 0;
   for (int halving = 0; halving < 64; ++halving) {
@@ -35,7 +35,7 @@ double distance_of(ContactActivation kind, double force, double stiffness) {
 }
 
 DrawingPanel ratio_panel() {
-  constexpr int from = -4, to = 2, each = 60;  // powers of ten, and points for each of them
+  constexpr int from = -4, to = 2, each = 60;  // powers of ten, and number of points for each
   DrawingPanel panel{"ratio", "curvature of IPC's energy over that of OGC's at equal force", {}};
   for (const double ratio : stiffness_ratios) {
     DrawingLayer& layer = panel.layers.emplace_back();
@@ -52,7 +52,7 @@ DrawingPanel ratio_panel() {
 
 DrawingPanel force_panel() {
   constexpr std::array names{"ogc", "ogc_as_printed", "quadratic", "ipc_log", "cubic"};
-  constexpr int count = 440;  // a point every r/400
+  constexpr int count = 440;  // one point every r/400
   DrawingPanel panel{"force", "force over distance, r = 1 m, k_c = 1 N/m", {}};
   for (std::size_t kind = 0; kind < names.size(); ++kind) {
     DrawingLayer& layer = panel.layers.emplace_back();

@@ -1,4 +1,5 @@
-// Fig. 21d: force over distance of the contact energies, by differentiating the same functions as Newton's method.
+// Computes Fig. 21d: the force of the contact energies over the distance, by differentiating the functions that
+// Newton's method uses.
 #pragma once
 
 #include <array>
@@ -7,16 +8,16 @@
 
 namespace ogc::reference {
 
-/// Returns two panels. The first has a layer for each activation in the order of the setting: points (d, −g'(d), 0) for
-/// r = 1 m and k_c = 1 N/m, 0 < d ≤ 1.1 r, with g''(d) [N/m] as their values. The second has a layer for each stiffness
-/// ratio κ of `stiffness_ratios`: points (f, ratio, 0), f in units of k_c r.
+/// Returns two panels. The first has a layer for each activation, in the order of the setting: points (d, −g'(d), 0)
+/// for r = 1 m, k_c = 1 N/m and 0 < d ≤ 1.1 r, with the values g''(d) [N/m]. The second has a layer for each κ of
+/// `stiffness_ratios`: points (f, ratio, 0), with f in units of k_c r.
 std::vector<DrawingPanel> activation_drawing();
 
-/// κ: IPC's energy is −κ k_c (d − r)² ln(d/r), compared with OGC's of stiffness k_c; in the paper's drawing (Fig. 21d)
-/// κ = 1.
+/// Values of κ: IPC's energy is −κ k_c (d − r)² ln(d/r), compared with OGC's energy of stiffness k_c. The paper's
+/// drawing (Fig. 21d) has κ = 1.
 inline constexpr std::array<double, 4> stiffness_ratios{1, 2, 7, 40};
 
-/// Returns g''_IPC/g''_OGC where both push with the force f k_c r, each at its own distance. f > 0.
+/// Returns g''_IPC/g''_OGC at equal force f k_c r, each at its own distance; f > 0.
 double curvature_ratio(double force, double stiffness_ratio);
 
 }  // namespace ogc::reference

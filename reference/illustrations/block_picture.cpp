@@ -1,5 +1,5 @@
-// A block is the face moved along each of its normals up to r: vertices sweep cones of the region N_v, edges prisms
-// over the arc N_e, triangles a prism to either side. So each picture is made of the outline of N_a.
+// A block is the face moved along each of its normals by up to r: vertices sweep cones over the region N_v, edges
+// prisms over the arc N_e, triangles a prism on either side. So each picture is made from the outline of N_a.
 #include "reference/illustrations/block_picture.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ Point3 widened_point(const Vec3f& x) { return {x.x, x.y, x.z}; }
 
 double inner(const Unit& a, const Unit& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// Returns the point at the part t of the great circle from a to b, which must not be opposite to each other.
+/// Returns the point at the share t of the great circle from a to b, which must not be opposite.
 Unit between(const Unit& a, const Unit& b, double t) {
   const double angle = std::acos(std::clamp(inner(a, b), -1.0, 1.0));
   if (angle < 1e-9) return a;
@@ -40,7 +40,7 @@ class Painter {
   }
   BlockPatch& patch(Kind kind, bool closed) { return picture_.patches.emplace_back(BlockPatch{kind, closed, {}, {}}); }
 
-  /// Adds a planar, convex patch. Its outline is its boundary, or `outlines`.
+  /// Adds a planar, convex patch. Its outline is its boundary unless `outlines` are given.
   void polygon(Kind kind, bool closed, const std::vector<int>& corners, std::vector<std::vector<int>> outlines = {}) {
     BlockPatch& wall = patch(kind, closed);
     for (std::size_t k = 1; k + 1 < corners.size(); ++k)
@@ -51,7 +51,7 @@ class Painter {
     wall.outlines.back().push_back(corners.front());
   }
 
-  /// Adds the surface between two rows of points; unless it goes all around, its two open ends are its outlines.
+  /// Adds the surface between two rows of points. Unless it goes all around, its two open ends are its outlines.
   void strip(Kind kind, bool closed, const std::vector<int>& low, const std::vector<int>& high, bool around) {
     BlockPatch& wall = patch(kind, closed);
     for (std::size_t k = 0; k + 1 < low.size(); ++k) {
@@ -73,7 +73,7 @@ class Painter {
   BlockPicture picture_;
 };
 
-/// Paints the part of the sphere inside an outline, in rings towards its middle.
+/// Paints the part of the sphere inside an outline, in rings towards the centre.
 void paint_cap(Painter& painter, const Point3& x, double r, const std::vector<Unit>& rim, const Unit& centre,
                double step) {
   const int rings = std::max(2, static_cast<int>(std::ceil(1.6 / step / 2)));
@@ -102,7 +102,7 @@ Unit middle_of(const GaussMap& map) {
   for (const Unit& u : map.corners) sum = {sum[0] + u[0], sum[1] + u[1], sum[2] + u[2]};
   const double length = std::sqrt(inner(sum, sum));
   if (length > 1e-9) return {sum[0] / length, sum[1] / length, sum[2] / length};
-  const Unit &a = map.corners[0], &b = map.corners[1];  // half a sphere: the corners surround its middle
+  const Unit &a = map.corners[0], &b = map.corners[1];  // half a sphere: the corners surround its centre
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 

@@ -1,4 +1,4 @@
-// Drawings of blocks: triangulated boundaries, computed from the Gauss map. For drawing only; nothing is decided here.
+// Draws blocks as triangulated boundaries, computed from the Gauss map. Nothing is decided here.
 #pragma once
 
 #include <array>
@@ -9,19 +9,19 @@
 
 namespace ogc::reference {
 
-/// One boundary of a block as triangles over `BlockPicture::points`; a block without volume has its flat or straight
-/// part as a patch.
+/// One boundary of a block as triangles over `BlockPicture::points`. For a block without volume, the patch is its flat
+/// or straight part.
 struct BlockPatch {
-  BlockMargin::Kind kind = BlockMargin::Kind::sphere;  ///< of the boundary
-  bool closed = true;                                  ///< as printed; open boundaries are drawn dashed (Fig. 7, 8)
-  std::vector<std::array<int, 3>> triangles;           ///< by numbers of points
-  std::vector<std::vector<int>> outlines;              ///< polylines around the patch
+  BlockMargin::Kind kind = BlockMargin::Kind::sphere;  ///< kind of the boundary
+  bool closed = true;  ///< whether it is closed, as printed; open boundaries are drawn dashed (Fig. 7, 8)
+  std::vector<std::array<int, 3>> triangles;  ///< by numbers of points
+  std::vector<std::vector<int>> outlines;     ///< polylines around the patch
 };
 
 /// A block as triangles and curves.
 struct BlockPicture {
   std::vector<std::array<double, 3>> points;  ///< [m]
-  std::vector<BlockPatch> patches;            ///< empty where the face has no normals or a vertex no edges
+  std::vector<BlockPatch> patches;            ///< empty if the face has no normals or a vertex has no edges
 };
 
 /// Returns the picture of U_a with radius r [m], or of U_a^E with `edge_only`; arcs are cut into pieces of at most
@@ -29,8 +29,8 @@ struct BlockPicture {
 BlockPicture block_picture(const Complex& mesh, Face face, float contact_radius, bool edge_only = false,
                            double step = 0.1);
 
-/// Returns the points of N_a's boundary on the unit sphere in order, arcs cut like those of the picture; a closed
-/// region repeats its first point at the end.
+/// Returns the boundary of N_a on the unit sphere as points in order; arcs are cut as in the picture. A closed region
+/// repeats its first point at the end.
 std::vector<Unit> outline(const GaussMap& map, double step = 0.1);
 
 }  // namespace ogc::reference

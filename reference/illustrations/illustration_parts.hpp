@@ -1,4 +1,4 @@
-// The figures by their subjects, for illustrations.cpp.
+// The figures, for illustrations.cpp; each file has one kind of subject.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace ogc::reference {
 
-/// Returns corner i of k on the unit circle.
+/// Returns corner i of a regular k-gon on the unit circle.
 inline std::array<double, 2> on_circle(int i, int k) {
   const double angle = 2 * std::numbers::pi * i / k;
   return {std::cos(angle), std::sin(angle)};

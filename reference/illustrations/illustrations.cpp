@@ -1,4 +1,4 @@
-// The list of figures; the files by subject make them.
+// Lists the figures; other files compute them.
 #include "reference/illustrations/illustrations.hpp"
 
 #include <algorithm>

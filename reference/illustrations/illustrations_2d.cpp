@@ -1,5 +1,5 @@
-// Fig. 2c to e, 3, 4 and 22a: slices of swept polylines. Contact sets, layers and distances come from the surface; only
-// the drawing is plane.
+// Computes Fig. 2c to e, 3, 4 and 22a as slices of swept polylines. Contact sets, layers and distances come from the
+// surface; only the drawing is plane.
 #include <algorithm>
 
 #include "reference/definitions/contact_sets.hpp"
@@ -31,7 +31,8 @@ DrawingLayer circle(const Point2& centre, double r) {
   return layer;
 }
 
-/// The force of the quadratic stage on one face of the polyline: at the closest point, away from x, of length r − d.
+/// The force of the quadratic stage on one face of the polyline: it acts at the closest point, away from x, with length
+/// r − d.
 struct Push {
   SliceFace face;
   std::array<double, 2> from{}, force{};
@@ -67,8 +68,8 @@ DrawingLayer arrows(const std::string& name, const Slice& slice, const std::vect
   return layer;
 }
 
-/// Returns the segments of some triangles. With `without`, segments that end at that vertex are left out: in the plane
-/// they contain it (Eq. 3).
+/// Returns the segments that sweep some triangles. `without`, if given, leaves out segments that end at this vertex: in
+/// the plane they contain it (Eq. 3).
 std::vector<SliceFace> segments_of(const Slice& slice, const std::vector<Index>& triangles, Index without = -1) {
   const SliceFace own = without < 0 ? SliceFace{true, -2} : slice.face_of(vertex_face(without));
   std::vector<SliceFace> faces;
@@ -81,7 +82,7 @@ std::vector<SliceFace> segments_of(const Slice& slice, const std::vector<Index>&
   return faces;
 }
 
-/// Returns the faces in contact by Eq. 12: their blocks hold x, and they do not contain the vertex itself.
+/// Returns the faces in contact by Eq. 12: their blocks hold the vertex, and they do not contain it.
 std::vector<SliceFace> ogc_faces(const Slice& slice, Index vertex, float r) {
   const Complex mesh = slice.mesh();
   const std::vector<Index> no_groups;
@@ -108,8 +109,8 @@ DrawingPanel face_set_panel(const std::string& name, const std::string& caption,
   return panel;
 }
 
-/// Returns a grid of nx × ny points over a rectangle, x fastest. The spacing has many digits, so that points hardly
-/// ever lie on boundaries.
+/// Returns a grid of nx × ny points over a rectangle, x fastest. The spacing has many digits, so that points rarely lie
+/// on boundaries.
 template <class Value>
 DrawingLayer field(const std::string& name, const std::array<double, 4>& rectangle, int nx, int ny, Value value) {
   DrawingLayer layer{name, {}, {}, {}, {}, true};
@@ -124,7 +125,7 @@ DrawingLayer field(const std::string& name, const std::array<double, 4>& rectang
   return layer;
 }
 
-/// Returns the half-line from vertex i of the polyline, half way between the directions to its neighbours.
+/// Returns the half-line from vertex i that bisects the angle at the vertex.
 DrawingLayer bisector(const Slice& slice, std::size_t i, double length) {
   const Point2 &a = slice.polyline()[i - 1], &b = slice.polyline()[i], &c = slice.polyline()[i + 1];
   const double to_a = std::hypot(a[0] - b[0], a[1] - b[1]), to_c = std::hypot(c[0] - b[0], c[1] - b[1]);
@@ -133,7 +134,7 @@ DrawingLayer bisector(const Slice& slice, std::size_t i, double length) {
   return {"bisector", {{b[0], b[1], 0}, {b[0] + scale * x, b[1] + scale * y, 0}}, {}, {{0, 1}}, {}, true};
 }
 
-/// Returns two strands of one curve that come near each other.
+/// Returns a curve with two strands that come near each other.
 Slice hairpin() {
   return Slice({{-3, 0.9f},
                 {-1.5f, 0.55f},
@@ -146,8 +147,8 @@ Slice hairpin() {
                 {-3, -0.8f}});
 }
 
-/// Returns the boundaries of a segment's block in the plane: one layer of the closed lines at distance r, one of the
-/// open walls.
+/// Returns the boundaries of a segment's block in the plane: a layer of the closed lines at distance r, and a layer of
+/// the open walls.
 std::vector<DrawingLayer> segment_block(const Slice& slice, int segment, double r) {
   const Complex mesh = slice.mesh();
   Index t = 0;
@@ -163,8 +164,7 @@ std::vector<DrawingLayer> segment_block(const Slice& slice, int segment, double 
   return {closed, open};
 }
 
-/// Returns a segment in IPC's model: all points within r of it. A circle is cut in two by the segment's normal, its
-/// halves surround the two ends.
+/// Returns IPC's model of a segment: all points within r of it. Its outline has a half circle around each end.
 DrawingLayer capsule(const Slice& slice, int segment, double r) {
   const auto &a = slice.polyline()[static_cast<std::size_t>(segment)],
              &b = slice.polyline()[static_cast<std::size_t>(segment) + 1];
@@ -181,7 +181,7 @@ DrawingLayer capsule(const Slice& slice, int segment, double r) {
   return layer;
 }
 
-/// Returns a panel with the given vertices and the pushes from them by the set of one model, OGC or IPC.
+/// Returns a panel with the given vertices and the pushes on the faces in their contact sets, by OGC or IPC.
 DrawingPanel model_panel(const std::string& name, const std::string& caption, const Slice& slice,
                          const std::vector<Index>& vertices, float r, bool ogc) {
   const Complex mesh = slice.mesh();

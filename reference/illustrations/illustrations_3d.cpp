@@ -1,11 +1,10 @@
-// Fig. 5 to 8: normals and blocks of single faces on the smallest surfaces that have them.
+// Computes Fig. 5 to 8: normals and blocks of single faces on the smallest surfaces that have such faces.
 #include "reference/illustrations/block_picture.hpp"
 #include "reference/illustrations/illustration_parts.hpp"
 
 namespace ogc::reference {
 namespace {
 
-/// Positions and triangles of a drawing, with its topology.
 struct Shape {
   std::vector<Vec3f> positions;
   compare::Topology topology;
@@ -17,7 +16,7 @@ struct Shape {
   Complex mesh() const { return {topology, positions}; }
 };
 
-/// Returns k triangles around vertex 0, neighbour i at the given height.
+/// Returns k triangles around vertex 0; neighbour i has the given height.
 Shape star(const std::vector<float>& heights) {
   const auto k = static_cast<Index>(heights.size());
   std::vector<Vec3f> positions{{0, 0, 0}};
@@ -66,7 +65,7 @@ DrawingLayer curve(const std::string& name, const std::vector<Unit>& points) {
   return layer;
 }
 
-/// Adds the indicatrix as the polygon of the triangles' normals, arcs cut finely, and N_a on the unit sphere.
+/// Adds the indicatrix (the polygon of the triangles' normals, with finely cut arcs) and N_a on the unit sphere.
 void add_normals(DrawingPanel& panel, const Complex& mesh, Face face, bool edge_only) {
   const GaussMap map = gauss_map(mesh, face, edge_only);
   if (map.dimension == 0) {

@@ -1,6 +1,6 @@
-// Fig. 9 and 22b: steps that are cut. Detections, bounds and truncations are the reference's own, at lengths of a
-// cloth; in Fig. 9 on a slice of swept polylines, as in illustrations_2d.cpp. The line search of Fig. 9b, for
-// comparison, is the first root of a quadratic.
+// Computes Fig. 9 and 22b, in which steps are cut, with the reference's detections, bounds and truncations at the
+// lengths of a cloth. Fig. 9 is a slice of swept polylines, as in illustrations_2d.cpp. The line search of Fig. 9b, for
+// comparison, finds the first root of a quadratic.
 #include <algorithm>
 
 #include "compare/problem/settings.hpp"
@@ -30,7 +30,7 @@ std::vector<float> bounds_of(const compare::Topology& topology, const std::vecto
       .exact.bound;
 }
 
-/// x ← y within the ball about X_prev, as it is stored (Eq. 27, 28).
+/// The position y, stored within the ball about X_prev (Eq. 27, 28).
 struct Cut {
   Vec3f position;
   bool cut = false;
@@ -50,7 +50,7 @@ DrawingLayer polyline(const std::string& name, const Points& points, std::vector
   return layer;
 }
 
-// Fig. 9 [m]: thirteen vertices 10 mm apart, and a circle of 12 mm whose top is 1 mm below the middle one.
+// Fig. 9 [m]: thirteen vertices 10 mm apart, and a circle of radius 12 mm whose top is 1 mm below the middle vertex.
 constexpr int vertices = 13, circle_corners = 32;
 constexpr double spacing = 0.01, obstacle_radius = 0.012, gap = 0.001;
 
@@ -78,7 +78,7 @@ std::vector<Point2> singles(const std::vector<Plane>& points) {
   return single;
 }
 
-/// Returns b_v of the vertices of M, beside the obstacle.
+/// Returns b_v of the vertices of M next to the obstacle.
 std::vector<float> bounds_beside(const OneStep& step) {
   const Slice line(singles(step.before)), obstacle(singles(step.obstacle));
   std::vector<Vec3f> positions(line.mesh().positions.begin(), line.mesh().positions.end());
@@ -98,7 +98,7 @@ double crossed(const Plane& a, const Plane& b) { return a[0] * b[1] - a[1] * b[0
 Plane less(const Plane& a, const Plane& b) { return {a[0] - b[0], a[1] - b[1]}; }
 Plane along(const Plane& a, const Plane& b, double s) { return {a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])}; }
 
-/// Returns the earliest share s of the step, at most 1, at which a moving point lies on a moving segment.
+/// Returns the smallest share s ≤ 1 of the step at which a moving point lies on a moving segment.
 double first_touch(const std::array<Plane, 2>& point, const std::array<Plane, 2>& a, const std::array<Plane, 2>& b) {
   const auto at = [&](const std::array<Plane, 2>& x, double s) { return along(x[0], x[1], s); };
   const auto area = [&](double s) { return crossed(less(at(b, s), at(a, s)), less(at(point, s), at(a, s))); };
@@ -115,8 +115,8 @@ double first_touch(const std::array<Plane, 2>& point, const std::array<Plane, 2>
   return first;
 }
 
-/// Returns the share of the step at which any part of M first touches the obstacle: a line search with continuous
-/// detection stops there.
+/// Returns the share of the step at which M first touches the obstacle, where a line search with continuous detection
+/// stops.
 double first_collision(const OneStep& step) {
   double first = 1;
   for (std::size_t i = 0; i < step.before.size(); ++i) {
@@ -142,7 +142,7 @@ struct Fall {
   std::vector<std::vector<float>> bounds;  ///< b_v at the beginning of each round
 };
 
-/// Returns where vertices go if near pairs have planes (method.md §5.6), instead of balls alone.
+/// Returns the positions if near pairs have planes (method.md §5.6).
 std::vector<Cut> cut_by_planes(const compare::Topology& topology, const std::vector<Vec3f>& x,
                                const std::vector<Vec3f>& target, float query_radius) {
   const std::vector<Index> no_groups;
@@ -161,8 +161,7 @@ std::vector<Cut> cut_by_planes(const compare::Topology& topology, const std::vec
   return cuts;
 }
 
-/// Does rounds of detection and truncation until no vertex is cut. All vertices fall alike, so nothing comes into
-/// contact.
+/// Runs rounds of detection and truncation until no vertex is cut. All vertices fall alike, so there is no contact.
 Fall fall(double speed, compare::Bounds kind = compare::Bounds::ball) {
   Fall f;
   f.start = {{-0.025f, 0, 0}, {-0.005f, 0, 0}, {-0.015f, 0.015f, 0},

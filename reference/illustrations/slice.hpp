@@ -1,5 +1,5 @@
-// The plane drawings of the paper as slices of surfaces: a polyline is swept along z and cut in the plane of its middle
-// row of vertices.
+// Computes the paper's plane drawings as slices of surfaces: a polyline is swept along z, and the surface is cut in the
+// plane of its middle row of vertices.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@ struct SliceFace {
   friend auto operator<=>(const SliceFace&, const SliceFace&) = default;
 };
 
-/// A polyline in the plane z = 0 with the surface that it sweeps; `extra` points are separate vertices, numbered behind
-/// it.
+/// A polyline in the plane z = 0 and the surface that it sweeps. `extra` points are separate vertices with the last
+/// numbers.
 class Slice {
  public:
   /// A point of the plane [m].
@@ -34,10 +34,10 @@ class Slice {
   Index vertex(int i) const { return middle_ + i; }
   /// Returns the vertex of the i-th extra point.
   Index extra(int i) const { return static_cast<Index>(positions_.size()) - extra_count_ + i; }
-  /// Returns the face of the polyline whose sweep has this face of the surface.
+  /// Returns the vertex or segment of the polyline that sweeps this face.
   SliceFace face_of(Face face) const;
 
-  /// Returns the faces of the polyline whose blocks hold the point, ascending: one for each layer.
+  /// Returns the faces of the polyline whose blocks hold the point, ascending, one for each layer.
   std::vector<SliceFace> layers(const Vec3f& x, float contact_radius) const;
 
  private:

@@ -22,9 +22,9 @@ class Motion {
  public:
   /// Takes positions relative to the first vertex and displacements relative to their mean, which changes no distance.
   /// Let S be the largest relative coordinate plus displacement. A coordinate at a time t ≤ 1 has the roundings of a
-  /// difference, a product, a rounded time and a sum: 4 · 2⁻⁵³ S; its projection on a unit vector, known to 4 · 2⁻⁵³,
-  /// some thirty of them in all, and a slab's width two projections: 2⁻⁴⁶ S is more than both, and a rate times a time
-  /// of at most 1 adds as much again.
+  /// difference, a product, a rounded time and a sum: 4 · 2⁻⁵³ S. Its projection on a unit vector, known to 4 · 2⁻⁵³,
+  /// has about thirty in all. A slab's width has two projections; 2⁻⁴⁶ S is more than both. A rate times a time of at
+  /// most 1 adds the same again.
   Motion(compare::ContactSides sides, const Corners& x, const Corners& delta)
       : sides_(sides), split_(sides == compare::ContactSides::edge_edge ? 2 : 1) {
     const Triple<double> mean = 0.25 * (delta[0] + delta[1] + delta[2] + delta[3]);
@@ -43,9 +43,9 @@ class Motion {
 
   double approach() const { return approach_; }  ///< ℓ [m]
 
-  /// The widest known empty slab at t.
+  /// The widest known empty slab at time t.
   struct Slab {
-    double width = 0;  ///< at most the distance; negative where none is known [m]
+    double width = 0;  ///< at most the distance; negative if no slab is known [m]
     Triple<double> normal{};
     Corners x{};
   };
@@ -57,14 +57,14 @@ class Motion {
     const Triple<double> apart = separation(form.weight, slab.x);
     slab.width = -1;
     widen(slab, apart);
-    // Across a gap the direction of the connection is known to 2⁻⁵³ S over the gap, which tilts the slab; normals of
-    // lines and planes do not lose that.
+    // The connection's direction is known to 2⁻⁵³ S over the gap, which tilts the slab. Normals of lines and planes are
+    // more precise.
     if (slab.width < 0.9 * length(apart)) widen(slab, normal_of(form, slab.x, apart));
     return slab;
   }
 
-  /// Returns how long the slab stays wider than `thickness`. A slab that is not wider proves nothing, even if
-  /// everything moves out of it.
+  /// Returns how long the slab stays wider than `thickness`. A slab that is not wider proves nothing, even if all
+  /// vertices leave it.
   double empty_for(const Slab& slab, double thickness) const {
     if (!(slab.width > thickness)) return 0;
     double time = std::numeric_limits<double>::infinity();
@@ -78,7 +78,7 @@ class Motion {
   }
 
  private:
-  /// Takes the slab across `normal` if it is wider.
+  /// Replaces the slab by the one perpendicular to `normal` if that is wider.
   void widen(Slab& slab, const Triple<double>& normal) const {
     const double size = length(normal);
     if (!(size > 0)) return;
@@ -90,7 +90,8 @@ class Motion {
     if (width > slab.width) slab.width = width, slab.normal = unit;
   }
 
-  /// Returns the normal of the plane, the two lines or the line of the closest points, on the side of `apart`.
+  /// Returns the normal of the plane, of the two lines or of the line through the closest points, on the side of
+  /// `apart`.
   static Triple<double> normal_of(const ClosestForm& form, const Corners& x, const Triple<double>& apart) {
     const auto at = [&](std::size_t place) { return x[form.at[place]]; };
     if (form.kind == FormKind::points) return apart;

@@ -1,7 +1,7 @@
-// The barrier energy of IPC (Li et al. 2020, Eq. 6; with a thickness Li et al. 2021, Eq. 10), written once, over any
-// number type. It is a function of the squared distance D, which is a polynomial in the vertices' coordinates, or a
-// quotient of two, while the distance itself has a root. With a thickness ξ the gap D − ξ² replaces D, and 2 ξ d̂ + d̂²
-// replaces d̂²: the barrier then acts for ξ < d < ξ + d̂.
+// The barrier energy of IPC (Li et al. 2020, Eq. 6; with a thickness Li et al. 2021, Eq. 10), over any number type. It
+// is a function of the squared distance D, which is a polynomial in the coordinates, or a quotient of two; the distance
+// itself has a root. With a thickness ξ the gap D − ξ² replaces D, and 2 ξ d̂ + d̂² replaces d̂². The barrier then acts
+// for ξ < d < ξ + d̂.
 #pragma once
 
 #include <cmath>
@@ -16,13 +16,13 @@ namespace ogc::reference {
 /// d̂ and ξ [m].
 struct BarrierShape {
   double distance = 0, thickness = 0;
-  /// Returns the distance from which on there is no energy [m].
+  /// Returns the distance at which the energy ends, ξ + d̂ [m].
   double reach() const { return thickness + distance; }
   double support() const { return distance * (distance + 2 * thickness); }                        ///< H [m²]
   double gap(double squared_distance) const { return squared_distance - thickness * thickness; }  ///< D − ξ² [m²]
 };
 
-/// Returns b(g) = −(g − H)² ln(g/H) [m⁴] for a gap 0 < g < H [m²]; 0 from H on.
+/// Returns b(g) = −(g − H)² ln(g/H) [m⁴] for a gap 0 < g < H [m²]; 0 for g ≥ H.
 template <class T>
 T barrier(const T& gap, double support) {
   using std::log;
@@ -39,7 +39,7 @@ Second<1, Number> barrier_slopes(const Number& gap, double support) {
   return barrier(variable, support);
 }
 
-/// Returns the squared distance of a form's points, lines or planes [m²]; the form must not be `fixed_weights`.
+/// Returns the squared distance of a form's points, lines or planes [m²]; `fixed_weights` is not allowed.
 template <class T, std::size_t N>
 T squared_form_distance(const ClosestForm& form, const std::array<Triple<T>, N>& x) {
   const auto at = [&](std::size_t place) -> const Triple<T>& { return x[form.at[place]]; };
@@ -57,14 +57,14 @@ T squared_form_distance(const ClosestForm& form, const std::array<Triple<T>, N>&
   return height * height / dot(normal, normal);
 }
 
-/// One barrier: w e_k b(D − ξ²), to be multiplied by κ.
+/// One barrier without κ: w e_k b(D − ξ²).
 template <class Number>
 struct BarrierTermOf {
-  std::array<compare::Index, 4> vertex{-1, -1, -1, -1};  ///< by place of the form; missing ones are −1
+  std::array<compare::Index, 4> vertex{-1, -1, -1, -1};  ///< by place of the form; unused entries are −1
   std::uint8_t count = 0;                                ///< number of vertices
   ClosestForm form;                                      ///< the closest points, with weights by vertex
-  Number weight = 1.0;                                   ///< how many pairs of primitives have this very distance
-  Number rest_squared = 0.0;  ///< ‖ē‖²‖ē'‖² of two edges that are mollified [m⁴]; 0: e_k = 1
+  Number weight = 1.0;                                   ///< number of pairs of primitives with exactly this distance
+  Number rest_squared = 0.0;  ///< ‖ē‖²‖ē'‖² of two mollified edges [m⁴]; 0: e_k = 1
 
   /// Returns the energy without κ [m⁴].
   template <class T, std::size_t N>
@@ -78,7 +78,8 @@ struct BarrierTermOf {
     return value;
   }
 
-  /// Constants and shared kinds; see the head of energies/stencil_terms.hpp.
+  /// Returns the constants, and the properties that barriers side by side must share (head of
+  /// energies/stencil_terms.hpp).
   auto numbers() { return std::tie(weight, rest_squared); }
   auto numbers() const { return std::tie(weight, rest_squared); }
   auto kinds() { return std::tie(form.kind, form.at); }

@@ -1,4 +1,4 @@
-// Derivatives of barriers, several of one form side by side, like those of other stencils in
+// Derivatives of barriers, several of one form side by side, as for other stencils in
 // energies/stencils/stencil_kernels.hpp.
 #pragma once
 
@@ -33,7 +33,7 @@ struct BarrierKernels {
   StencilKernels::Function<ShapedBarrier, 4> of_4;
 };
 
-/// Kernels for any machine, and for one with AVX2.
+/// Kernels for any machine, and for machines with AVX2.
 extern const BarrierKernels barrier_kernels_baseline, barrier_kernels_avx2;
 
 }  // namespace ogc::reference

@@ -1,4 +1,4 @@
-// Culls by boxes. A box that holds both ends of a primitive's straight way holds the whole way.
+// Culls pairs by boxes. A box that holds both ends of a primitive's straight way holds the whole way.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace ogc::reference {
 
-/// Returns the box of the way of one primitive, given by its vertices, wider by `margin` [m].
+/// Returns the box of the way of one primitive, given by its vertices, widened by `margin` [m].
 template <class Vertices>
 Box swept_box(const Vertices& vertices, const State& from, const State& to, double margin) {
   Box box;
@@ -33,16 +33,16 @@ std::vector<Box> swept_boxes(const Primitives& primitives, const State& from, co
   return boxes;
 }
 
-/// Returns whether two primitives make a pair: they share no vertex and are not excluded (one rigid group, scene's
-/// pairs).
+/// Returns whether two primitives make a pair: they share no vertex and are not excluded (one rigid group, or a pair
+/// that the scene excludes).
 template <class First, class Second>
 bool is_pair(const compare::ExclusionView& exclusions, const First& first, const Second& second) {
   return std::find_first_of(first.begin(), first.end(), second.begin(), second.end()) == first.end() &&
          !is_excluded(exclusions, first, second);
 }
 
-/// Returns what `count` queries find, ascending if each `query(i, found)` appends items that begin with i. Threads
-/// change nothing.
+/// Returns the items of `count` queries, ascending if each `query(i, found)` appends items that begin with i. The
+/// number of threads changes nothing.
 template <class Item, class Query>
 std::vector<Item> found_by(std::size_t count, Query query) {
   constexpr std::size_t grain = 256;

@@ -1,5 +1,4 @@
-// Stage ccd. The oracle decides when faces meet, as for audits: a truth without rounding that shares no code with any
-// contestant.
+// Stage ccd. The oracle decides when faces meet, as for audits: without rounding, and without code of any contestant.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -35,7 +34,7 @@ double largest_coordinate(const Corners& x, const Triple<double>& from) {
   return largest;
 }
 
-/// Returns an upper bound of the distance: that of two points of the faces.
+/// Returns an upper limit of the distance: the distance of two points of the faces.
 double distance_above(compare::ContactSides sides, const Corners& x) {
   const ClosestForm form = sides == compare::ContactSides::edge_edge ? closest_edges(x) : closest_form(sides, x);
   const Triple<double> apart = separation(form.weight, x);

@@ -15,7 +15,7 @@ using compare::Index;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Calls `visit` with the corners as an array of their number.
+/// Calls `visit` with an array of the `count` corners.
 template <class Visit>
 auto with_corners(std::size_t count, const std::array<Index, 4>& vertex, const State& x, Visit visit) {
   switch (count) {
@@ -32,8 +32,8 @@ const BarrierKernels& barrier_kernels() {
   return barrier_kernels_baseline;
 }
 
-/// Returns the group of a barrier, by its form. The form of a mollified barrier uses some of its four vertices; its
-/// group also tells which.
+/// Returns the group of a barrier, by its form. A mollified barrier's form uses only some of its four vertices, and its
+/// group also distinguishes these.
 std::uint8_t group_of(const BarrierTerm& term) {
   const int form = static_cast<int>(term.form.kind);
   return static_cast<std::uint8_t>(term.rest_squared > 0 ? 16 * (1 + form) + 4 * term.form.at[0] + term.form.at[1]

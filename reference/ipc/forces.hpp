@@ -1,7 +1,7 @@
-// The incremental potential of an IPC step: inertia, elasticity and damping as in Newton-OGC, barriers in place of
-// OGC's contacts, lagged friction, and, where prescribed vertices could not go all the way, a pull towards their
-// targets. Its unknowns are the free vertices, with a pull also the prescribed ones, and behind all vertices the frames
-// of rods (solvers/rods/rod_system.hpp).
+// The incremental potential of an IPC step: inertia, elasticity and damping as in Newton-OGC, barriers instead of OGC's
+// contacts, and lagged friction. If prescribed vertices did not reach their targets, it has a pull towards the targets,
+// too. Unknowns are the free vertices, with a pull also the prescribed ones, and after all vertices the frames of rods
+// (solvers/rods/rod_system.hpp).
 #pragma once
 
 #include <optional>
@@ -11,9 +11,9 @@
 
 namespace ogc::reference {
 
-/// The augmented Lagrangian of prescribed vertices that lag: Σ ρ m/(2h²) ‖x − t‖² − λ·(x − t).
+/// The augmented Lagrangian of lagging prescribed vertices: Σ ρ m/(2h²) ‖x − t‖² − λ·(x − t).
 struct Pull {
-  double stiffness = 0;  ///< ρ, in inertias [1]
+  double stiffness = 0;  ///< ρ, in units of the inertia m/h² [1]
   State force;           ///< λ, by vertex [N]
 };
 
@@ -25,14 +25,14 @@ struct IpcEnergy {
 };
 /// Returns E(to) − E(from) [J]; the barriers of the two states may differ.
 double change(const IpcEnergy& from, const IpcEnergy& to);
-/// Returns what rounding does to the sum [J].
+/// Returns the rounding error of the sum [J].
 double value_noise(const IpcEnergy& energy);
 
 /// Derivatives of the incremental potential with barriers at one state.
 struct IpcDerivatives {
   std::vector<StencilDerivatives> stencil;
   std::vector<StencilVertices> vertices;  ///< by stencil
-  State gradient;                         ///< by vertex [N], then by segment [N m]; 0 where not unknown
+  State gradient;                         ///< by vertex [N], then by segment [N m]; 0 if not unknown
   double energy_noise = 0;                ///< as in PotentialDerivatives [J]
 };
 
@@ -42,34 +42,34 @@ class IpcForces {
   /// The scene must be rounded and valid; scene and topology must outlive this.
   IpcForces(const compare::Scene& scene, const compare::Topology& topology, const BarrierShape& shape);
 
-  /// Begins the step with this number from xᵗ with target y [m]. Removes friction and pull of the step before.
+  /// Begins the step with this number from xᵗ with target y [m]. Removes the previous friction and pull.
   void begin_step(const State& start, const State& target, std::int64_t number);
-  /// Returns the segments of rods with the frames at which energies and forces are evaluated.
+  /// Returns the segments of rods, with the frames for energies and forces.
   RodSystem& rods() { return potential_.rods(); }
   /// Computes λ, n and weights of these barriers at x; they stay until the next call.
   void lag_friction(const BarrierSet& set, const State& x, double stiffness);
 
-  /// Returns the energies at x, which may have ω of frames behind its vertices, with the barriers of x and κ [J/m⁴].
+  /// Returns the energies at x with the barriers of x and κ [J/m⁴]. x may have ω of frames after its vertices.
   IpcEnergy energy(const State& x, const BarrierSet& set, double stiffness) const;
-  /// Returns the derivatives at x. `room`: an earlier result whose memory is reused; a fresh one has tens of megabytes
-  /// that the kernel would have to clear.
+  /// Returns the derivatives at x. Reuses the memory of `room`, an earlier result: the kernel would have to clear tens
+  /// of megabytes of new memory.
   IpcDerivatives derivatives(const State& x, const BarrierSet& set, double stiffness, HessianProjection projection,
                              IpcDerivatives room = {}) const;
   /// Returns ∇ Σ b of the unknowns [m³].
   State barrier_gradient(const State& x, const BarrierSet& set) const;
 
-  /// Makes prescribed vertices unknowns; without a value, holds them where they are.
+  /// Makes prescribed vertices unknowns; without a value, fixes them.
   void pull(std::optional<Pull> pull) { pull_ = std::move(pull); }
-  /// Returns the present pull; empty where nothing is pulled.
+  /// Returns the present pull; empty if nothing is pulled.
   const std::optional<Pull>& pull() const { return pull_; }
   /// Returns whether this vertex or frame is an unknown at present.
   bool unknown(std::size_t index) const {
     return mobility_[index] == Mobility::free || (pull_ && mobility_[index] == Mobility::prescribed);
   }
-  /// Returns m/h² by vertex, for pulled vertices ρ times that [N/m]; for frames the term that makes their twist
+  /// Returns m/h² by vertex, for pulled vertices ρ times that [N/m]. For frames returns the term that makes their twist
   /// definite [N m].
   std::vector<double> diagonal() const;
-  /// Returns the part that does not depend on contacts.
+  /// Returns the part without contacts.
   const Potential& potential() const { return potential_; }
 
  private:

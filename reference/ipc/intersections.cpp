@@ -1,5 +1,4 @@
-// CGAL's intersection tests require proper triangles and segments; collapsed ones are tested as the segments or points
-// that remain.
+// CGAL's intersection tests require proper triangles and segments. Collapsed ones are tested as segments or points.
 #include "reference/ipc/intersections.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -1,5 +1,5 @@
-// A check behind the continuous detection: whether any edge meets a triangle at a state. Predicates are exact
-// (filtered); the doubles are taken as they are.
+// Checks the continuous detection: finds edges that meet triangles at a state. Predicates are exact (filtered) on the
+// given doubles.
 #pragma once
 
 #include "reference/ipc/pairs.hpp"

@@ -17,8 +17,8 @@ using compare::Topology;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Returns the places of a form as a separate term, its vertices in an order that depends on them alone, so that equal
-/// terms compare equal.
+/// Returns a term with only the form's vertices. Their order depends only on the vertices, so that equal terms compare
+/// equal.
 BarrierTerm lone_term(const ClosestForm& form, const std::array<Index, 4>& vertex) {
   BarrierTerm term;
   term.count = form.kind == FormKind::points ? 2 : form.kind == FormKind::point_line ? 3 : 4;
@@ -65,8 +65,8 @@ BarrierTerm term_of(const PairMesh& mesh, const PrimitivePair& pair, const Measu
 
 auto order_of(const BarrierTerm& term) { return std::tie(term.count, term.vertex); }
 
-/// Merges equal terms of several pairs, points and points with edges, into one. Weights are sums of ones, so their
-/// order does not matter.
+/// Merges equal terms of several pairs (points, or points and edges) into one. Weights are sums of ones, so the order
+/// of terms does not matter.
 void merge(std::vector<BarrierTerm>& terms) {
   const auto mergeable = std::stable_partition(terms.begin(), terms.end(),
                                                [](const BarrierTerm& term) { return term.count == 4; });
@@ -83,7 +83,7 @@ void merge(std::vector<BarrierTerm>& terms) {
   if (mergeable != terms.end()) terms.erase(kept + 1, terms.end());
 }
 
-/// The barriers of some of the pairs.
+/// The barriers of a part of the pairs.
 struct BarrierPart {
   BarrierSet set;
   double squared = std::numeric_limits<double>::infinity();  ///< of the closest pair [m²]

@@ -1,6 +1,6 @@
-// The pairs of primitives that can meet, and those on which a barrier acts. One broad phase serves one whole motion:
-// its boxes hold the whole way of each primitive, widened by d̂, so that the pairs found are those of a continuous
-// detection and, filtered, those of every state on the way.
+// The pairs of primitives that can meet, and the pairs on which a barrier acts. One broad phase serves a whole motion:
+// its boxes hold the whole way of each primitive, widened by d̂. So its pairs contain those of the continuous detection
+// and, for every state on the way, those with a barrier.
 #pragma once
 
 #include <vector>
@@ -19,14 +19,14 @@ struct PrimitivePair {
   friend auto operator<=>(const PrimitivePair&, const PrimitivePair&) = default;
 };
 
-/// The constant data of pairs. All of it must outlive the user.
+/// The constant data of pairs. Its owners must outlive the user.
 struct PairMesh {
   const compare::Topology& topology;
   const compare::Exclusions& exclusions;          ///< pairs that are left out (compare::exclusions)
   const std::vector<float>& edge_length_squared;  ///< ‖ē‖² [m²]
 };
 
-/// Returns the vertices by place of the pair: vertex | triangle, or edge | edge.
+/// Returns the vertices of the pair's two sides: vertex | triangle, or edge | edge.
 std::array<compare::Index, 4> vertices_of(const compare::Topology& topology, const PrimitivePair& pair);
 /// Returns the entries of `values` for four vertices.
 std::array<Triple<double>, 4> corners_of(const std::array<compare::Index, 4>& vertex, const State& values);
@@ -34,20 +34,20 @@ std::array<Triple<double>, 4> corners_of(const std::array<compare::Index, 4>& ve
 std::string describe(const compare::Topology& topology, const PrimitivePair& pair,
                      const compare::ElementNames& names = {});
 
-/// Returns all pairs without a shared vertex, and not inside one rigid group, whose boxes come within `distance` [m] of
-/// each other on the straight ways from `from` to `to`; each box holds its primitive's whole way. Ascending; threads
-/// change nothing.
+/// Returns all pairs, ascending, whose boxes come within `distance` [m] of each other; a box holds the primitive's
+/// straight way from `from` to `to`. Leaves out pairs with a shared vertex or inside one rigid group. The number of
+/// threads changes nothing.
 std::vector<PrimitivePair> near_pairs(const PairMesh& mesh, const State& from, const State& to, double distance);
 
 /// Barriers at one state.
 struct BarrierSet {
-  /// Pairs with the same closest vertices and edges are merged into one term, with their number as its weight.
+  /// pairs with the same closest vertices and edges are one term; its weight is their number
   std::vector<BarrierTerm> terms;
-  std::vector<PrimitivePair> active;    ///< the pairs with 0 < gap < H, before merging
+  std::vector<PrimitivePair> active;    ///< pairs with 0 < gap < H, before merging
   std::vector<double> squared;          ///< their squared distances [m²]
-  double smallest = 0;                  ///< smallest distance among them, or ξ + d̂ where there is none [m]
-  PrimitivePair closest;                ///< the pair at this distance
-  std::vector<PrimitivePair> touching;  ///< pairs without a gap, on which no barrier can act
+  double smallest = 0;                  ///< smallest distance of active pairs, or ξ + d̂ if there is none [m]
+  PrimitivePair closest;                ///< the pair at the smallest distance
+  std::vector<PrimitivePair> touching;  ///< pairs without a gap, for which no barrier is defined
 };
 
 /// Returns the barriers of `pairs` at x.

@@ -1,4 +1,4 @@
-// Settings of IPC beside the problem's own and those that it shares with Newton's method.
+// IPC's own settings, besides the problem's and those that it shares with Newton's method.
 #pragma once
 
 #include <cstdint>
@@ -7,17 +7,18 @@
 
 namespace ogc::reference {
 
-/// How IPC's barrier stiffness κ adapts: by distances (Li et al. 2020), or by the gaps that remain of them with a
+/// Selects how IPC's barrier stiffness κ adapts: by distances (Li et al. 2020), or by gaps, the distances minus the
 /// thickness (Li et al. 2021).
 enum class IpcAdaptation : std::uint8_t { distance, gap };
-/// When an IPC step has converged: ‖p‖_∞ < tolerance · diagonal · h (Li et al. 2020; the diagonal is that of the
-/// smallest free body, moving_diagonal), or root mean square of ‖p_v‖/h of the last three iterations (2021).
+/// Selects when an IPC step has converged. `displacement`: ‖p‖_∞ < tolerance · diagonal · h (Li et al. 2020), the
+/// diagonal being that of the smallest free body (moving_diagonal). `velocity`: the root mean square of ‖p_v‖/h over
+/// the last three iterations is below velocity_tolerance (2021).
 enum class IpcStopping : std::uint8_t { displacement, velocity };
-/// Which pairs bound an IPC step: the active ones, and d̂/2 of motion for the others while that takes at most half of
-/// the step (Li et al. 2020), or all (2021).
+/// Selects the pairs that bound an IPC step. `partial`: the active pairs; all others allow a motion of d̂/2, unless
+/// that takes more than half of the step (Li et al. 2020). `full`: all pairs (2021).
 enum class IpcCcd : std::uint8_t { partial, full };
 
-/// IPC's settings. The table of settings has ranges and defaults.
+/// IPC's settings. The table of settings has their ranges and defaults.
 struct IpcSettings {
   double distance;           ///< barrier distance d̂ [m]; 0: from relative_distance
   double relative_distance;  ///< d̂ in units of the rest box's diagonal
@@ -26,12 +27,12 @@ struct IpcSettings {
   IpcAdaptation adaptation;  ///< how κ adapts
   IpcStopping stopping;      ///< the rule that ends a step
   IpcCcd ccd;                ///< which pairs bound a step
-  double tolerance;  ///< for `displacement`: in diagonals of moving_diagonal a second [1/s]; 0: all iterations are done
-  double velocity_tolerance;  ///< for `velocity` [m/s]; 0: all iterations are done
-  std::int64_t iterations;    ///< most of a step; it then ends where it is, as in the published codes
+  double tolerance;  ///< for `displacement`, in units of moving_diagonal per second [1/s]; 0: all iterations run
+  double velocity_tolerance;  ///< for `velocity` [m/s]; 0: all iterations run
+  std::int64_t iterations;    ///< limit of a step; at the limit the step ends as it is, as in the published codes
 };
 
-/// Reads the settings from the problem's, each under its name with "ipc_" before it.
+/// Reads the settings from the problem's settings, where their names begin with "ipc_".
 IpcSettings ipc_settings(const compare::Settings& settings);
 
 }  // namespace ogc::reference

@@ -58,7 +58,7 @@ class IpcSimulation : public compare::Simulation {
     return rows;
   }
 
-  /// Returns the state without bounds: IPC has none, so a certificate means nothing for it.
+  /// Returns the state without bounds: IPC has none, so a certificate has no meaning.
   compare::Snapshot snapshot() override {
     const std::vector<compare::Vec3f> position = rounded(position_);
     return {number_,
@@ -74,7 +74,7 @@ class IpcSimulation : public compare::Simulation {
             orientations_};
   }
 
-  /// Restores to the last bit a snapshot that this solver made; a stored frame has rounded numbers.
+  /// Restores a snapshot of this solver to the last bit; a stored frame has rounded numbers.
   void restore(const compare::Snapshot& snapshot) override {
     if (snapshot.exact_positions.empty())
       return set_state(snapshot.step, widened(snapshot.positions), widened(snapshot.velocities), snapshot.orientations);
@@ -104,7 +104,7 @@ class IpcSimulation : public compare::Simulation {
   IpcSolver solver_;
   std::int64_t number_ = 0;
   State position_, velocity_;
-  std::vector<compare::Quaternion> orientations_;  ///< rounded: a frame has no gap to lose
+  std::vector<compare::Quaternion> orientations_;  ///< rounded: a frame has no gap that rounding could remove
 };
 
 }  // namespace

@@ -7,16 +7,15 @@
 //        ▲                                                                                                ▼
 //        └──────────────────────── adapt κ, or the pull ─────────────────────────────────────── p small? ─┘
 //
-// The bound is that of the official code: CCD of the active pairs alone, and d̂/2 of motion for all others (a CFL-like
-// rule); where that rule would take away more than half of the step, CCD of all pairs. One broad phase serves an
-// iteration: its boxes hold the whole motion and reach d̂ further, so that it finds the pairs for the continuous
-// detection and for the barriers of every trial state.
+// The step is bounded as in the official code: CCD of the active pairs, and a motion of d̂/2 for all others (a CFL-like
+// rule). If that rule would take more than half of the step, CCD of all pairs replaces it. One broad phase serves an
+// iteration: its boxes hold the whole motion and reach d̂ further, so it finds the pairs for the continuous detection
+// and for the barriers of every trial state.
 //
-// Where a step comes to nothing (below 1e-10 of p), the next direction is the negative gradient over the diagonal;
-// where that comes to nothing, too, the step ends as not converged. Each such event is added to the notes of the step,
-// with the pair that caused it.
+// If a step stalls (below 1e-10 of p), the next direction is the negative gradient over the diagonal. If that stalls,
+// too, the step ends as not converged. Each such event is added to the notes of the step, with the pair that caused it.
 //
-// Positions stay doubles from step to step: rounding could remove a gap. Stored positions are rounded.
+// Positions stay doubles from step to step, because rounding could remove a gap. Stored positions are rounded.
 #pragma once
 
 #include <array>
@@ -35,7 +34,7 @@
 
 namespace ogc::reference {
 
-/// The stages among which the time of a step is divided.
+/// The stages by which the time of a step is divided.
 enum class IpcStage : std::uint8_t {
   broad_phase,
   barriers,
@@ -50,13 +49,13 @@ inline constexpr std::size_t ipc_stage_count = 8;
 /// Returns the names in the order of IpcStage.
 std::vector<std::string> ipc_stage_names();
 
-/// The result of a step [m], [m/s]; that of a step that failed must not be used.
+/// The result of a step [m], [m/s]; that of a failed step must not be used.
 struct IpcStep {
   State position, velocity;
   compare::StepMetrics metrics;
 };
 
-/// One scene, step by step.
+/// Simulates one scene, step by step.
 class IpcSolver {
  public:
   /// The scene must be rounded and valid; scene and topology must outlive this.
@@ -64,24 +63,24 @@ class IpcSolver {
 
   /// Throws compare::InputError with the pairs that intersect or have no gap at x.
   void check_start(const State& x) const;
-  /// Sets qᵗ of the next step, an empty span for those of the scene's start; returns q after it, rounded.
+  /// Sets qᵗ of the next step; an empty span selects the orientations of the scene's start.
   void set_orientations(std::span<const compare::Quaternion> orientations);
   std::vector<compare::Quaternion> orientations() const;
-  /// Does the step with this number, from 1. Throws compare::ResourceError where memory runs out.
+  /// Computes the step with this number, from 1. Throws compare::ResourceError if memory runs out.
   IpcStep step(const State& start, const State& velocity, std::int64_t number);
 
   /// Returns d̂ and ξ.
   const BarrierShape& shape() const { return shape_; }
-  /// Returns the bounds within which κ adapts.
+  /// Returns the limits of κ's adaptation.
   const StiffnessBounds& stiffness_bounds() const { return bounds_; }
-  double stiffness() const { return stiffness_; }  ///< κ at present [J/m⁴]
-  /// Called for each accepted step of the line search: the energy's change with κ unchanged, and what rounding does to
-  /// it [J].
+  double stiffness() const { return stiffness_; }  ///< present κ [J/m⁴]
+  /// Called for each accepted step of the line search with the energy's change at constant κ, and its rounding error
+  /// [J].
   std::function<void(double change, double noise)> on_accepted;
 
  private:
   enum class Outcome { converged, limit, indefinite, stuck, not_finite };
-  /// A system of the free vertices and frames, with a pull also of the prescribed vertices.
+  /// The system of the free vertices and frames, with a pull also of the prescribed vertices.
   struct System {
     BlockMatrix matrix;
     Factor factor;
@@ -99,7 +98,7 @@ class IpcSolver {
   void move_prescribed();
   Outcome solve();
   Outcome solve_once();
-  /// Does one iteration; returns empty where the solve goes on.
+  /// Runs one iteration; returns empty if the solve continues.
   std::optional<Outcome> iterate();
   bool take(const State& p, bool is_last);
   std::optional<State> direction();
@@ -128,14 +127,14 @@ class IpcSolver {
   const compare::Topology& topology_;
   const compare::Settings& settings_;
   IpcSettings ipc_;
-  NewtonSettings newton_;  ///< of which friction_solves and projection are used
+  NewtonSettings newton_;  ///< only friction_solves and projection are used
   compare::SimulationOptions options_;
   compare::Exclusions exclusions_;
   BarrierShape shape_;
   StiffnessScale scale_;
   IpcForces forces_;
   PairMesh mesh_;
-  double moving_diagonal_;  ///< the length in which a step's tolerance is measured [m]
+  double moving_diagonal_;  ///< unit of length of a step's tolerance [m]
   StiffnessBounds bounds_;
   StiffnessGuard guard_;
   System free_;

@@ -1,4 +1,4 @@
-// The report of an IPC step: notes, rows of iterations, the row of the step. Nothing here feeds an iteration.
+// The report of an IPC step: notes, rows of iterations, the row of the step. No iteration depends on it.
 #include <algorithm>
 #include <limits>
 
@@ -7,14 +7,15 @@
 
 namespace ogc::reference {
 
-/// Adds each text only once a step.
+/// Adds a text to the notes, each text once a step.
 void IpcSolver::note(const std::string& what) {
   const std::string text = "step " + std::to_string(metrics_.step) + ": " + what;
   if (std::find(metrics_.notes.begin(), metrics_.notes.end(), text) == metrics_.notes.end())
     metrics_.notes.push_back(text);
 }
 
-/// Stores counts since the beginning of the step; `count_by_iteration` turns them into those of the iteration.
+/// Adds a row with counts since the beginning of the step; `count_by_iteration` converts them to counts of the
+/// iteration.
 void IpcSolver::add_row() {
   compare::IterationMetrics row;
   row.step = metrics_.step;

@@ -1,4 +1,4 @@
-// How far all vertices may move along a direction, by a common share of it, before the first pair meets.
+// Computes the common share of a direction by which all vertices may move before the first pair meets.
 #pragma once
 
 #include <optional>
@@ -7,14 +7,14 @@
 
 namespace ogc::reference {
 
-/// How far a move may go.
+/// The bound of a move.
 struct StepBound {
-  double share = 1;                   ///< of the direction, in [0, 1]; on the way no pair comes as near as `thickness`
-  std::optional<PrimitivePair> pair;  ///< the pair that stops it first, if any
+  double share = 1;  ///< share of the direction, in [0, 1]; up to it all pairs stay farther apart than `thickness`
+  std::optional<PrimitivePair> pair;  ///< the pair that gives this bound, if any
 };
 
-/// Does additive CCD of each pair from x along `direction` [m] and returns the smallest time, `until` where none is
-/// smaller. Threads change nothing.
+/// Runs additive CCD of each pair from x along `direction` [m] and returns the smallest time, or `until` if none is
+/// smaller. The number of threads changes nothing.
 StepBound step_bound(const PairMesh& mesh, const std::vector<PrimitivePair>& pairs, const State& x,
                      const State& direction, double thickness, double until = 1);
 

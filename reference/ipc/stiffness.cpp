@@ -5,9 +5,9 @@
 namespace ogc::reference {
 namespace {
 
-constexpr double least_curvature = 1e11;     ///< in mean inertias, at …
-constexpr double curvature_distance = 1e-8;  ///< … diagonals
-constexpr double close_distance = 1e-9;      ///< diagonals
+constexpr double least_curvature = 1e11;     ///< in mean inertias, at curvature_distance
+constexpr double curvature_distance = 1e-8;  ///< in diagonals
+constexpr double close_distance = 1e-9;      ///< in diagonals
 constexpr double upper_over_lower = 100;
 
 double squared(double x) { return x * x; }

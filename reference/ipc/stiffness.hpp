@@ -1,5 +1,5 @@
-// The barrier's stiffness κ (Li et al. 2020, supplement; constants of the official code). Energies here are those of a
-// step in joules, mass/h² times squared lengths, so that κ has the unit J/m⁴ and is the official one divided by h².
+// The barrier's stiffness κ (Li et al. 2020, supplement; constants of the official code). Energies are those of a step
+// in joules, mass/h² times squared lengths. So κ has the unit J/m⁴ and is the official κ divided by h².
 #pragma once
 
 #include <optional>
@@ -10,31 +10,31 @@
 
 namespace ogc::reference {
 
-/// The scales of κ.
+/// Length and stiffness with which κ scales.
 struct StiffnessScale {
   double diagonal = 0;  ///< of the rest box [m]
   double inertia = 0;   ///< mean m/h² of the free vertices [N/m]
 };
 
-/// The lower bound is the κ with which the barrier's curvature at a distance of 1e-8 diagonals is 1e11 mean inertias;
-/// the upper one is a hundred times that. `distance` takes that distance as the gap, `gap` measures it from the
-/// thickness.
+/// Limits of κ. At the lower limit the barrier's curvature at a distance of 1e-8 diagonals is 1e11 mean inertias; the
+/// upper limit is a hundred times the lower one. With `distance` that distance is from the surface, with `gap` it is
+/// added to the thickness.
 struct StiffnessBounds {
   double lower = 0, upper = 0;  ///< [J/m⁴]
 };
-/// Returns the bounds of κ for a scene.
+/// Returns the limits of κ for a scene.
 StiffnessBounds stiffness_bounds(const BarrierShape& shape, const StiffnessScale& scale, IpcAdaptation adaptation);
 
-/// Returns the κ within the bounds that makes ‖∇E + κ ∇b‖ smallest; the lower bound where there is no barrier.
+/// Returns the κ within the limits that minimises ‖∇E + κ ∇b‖; the lower limit if there is no barrier.
 double initial_stiffness(const State& energy_gradient, const State& barrier_gradient, const StiffnessBounds& bounds);
 
-/// Finds pairs that were closer than 1e-9 diagonals and have come closer still; κ is then doubled.
+/// Finds pairs that were closer than 1e-9 diagonals and have come closer; κ is then doubled.
 class StiffnessGuard {
  public:
   StiffnessGuard(const StiffnessScale& scale, const BarrierShape& shape, IpcAdaptation adaptation);
   /// Forgets the earlier gaps.
   void forget() { close_.clear(); }
-  /// Returns a pair that came closer since the last call, if any; remembers the pairs that are close now.
+  /// Returns a pair that has come closer since the last call, if any; stores the pairs that are close now.
   std::optional<PrimitivePair> came_closer(const BarrierSet& set);
 
  private:

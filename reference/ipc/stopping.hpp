@@ -1,19 +1,19 @@
-// The lengths in which IPC's distances and tolerances are measured, and the speed at which they end a step.
+// The units of length of IPC's distances and tolerances, and the speed below which a step ends.
 #pragma once
 
 #include "compare/problem/scene.hpp"
 
 namespace ogc::reference {
 
-/// Returns the diagonal of the box around the rest positions of all vertices [m], IPC's scale of distances.
+/// Returns the diagonal of the rest positions' bounding box [m], IPC's unit of distances.
 double rest_diagonal(const compare::Scene& scene);
 
-/// Returns the smallest diagonal of a box around the rest positions of a body with a free vertex [m], or that of the
-/// scene where no vertex is free: a step's tolerance is a share of it (reference/README.md).
+/// Returns the diagonal of the smallest rest box of a body with a free vertex [m]; that of the whole scene if no vertex
+/// is free. A step's tolerance is a share of it (reference/README.md).
 double moving_diagonal(const compare::Scene& scene);
 
-/// Returns the speed below which an IPC step of the scene ends by its stopping rule, with all remaining motion [m/s]; 0
-/// where all iterations are done.
+/// Returns the speed below which the stopping rule ends an IPC step, whatever motion is left [m/s]; 0 if all iterations
+/// run.
 double ipc_end_speed(const compare::Scene& scene);
 
 }  // namespace ogc::reference

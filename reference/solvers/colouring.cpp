@@ -21,7 +21,7 @@ Index root(std::vector<Index>& parent, Index v) {
   return v;
 }
 
-/// Returns for each vertex the lowest number in its component; vertices of one stencil are connected.
+/// Returns for each vertex the lowest vertex number of its component; vertices of one stencil are connected.
 std::vector<Index> components(const std::vector<std::vector<Index>>& near) {
   std::vector<Index> parent(near.size());
   std::iota(parent.begin(), parent.end(), Index{0});
@@ -34,7 +34,7 @@ std::vector<Index> components(const std::vector<std::vector<Index>>& near) {
   return parent;
 }
 
-/// Replaces c by (c + k) mod n in the k-th component: facing vertices of identical cloths would otherwise share a
+/// Replaces c by (c + k) mod n in the k-th component. Otherwise facing vertices of identical cloths would share a
 /// colour (method.md §7.3).
 void rotate(const std::vector<Index>& component, std::vector<Index>& colour) {
   const Index count = 1 + *std::ranges::max_element(colour);
@@ -53,7 +53,7 @@ std::vector<Index> free_vertices(const std::vector<Index>& groups) {
   return free;
 }
 
-/// Replaces std::shuffle, whose draws differ from library to library.
+/// Shuffles; std::shuffle differs from library to library.
 void shuffle(std::vector<Index>& order, std::int64_t seed) {
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));
   for (std::size_t n = order.size(); n > 1; --n) std::swap(order[n - 1], order[random() % n]);

@@ -1,4 +1,5 @@
-// Colours of a sweep by the simplest rule. A contestant may have better ones; ablations use other rules.
+// Colours the vertices for a sweep by the simplest rule. A contestant may have better colours; ablations use other
+// rules.
 #pragma once
 
 #include <vector>
@@ -8,10 +9,11 @@
 
 namespace ogc::reference {
 
-/// Returns a colour for each free vertex, −1 for all others. Takes the free vertices in the order of their numbers and
-/// gives each the lowest colour that no vertex of its stencils has; then turns the colours of the k-th component of the
-/// conflict graph, (c + k) mod n. `groups`: rigid_groups. Colouring::greedy does not turn; `random` takes the vertices
-/// in an order drawn from the scene's seed, and does not turn; `vertex` and `together` ignore the stencils.
+/// Returns a colour for each free vertex, −1 for all others. Visits the free vertices in the order of their numbers and
+/// gives each the lowest colour that no neighbour in a stencil has. Then replaces the colours c of the k-th component
+/// of the conflict graph by (c + k) mod n. `groups`: rigid_groups. Colouring::greedy and `random` leave out this last
+/// step; `random` visits the vertices in an order drawn from the scene's seed. `vertex` and `together` ignore the
+/// stencils.
 std::vector<compare::Index> colours_of(const compare::Scene& scene, const compare::RestStateOut& rest,
                                        const std::vector<compare::Index>& groups, Colouring rule = Colouring::turned);
 

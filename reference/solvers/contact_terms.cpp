@@ -66,7 +66,7 @@ compare::VolumeForceCase question_of(const compare::SweepIn& in, const std::vect
   return question;
 }
 
-/// Returns Σ |w_u|/|w| over the contact's vertices of the updated vertex's colour, itself included (method.md §7.4).
+/// Returns Σ |w_u|/|w| over the contact's vertices with the updated vertex's colour, itself included (method.md §7.4).
 double majorant(const compare::SweepIn& in, const compare::VolumeContact& contact, std::size_t own) {
   const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(contact.triangle)];
   const std::array<Index, 4> vertex{contact.point, corners[0], corners[1], corners[2]};
@@ -77,7 +77,6 @@ double majorant(const compare::SweepIn& in, const compare::VolumeContact& contac
   return sum / weight[own];
 }
 
-/// Multiplies the answers' blocks by a factor.
 std::vector<compare::ForceAnswer> majorised(std::vector<compare::ForceAnswer> answers, double factor) {
   for (compare::ForceAnswer& answer : answers) {
     for (double& entry : answer.block) entry *= factor;
@@ -86,7 +85,7 @@ std::vector<compare::ForceAnswer> majorised(std::vector<compare::ForceAnswer> an
   return answers;
 }
 
-/// In units of u: a sum of up to three moduli is added to the vertex's own, and their product with |w| replaces w².
+/// In units of u: up to three moduli are added to the vertex's own, and the sum times |w| replaces w².
 constexpr double majorant_tolerance = 3;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Detected contacts as solvers read them: their vertices, in the order of the stages contact_force and friction_force,
+// Prepares detected contacts for solvers: their vertices, in the order of the stages contact_force and friction_force,
 // and their materials.
 #pragma once
 
@@ -19,17 +19,17 @@ struct ContactSets {
   std::vector<compare::VertexFacetContact> vertex_facet;
   std::vector<compare::EdgeEdgeContact> edge_edge;
   std::vector<compare::VolumeContact> volumes{};  ///< contacts with volumes, in the order of StepEvent
-  std::vector<compare::Index> unresolved{};       ///< the point of each sheet without any way, ascending
+  std::vector<compare::Index> unresolved{};       ///< the point of each sheet without a way to the boundary, ascending
 };
 
-/// Returns the vertices of a face in the order of the mesh; missing ones are −1.
+/// Returns the vertices of a face in the order of the mesh; unused entries are −1.
 std::array<compare::Index, 3> vertices_of(const compare::Topology& topology, const compare::Face& face);
 
-/// A contact in the form that its force stages take.
+/// A contact in the form of the force stages.
 struct ContactStencil {
   compare::ContactSides sides = compare::ContactSides::point_point;
-  std::array<compare::Index, 4> vertex{-1, -1, -1, -1};  ///< first side, then second; missing ones are −1
-  /// the edges of a contact of two edge interiors, whose energy is mollified
+  std::array<compare::Index, 4> vertex{-1, -1, -1, -1};  ///< first side, then second; unused entries are −1
+  /// the two edges if both sides are interiors of edges, whose energy is mollified
   std::array<compare::Index, 2> edge{-1, -1};
 };
 /// Returns the stencil of a vertex and a face.
@@ -37,12 +37,12 @@ ContactStencil stencil_of(const compare::Topology& topology, const compare::Vert
 /// Returns the stencil of two edges, or of the closest faces of two edges.
 ContactStencil stencil_of(const compare::Topology& topology, const compare::EdgeEdgeContact& contact);
 
-/// Returns the squared rest lengths of a contact's two edges [m²]; 0 for an edge without triangles. Zeros for a contact
-/// that has a vertex as one side.
+/// Returns the squared rest lengths of a contact's two edges [m²]; 0 for an edge without triangles. Returns zeros if
+/// one side is a vertex.
 std::array<float, 2> mollified_rest_squared(const compare::Topology& topology, const compare::RestStateOut& rest,
                                             const ContactStencil& stencil);
 
-/// Returns the material of the two bodies that meet. `body`: by vertex.
+/// Returns the material of the contact's two bodies. `body`: by vertex.
 const compare::MeetingMaterial& material_of(const compare::RestStateOut& rest, std::size_t body_count,
                                             std::span<const compare::Index> body, const ContactStencil& stencil);
 

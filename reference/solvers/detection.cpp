@@ -58,8 +58,8 @@ float sufficient_query_radius(const compare::Topology& topology, const compare::
       }
     query_radius = std::max(query_radius, nearest);
   }
-  // Rounding moves a distance by some 2⁻⁵⁰ of the coordinates; 2⁻²⁰ of the radius, which is at least r, covers that up
-  // to coordinates of 2³⁰ r.
+  // Rounding changes a distance by about 2⁻⁵⁰ of the coordinates. The radius is at least r, so 2⁻²⁰ of it covers this
+  // for coordinates up to 2³⁰ r.
   return std::min(most, static_cast<float>(query_radius * (1 + 0x1p-20)));
 }
 

@@ -1,4 +1,4 @@
-// Contact detection for solvers in double. It reads single-precision positions, so X_prev is x rounded.
+// Detects contacts for solvers in double. A detection reads single-precision positions, so X_prev is x rounded.
 #pragma once
 
 #include <span>
@@ -9,31 +9,31 @@
 
 namespace ogc::reference {
 
-/// What a detection found, and where.
+/// The result of a detection, and its positions.
 struct Detected {
-  ContactSets sets;                      ///< contacts up to r and the margin
+  ContactSets sets;                      ///< contacts up to the contact radius plus the margin
   ContactSets active;                    ///< contacts nearer than r
   std::vector<compare::Vec3f> previous;  ///< X_prev [m]
   std::vector<float> bound;              ///< b_v [m]
-  compare::VertexPlanes planes;          ///< filled where bounds are planes
+  compare::VertexPlanes planes;          ///< filled if bounds are planes
   double smallest_distance = 0;          ///< smallest d_min, at most r_q [m]
 };
 
 /// Rounds positions to the nearest single-precision numbers.
 std::vector<compare::Vec3f> rounded(const State& x);
 
-/// Returns a query radius, between r and `most`, that gives the `movable` vertices the same contacts and bounds as
-/// `most` at these positions. Beyond the side opposite v lies a triangle without v, so b_v is at most γ_p times the
-/// distance to the nearest such side, and the largest of these distances is enough; the result is `most` where a vertex
-/// has no such triangle. Both radii in metres, r ≤ most.
+/// Returns a query radius between r and `most` that gives the `movable` vertices the same contacts and bounds as `most`
+/// at these positions. A triangle without v adjoins the side opposite to v, so b_v is at most γ_p times the distance to
+/// the nearest such side. The largest of these distances is enough. Returns `most` if a vertex has no such triangle.
+/// Both radii are in metres, r ≤ most.
 float sufficient_query_radius(const compare::Topology& topology, const compare::ExclusionView& exclusions,
                               const std::vector<std::size_t>& movable, const std::vector<compare::Vec3f>& positions,
                               float contact_radius, float most);
 
-/// Returns r plus the margin by which contacts are listed before they act [m].
+/// Returns the radius up to which contacts are listed, r plus the margin [m].
 double detection_radius(const compare::Settings& settings);
 
-/// Runs the stages detect_vertex_facet, detect_edge_edge and bound, or plane, at `positions`. `displacement`: by what
+/// Runs the stages detect_vertex_facet, detect_edge_edge and bound (or plane) at `positions`. `displacement`: by which
 /// bounds=dat divides gaps; otherwise empty.
 Detected detect(const compare::Scene& scene, const compare::Topology& topology,
                 const compare::ExclusionView& exclusions, std::vector<compare::Vec3f> positions, float query_radius,

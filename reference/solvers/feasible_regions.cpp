@@ -13,9 +13,9 @@ double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
 
 }  // namespace
 
-/// Rounding moves each coordinate, at most ‖X_prev‖_∞ + b_v, by 2⁻²⁴ of itself, so the point by √3 times that; for tiny
-/// coordinates by √3 times the smallest number. A projection in double rounds each coordinate and the step to it a few
-/// times more: 2⁻⁵⁰ of either.
+/// Subtracts the rounding from the bounds. Rounding to single precision moves a coordinate, at most ‖X_prev‖_∞ + b_v,
+/// by 2⁻²⁴ of it, hence the point by √3 times that; for tiny coordinates by √3 times the smallest number. A projection
+/// in double rounds coordinates and step a few times more, by 2⁻⁵⁰ of either.
 FeasibleRegions::FeasibleRegions(const Detected& detected, compare::Bounds bounds)
     : centre_(widened(detected.previous)), planes_(centre_.size()), is_scaled_(!traits_of(bounds).slides) {
   const compare::BoundsTraits policy = traits_of(bounds);
@@ -30,8 +30,8 @@ FeasibleRegions::FeasibleRegions(const Detected& detected, compare::Bounds bound
   }
 }
 
-/// n is a unit vector up to 2⁻²³, and n·x is off by at most 2⁻⁵⁰ of its size. A vertex that has less room than that
-/// before one of its planes stays where it is.
+/// n is a unit vector up to 2⁻²³, and n·x has an error of at most 2⁻⁵⁰ of its size. A vertex that is nearer than this
+/// to one of its planes stays.
 void FeasibleRegions::add_planes(std::size_t vertex, const Detected& detected, double rounding) {
   for (const compare::VertexPlane& plane : detected.planes.of(static_cast<compare::Index>(vertex))) {
     const Triple<double> normal{plane.normal.x, plane.normal.y, plane.normal.z};

@@ -1,7 +1,7 @@
-// The regions in which Newton's and VBD's vertices stay between two detections. Positions are doubles then, but a
-// detection reads single-precision ones. So X_prev is x rounded, and each region is smaller than its bounds by what
-// rounding can move a point: both x and its stored value keep the bounds (Eq. 27; method.md §5.6), and the way from
-// X_prev over x to the next X_prev stays inside, too.
+// The regions in which the vertices of Newton's method and VBD stay between two detections. Positions are doubles, but
+// a detection reads single-precision ones, so X_prev is x rounded. Each region is smaller than its bounds by the error
+// of this rounding. So x and its stored value keep the bounds (Eq. 27; method.md §5.6), and so does the way from X_prev
+// over x to the next X_prev.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,8 @@
 
 namespace ogc::reference {
 
-/// For each vertex a ball about X_prev and, where bounds are planes, half-spaces; without bounds all of space.
+/// Holds for each vertex a ball about X_prev and, if bounds are planes, half-spaces. Without bounds a region is all of
+/// space.
 class FeasibleRegions {
  public:
   /// Maps n to H⁻¹ n, the direction in which a vertex with the block H leaves a half-space.
@@ -21,18 +22,18 @@ class FeasibleRegions {
   FeasibleRegions() = default;
   FeasibleRegions(const Detected& detected, compare::Bounds bounds);
 
-  /// `cut`: x lay outside and was changed.
+  /// `cut`: x was outside and has been changed.
   struct Inside {
     Triple<double> x;
     bool cut = false;
   };
-  /// Returns x if it lies inside. Otherwise returns the point of the ball closest to it or, with half-spaces, a point
-  /// of the region near it: x slides along the half-spaces in the given metric (none: the shortest way); if it is still
-  /// outside, it is scaled back towards `from`, which lies inside. With bounds=dat x is scaled towards X_prev, for
-  /// prescribed vertices, too.
+  /// Returns x if it is inside. Otherwise returns the closest point of the ball or, with half-spaces, a point of the
+  /// region near x. Then x slides along the half-spaces in the given metric (none: the shortest way). If it is still
+  /// outside, it is scaled towards `from`, which is inside. With bounds=dat x is scaled towards X_prev, also for
+  /// prescribed vertices.
   Inside inside(std::size_t vertex, const Triple<double>& from, const Triple<double>& x,
                 const Metric& metric = {}) const;
-  /// Does the same for a prescribed vertex, which does not slide.
+  /// Returns the same for a prescribed vertex, which does not slide.
   Inside inside_on_path(std::size_t vertex, const Triple<double>& from, const Triple<double>& x) const;
   /// Returns the largest share in [0, 1] of `step` that stays inside.
   double share_inside(std::size_t vertex, const Triple<double>& x, const Triple<double>& step) const;
@@ -50,7 +51,7 @@ class FeasibleRegions {
   State centre_;
   std::vector<double> radius_;
   std::vector<std::vector<HalfSpace>> planes_;
-  bool is_scaled_ = false;  ///< vertices are scaled and do not slide
+  bool is_scaled_ = false;  ///< whether vertices are scaled instead of sliding
 };
 
 }  // namespace ogc::reference

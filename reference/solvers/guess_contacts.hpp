@@ -1,4 +1,4 @@
-// The contacts of a detection as the guess loop reads them: first vertex–facet contacts, then edge–edge contacts.
+// Prepares the contacts of a detection for the guess loop: first vertex–facet contacts, then edge–edge contacts.
 #pragma once
 
 #include <span>
@@ -21,8 +21,8 @@ inline bool is_there(const compare::Topology& topology, const compare::Face& fac
   return false;
 }
 
-/// Converts detected contacts. `rest` has the frictions by pair of bodies. The contacts may come from any answer: those
-/// with faces that the mesh lacks are left out.
+/// Converts detected contacts. `rest` has the friction of each pair of bodies. The contacts may come from any answer;
+/// contacts with faces that the mesh lacks are left out.
 inline std::vector<GuessContact> guess_contacts(const compare::Scene& scene, const compare::Topology& topology,
                                                 const compare::RestStateOut& rest,
                                                 std::span<const compare::VertexFacetContact> vertex_facet,

@@ -5,7 +5,8 @@
 
 namespace ogc::reference {
 
-/// Computes y = xᵗ + h vᵗ + h² a_ext in long double: each of its terms is rounded at 2⁻⁶², then the sum to double.
+/// Computes y = xᵗ + h vᵗ + h² a_ext in long double. Each term has a relative error of 2⁻⁶²; the sum is rounded to
+/// double.
 compare::InitialGuessTruth initial_guess(const compare::InitialGuessIn& in);
 
 }  // namespace ogc::reference

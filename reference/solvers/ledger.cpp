@@ -28,8 +28,8 @@ void add(compare::Vec3& sum, const Triple<double>& a) { sum = {sum.x + a[0], sum
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// The scene as every stage sees it, and its derived data. A base class, so that it is made before the members that
-/// read it.
+/// The rounded scene, as every stage reads it, and its derived data. It is a base class, so that it is made before the
+/// members that read it.
 struct RoundedScene {
   compare::Scene scene;
   compare::Topology topology;
@@ -86,7 +86,7 @@ class LedgerWriter::Writer : private RoundedScene {
     return static_cast<double>(std::ranges::count_if(vertices, [&](std::size_t v) { return start[v] == end[v]; }));
   }
 
-  /// The regions that begin here are centred on X_prev = `previous`.
+  /// Sets the contacts and the centres X_prev = `previous` of the regions.
   void read_contacts(const ContactSets& contacts, const std::vector<Vec3f>& previous) {
     previous_ = previous;
     nearest_.assign(previous.size(), {});
@@ -109,7 +109,7 @@ class LedgerWriter::Writer : private RoundedScene {
     return sum;
   }
 
-  /// Moves the energy to that at `x` and returns its change.
+  /// Sets the energy to its value at `x` and returns the change.
   double change_to(const State& x) {
     const double now = energy_at(x, start_);
     return now - std::exchange(energy_, now);
@@ -151,8 +151,8 @@ class LedgerWriter::Writer : private RoundedScene {
     x_ = stored;
   }
 
-  /// Returns x + H⁻¹ f for each free vertex, from what the sweep stored at lower colours; the targets for prescribed
-  /// ones.
+  /// Returns x + H⁻¹ f for each free vertex, with positions at lower colours as the sweep stored them, and the targets
+  /// of prescribed vertices.
   State proposals(const State& stored, const std::vector<Index>& colour) const {
     State proposed = stored;
     const SweepView view{x_, stored, colour};
@@ -165,9 +165,10 @@ class LedgerWriter::Writer : private RoundedScene {
     return proposed;
   }
 
-  /// Finds the cut vertices. Because of rounding every stored position differs from its proposal, but the trace has the
-  /// number of cut vertices. Prescribed vertices, whose proposals are exact, are cut where they differ; the remaining
-  /// cuts are assigned to the free vertices farthest from their proposals. All other proposals become what was stored.
+  /// Finds the cut vertices. Rounding makes every stored position differ from its proposal, but the trace has the
+  /// number of cut vertices. A prescribed vertex was cut if it differs from its proposal, which is exact. The remaining
+  /// cuts are assigned to the free vertices farthest from their proposals. All other proposals are set to the stored
+  /// positions.
   void find_cut(State& proposed, const State& stored, Index cut) {
     const auto behind = std::ranges::count_if(prescribed_, [&](std::size_t v) { return proposed[v] != stored[v]; });
     const auto taken = [&](std::size_t v) { return length(proposed[v] - stored[v]); };
@@ -178,7 +179,7 @@ class LedgerWriter::Writer : private RoundedScene {
     cut_.erase(end, cut_.end());
   }
 
-  /// Adds what truncation takes from the cut vertices, split by direction.
+  /// Adds the momentum that truncation takes from the cut vertices, split by direction.
   void enter_taken(const State& proposed, const State& stored) {
     find_nearest();
     for (const std::size_t v : cut_) {
@@ -195,7 +196,7 @@ class LedgerWriter::Writer : private RoundedScene {
     }
   }
 
-  /// Finds for each cut vertex the nearest of its pairs within r_q at X_prev.
+  /// Finds the nearest pair within r_q at X_prev of each cut vertex.
   void find_nearest() {
     std::vector<std::uint8_t> sought(previous_.size(), 0);
     bool any = false;
@@ -220,11 +221,10 @@ class LedgerWriter::Writer : private RoundedScene {
       }
   }
 
-  /// The nearest pair of a vertex.
   struct Nearest {
     bool is_known = false;                                    ///< whether it was searched for
     float distance = std::numeric_limits<float>::infinity();  ///< [m]
-    Vec3f normal{};  ///< from the vertex's side to the other; 0 where there is no pair
+    Vec3f normal{};  ///< from the vertex's side to the other; 0 if there is no pair
   };
 
   Potential potential_;

@@ -1,5 +1,5 @@
-// What a step computes before and after its solve: targets, velocities, and the numbers of its row. Nothing here feeds
-// an iteration.
+// Computes what a step needs before and after its solve: targets, velocities, and the numbers of its row. No iteration
+// depends on it, except through the targets.
 #pragma once
 
 #include "compare/contestant.hpp"
@@ -14,26 +14,26 @@ struct StepStates {
   const State& target;
 };
 
-/// Returns y = xᵗ + h vᵗ + h² a for free vertices, the target at `time` [s] for prescribed ones, xᵗ for fixed ones [m].
+/// Returns the target of each vertex [m]: y = xᵗ + h vᵗ + h² a if free, the motion at `time` [s] if prescribed, xᵗ if
+/// fixed.
 State inertial_targets(const compare::Scene& scene, const std::vector<compare::Vec3f>& start,
                        const std::vector<compare::Vec3f>& velocity, const std::vector<Mobility>& mobility, double time);
 
-/// Returns (x − xᵗ)/h of the stored positions, rounded [m/s].
+/// Returns (x − xᵗ)/h from the stored positions, rounded [m/s].
 std::vector<compare::Vec3f> end_velocities(const std::vector<compare::Vec3f>& position, const State& start,
                                            double step);
 
 /// Returns ‖Σ m (x − y)‖ / ‖Σ m (y − xᵗ)‖ over free vertices; 0 where nothing moves (method.md §5.3).
 double momentum_lost(const StepStates& states, const Potential& potential);
-/// Returns √(Σ m ‖x − before‖²) / √(Σ m ‖x − xᵗ‖²) over free vertices; 0 where nothing moves (method.md §6). `before`:
-/// x before the last sweep or iteration; the result is not-a-number where `before` is empty.
+/// Returns √(Σ m ‖x − before‖²) / √(Σ m ‖x − xᵗ‖²) over free vertices; 0 if nothing moves (method.md §6). `before` is x
+/// before the last sweep or iteration; if it is empty, the result is not-a-number.
 double last_motion(const StepStates& states, const State& before, const Potential& potential);
-/// Returns the largest distance of a prescribed vertex behind its target [m].
+/// Returns the largest distance of a prescribed vertex from its target [m].
 double largest_lag(const State& x, const State& target, const std::vector<Mobility>& mobility);
-/// Fills the energies, with not-a-number where they are not wanted.
+/// Fills the energies; with not-a-number if they are not wanted.
 void measure_energies(compare::StepMetrics& metrics, const StepStates& states, const Potential& potential,
                       const compare::Scene& scene, bool wanted);
-/// Checks whether all vertices keep ‖x − x_prev‖ ≤ b_v, in double, and every half-space, exactly (method.md §5.5,
-/// §5.6).
+/// Checks whether all vertices keep ‖x − x_prev‖ ≤ b_v, in double, and all half-spaces, exactly (method.md §5.5, §5.6).
 bool keeps_bounds(const std::vector<compare::Vec3f>& position, const Detected& detected);
 
 }  // namespace ogc::reference

@@ -18,7 +18,7 @@ namespace {
 using compare::ContactSides;
 using compare::Index;
 
-/// Calls `visit` with the positions of the contact's vertices, as an array of their number.
+/// Calls `visit` with an array of the positions of the contact's vertices.
 template <class Visit>
 auto with_count(ContactSides sides, const std::array<Index, 4>& vertex, const State& x, Visit visit) {
   switch (vertex_count(sides)) {
@@ -28,7 +28,7 @@ auto with_count(ContactSides sides, const std::array<Index, 4>& vertex, const St
   }
 }
 
-/// Returns e_k (compare/stages/contact_force.hpp) at the single-precision positions that the detection saw.
+/// Returns e_k (compare/stages/contact_force.hpp) at the detection's single-precision positions.
 double energy_share(const std::array<float, 2>& rest_squared, const std::array<Triple<double>, 4>& x) {
   if (rest_squared[0] > 0 && rest_squared[1] > 0) {
     const Mollifier<double> mollifier(x[1] - x[0], x[3] - x[2], rest_squared[0], rest_squared[1]);
@@ -103,7 +103,7 @@ void Potential::begin_step(const State& start, const State& target) {
   contacts_.clear();
   frictions_.clear();
   volumes_.clear();
-  // RodSystem::begin_step is called apart: it takes the number of the step
+  // RodSystem::begin_step is called elsewhere, because it needs the number of the step.
   const auto begin = [&](auto& list) {
     if constexpr (requires { list.begin(start); }) list.begin(start);
   };
@@ -284,12 +284,12 @@ PotentialDerivatives Potential::derivatives(const State& x, HessianProjection pr
   return result;
 }
 
-/// Sums moduli of derivatives, from which follows what rounding of positions does to forces.
+/// Sums moduli of derivatives, which give the effect of rounded positions on forces.
 void Potential::measure(std::size_t stencil, std::size_t corners, PotentialDerivatives& result) const {
   const StencilDerivatives& derivatives = result.stencil[stencil];
   const auto vertex = vertices(stencil);
   double slopes = 0, curvatures = 0;
-  std::array<double, 12> columns{};  // separate sums, because one sum would be a chain of additions
+  std::array<double, 12> columns{};  // separate sums shorten the chain of additions
   for (std::size_t k = 0; k < corners && vertex[k] >= 0; ++k) {
     if (unknowns_[static_cast<std::size_t>(vertex[k])] != Mobility::free) continue;
     for (std::size_t row = 3 * k; row < 3 * k + 3; ++row) {
@@ -330,7 +330,7 @@ void Potential::sum_gradient(const State& x, PotentialDerivatives& result) const
   add_frame_noise(x, result);
 }
 
-/// Adds what rounding of the rods' frames does to forces, and what rounding of positions and frames does to torques.
+/// Adds the effect of rounded frames on forces, and of rounded positions and frames on torques.
 void Potential::add_frame_noise(const State& x, PotentialDerivatives& result) const {
   const RodSystem& rods = this->rods();
   if (!rods.is_used()) return;

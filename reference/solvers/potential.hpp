@@ -18,26 +18,25 @@ namespace ogc::reference {
 /// Converts positions to double.
 State widened(const std::vector<compare::Vec3f>& positions);
 
-/// What moves a vertex: nothing, its prescribed motion, or forces.
+/// Whether a vertex never moves, follows its prescribed motion, or follows forces.
 enum class Mobility : std::uint8_t { fixed, prescribed, free };
 /// Returns the mobility of each vertex.
 std::vector<Mobility> mobility_of(const compare::Scene& scene);
 
-/// Energies at one state, term by term. Two states are compared by term, because their difference is small beside their
-/// sum.
+/// Energies at one state, term by term. Changes are summed term by term, because they are small beside the sum.
 struct PotentialTerms {
   std::vector<double> stencil;  ///< by stencil, all kinds [J]
-  std::vector<double> inertia;  ///< by vertex; 0 where not free [J]
+  std::vector<double> inertia;  ///< by vertex; 0 if not free [J]
 };
 
 /// Derivatives at one state.
 struct PotentialDerivatives {
   std::vector<StencilDerivatives> stencil;
   std::vector<double> slopes, curvatures;  ///< Σ |∂E| and Σ |∂²E| of each stencil's free vertices [N], [N/m]
-  State gradient;                          ///< by unknown, vertices [N] then segments [N m]; 0 where not free
-  /// What rounding of the unknowns alone does to the mean of ‖gradient‖ over free vertices, to its sum over segments of
-  /// rods, and to the energy: 2⁻⁵² times the sums of |∂²E| and of |∂E|, each by the size of the unknown that is
-  /// rounded, ‖x‖_∞ for positions and 1 for frames, which are unit quaternions.
+  State gradient;                          ///< by unknown, vertices [N] then segments [N m]; 0 if not free
+  /// Effects of rounding the unknowns: on the mean of ‖gradient‖ over free vertices, on its sum over segments of rods,
+  /// and on the energy. Each is 2⁻⁵² times a sum of |∂²E| or |∂E| times the size of the rounded unknown: ‖x‖_∞ for
+  /// positions, 1 for frames (unit quaternions).
   double force_noise = 0, torque_noise = 0, energy_noise = 0;  ///< [N], [N m], [J]
 };
 
@@ -48,13 +47,13 @@ class Potential {
   /// has no potential.
   Potential(const compare::Scene& scene, const compare::Topology& topology);
 
-  /// Begins a step from xᵗ with target y; damping counts strains and angles from xᵗ. Removes the contacts and friction
-  /// of the step before.
+  /// Begins a step from xᵗ with target y; damping measures strains and angles relative to xᵗ. Removes contacts and
+  /// friction.
   void begin_step(const State& start, const State& target);
-  /// Sets contacts that were found at `previous`, where e_k is evaluated. Leaves out contacts without a free vertex:
-  /// they act on nothing.
+  /// Sets contacts that were found at `previous`, where e_k is evaluated. Leaves out contacts without a free vertex,
+  /// because they act on nothing.
   void set_contacts(const ContactSets& sets, const State& previous);
-  /// Computes λ, n and w of the present contacts that act at x (method.md §4.4); they stay until the next call.
+  /// Computes λ, n and w of the contacts that act at x (method.md §4.4); they stay until the next call.
   void lag_friction(const State& x);
 
   /// Returns the energies at x, by term.
@@ -62,20 +61,20 @@ class Potential {
   /// Returns E(to) − E(from); both must have the same stencils.
   static double change(const PotentialTerms& from, const PotentialTerms& to);
   static double total(const PotentialTerms& terms);
-  /// Returns the derivatives at x. `room`: an earlier result whose memory is reused.
+  /// Returns the derivatives at x. Reuses the memory of `room`, an earlier result.
   PotentialDerivatives derivatives(const State& x, HessianProjection projection, PotentialDerivatives room = {}) const;
 
   /// Returns the number of stencils of all kinds.
   std::size_t stencil_count() const { return frictionless_count() + frictions_.size(); }
-  /// number of elements; their stencils come first and never change
+  /// Returns the number of elements; their stencils come first and never change.
   std::size_t elastic_count() const {
     return std::apply([](const auto&... lists) { return (lists.size() + ...); }, elements_);
   }
-  /// number of stencils that are no friction; those of friction come last
+  /// Returns the number of stencils without friction; those of friction come last.
   std::size_t frictionless_count() const { return elastic_count() + contacts_.size() + volumes_.size(); }
-  /// Returns for each vertex, then for each segment of a rod, whether Newton's method moves it (rods/rod_system.hpp).
+  /// Returns the mobility of each vertex, then of each segment of a rod, in Newton's method (rods/rod_system.hpp).
   std::vector<Mobility> unknowns() const;
-  /// Returns the stencil's unknowns in the order of its derivatives; missing ones are −1.
+  /// Returns the stencil's unknowns in the order of its derivatives; unused entries are −1.
   std::array<compare::Index, 4> vertices(std::size_t stencil) const;
   std::vector<std::array<compare::Index, 4>> vertices() const;  ///< of all stencils
 
@@ -86,7 +85,7 @@ class Potential {
   const std::vector<double>& mass() const { return mass_; }
   /// Returns the mobility of each vertex.
   const std::vector<Mobility>& mobility() const { return mobility_; }
-  /// Returns the rest shape, rounded as the fast path has it.
+  /// Returns the rest shape, rounded as for the fast path.
   const compare::RestStateOut& rest() const { return rest_; }
   /// Returns the elements of a kind.
   template <class Kind>
@@ -96,15 +95,16 @@ class Potential {
   /// Returns the stencils of the present contacts.
   const std::vector<ContactTerm>& contacts() const { return contacts_; }
   const std::vector<VolumeTerm>& volumes() const { return volumes_; }
-  /// Returns the friction of a contact with λ, n and w of these corners (all four places; missing ones are not read);
-  /// empty where there is none.
+  /// Returns the friction of a contact; empty if it has none. λ, n and w come from these corners (all four places;
+  /// unused ones are not read).
   std::optional<FrictionTerm> friction_at(const ContactTerm& term, const std::array<Triple<double>, 4>& corners) const;
-  /// Returns the segments of rods with the orientations at which energies and forces are evaluated.
+  /// Returns the segments of rods, with the orientations for energies and forces.
   RodSystem& rods() { return std::get<RodSystem>(elements_); }
   const RodSystem& rods() const { return elements<SegmentKind>(); }
   const State& target() const { return target_; }                                       ///< y of the step [m]
   double inertia(std::size_t vertex) const { return mass_[vertex] / (step_ * step_); }  ///< m/h² [N/m]
-  /// Returns by unknown: m/h² of a vertex [N/m], the regularisation of a segment, which makes its twist definite [N m].
+  /// Returns by unknown: m/h² of a vertex [N/m], the regularisation of a segment, which makes a free twist definite [N
+  /// m].
   std::vector<double> inertias() const;
   /// Returns the number of free vertices.
   std::size_t free_count() const { return free_count_; }
@@ -112,8 +112,8 @@ class Potential {
  private:
   void add_contact(const ContactStencil& stencil, const State& previous);
   void add_contact(const compare::VolumeContact& contact);
-  /// Calls `use` with the list that has the stencil (a list of elements, contacts, volumes or friction) and the
-  /// stencil's place in it, and returns the result.
+  /// Calls `use` with the list that holds the stencil (a list of elements, contacts, volumes or friction) and its place
+  /// in that list; returns the result.
   template <class Use>
   auto in_its_list(std::size_t stencil, Use use) const;
   double stencil_energy(std::size_t stencil, const State& x) const;

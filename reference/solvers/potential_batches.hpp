@@ -1,5 +1,5 @@
 // Differentiates the stencils of contacts in batches of one form (energies/stencils/stencil_kernels.hpp), in parallel
-// over the batches. Each stencil has its place in the result, so neither threads nor the other members of its batch
+// over the batches. Each stencil has its own place in the result, so neither threads nor other stencils of a batch
 // change a bit.
 #pragma once
 
@@ -17,12 +17,13 @@ struct Bundle {
   std::uint8_t size = 0;
   std::array<std::uint32_t, batch_width> member{};
 };
-/// The group of members that belong to no bundle.
+/// Group number of members without a bundle.
 constexpr std::uint8_t left_out = 255;
-/// Sorts members into bundles by `group`, the group of each: members that take the same branches should share one.
+/// Sorts members into bundles; `group` is the group of each member. Members with the same branches should have one
+/// group.
 std::vector<Bundle> bundled(const std::vector<std::uint8_t>& group);
 
-/// Called by `differentiate` for each stencil that is done, on the thread that did it.
+/// Called by `differentiate` for each finished stencil, on the thread that computed it.
 using Finished = std::function<void(std::size_t stencil)>;
 
 /// Writes the derivatives of all terms at x into the places from `to` on.
@@ -33,7 +34,7 @@ void differentiate(std::span<const VolumeTerm> terms, const State& x, HessianPro
 void differentiate(std::span<const FrictionTerm> terms, const State& x, HessianProjection projection,
                    StencilDerivatives* to, const Finished& finished);
 
-/// Returns all four places of a contact; missing corners are at the origin.
+/// Returns the positions of a contact's four places; unused places are at the origin.
 inline std::array<Triple<double>, 4> contact_corners(compare::ContactSides sides,
                                                      const std::array<compare::Index, 4>& vertex, const State& x) {
   std::array<Triple<double>, 4> corners{};

@@ -6,7 +6,7 @@
 namespace ogc::reference {
 namespace {
 
-/// A base class, so that the scene is made before the ContactStep that reads it.
+/// This is a base class, so that the scene is made before the ContactStep that reads it.
 struct Problem {
   compare::Scene scene;
   compare::Topology topology;

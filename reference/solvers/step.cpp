@@ -16,7 +16,7 @@ using compare::StepEventKind;
 using compare::Vec3;
 using compare::Vec3f;
 
-/// Returns for each event what contacts leave of moves; nothing for an answer without frictions.
+/// Returns for each event the moves that contacts leave; empty for an answer without frictions.
 std::vector<std::vector<compare::HeldMove>> held_moves(const compare::StepIn& in, const compare::StepOut& answer) {
   std::vector<std::vector<compare::HeldMove>> moves(answer.events.size());
   const std::size_t bodies = in.scene->bodies.size(), count = in.scene->mesh.positions.size();
@@ -33,8 +33,7 @@ std::vector<std::vector<compare::HeldMove>> held_moves(const compare::StepIn& in
   return moves;
 }
 
-/// Returns for each vertex whether a contact certainly or possibly keeps it where it is; empty where the event is no
-/// round.
+/// Returns for each vertex whether a contact keeps it in place, certainly or possibly; empty if the event is no round.
 std::vector<bool> staying(const std::vector<compare::HeldMove>& moves) {
   std::vector<bool> stays;
   for (const compare::HeldMove& held : moves) stays.push_back(held.touches != 0);
@@ -74,7 +73,7 @@ Depth depth_of(const std::vector<compare::VolumeContact>& contacts, const compar
       above += w * (n.x * apart.x + n.y * apart.y + n.z * apart.z);
       size += std::abs(w) * (std::abs(n.x * apart.x) + std::abs(n.y * apart.y) + std::abs(n.z * apart.z));
     }
-    // φ + r/2 has no more terms than r − φ, whose rounding compare/stages/volume_force.hpp counts.
+    // φ + r/2 has no more terms than r − φ, for which compare/stages/volume_force.hpp counts the roundings.
     if (std::abs(above) <= compare::volume_force_grey * compare::unit_roundoff * size)
       deepest = std::max(deepest, Depth::doubtful);
     else if (above < 0)
@@ -125,7 +124,7 @@ compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answe
     bool is_deep = false;
     if (is_there && *kind == compare::StepEventKind::sweep && volumes != nullptr) {
       const Depth depth = depth_of(*volumes, *in.topology, answer.events[i].position, settings.contact_radius);
-      // In doubt either is right, and the answer's next event tells which one it chose.
+      // If doubtful, both answers are right; the answer's next event shows its choice.
       const bool detects_next = i + 1 < answer.events.size() &&
                                 answer.events[i + 1].kind == compare::StepEventKind::detection;
       is_deep = depth == Depth::deep || (depth == Depth::doubtful && detects_next);

@@ -1,4 +1,4 @@
-// The order of Algorithm 3 with the guess loop of method.md §5.2, apart from what its events do.
+// Determines the order of events in Algorithm 3 with the guess loop of method.md §5.2.
 #pragma once
 
 #include <algorithm>
@@ -9,17 +9,16 @@
 
 namespace ogc::reference {
 
-/// With planes, of the cut vertices: prescribed ones behind their targets, and whether one of these has moved since the
-/// last detection (method.md §5.6, Detections).
+/// Prescribed vertices behind their targets, if bounds are planes (method.md §5.6, Detections).
 struct StepLag {
-  compare::Index lagging = 0;  ///< how many
-  bool has_advanced = false;   ///< whether one of them has moved
+  compare::Index lagging = 0;  ///< number of such vertices
+  bool has_advanced = false;   ///< whether one of them has moved since the last detection
 };
 
-/// A vertex is deep inside a volume from this share of r on (compare/volumes.md, The step).
+/// Depth in units of r from which a vertex is deep inside a volume (compare/volumes.md, The step).
 inline constexpr double deep_share = 0.5;
 
-/// Determines which event comes next, from how many vertices each event cut. `moving` is K, the bounded_count.
+/// Determines the next event from the number of vertices that each event cut. `moving` is K, the bounded_count.
 class StepOrder {
  public:
   StepOrder(const compare::Settings& settings, compare::Index moving)
@@ -32,8 +31,8 @@ class StepOrder {
     return found_ ? compare::StepEventKind::sweep : compare::StepEventKind::detection;
   }
 
-  /// Records that the next event took place. `cut`: all vertices that a round or an iteration cut; `is_deep`: whether
-  /// an iteration left a vertex deep inside a volume.
+  /// Records the next event. `cut`: number of vertices that a round or an iteration cut; `is_deep`: whether an
+  /// iteration left a vertex deep inside a volume.
   void took_place(compare::Index cut, const StepLag& lag = {}, bool is_deep = false) {
     switch (*next()) {
       case compare::StepEventKind::detection:
@@ -68,8 +67,8 @@ class StepOrder {
   const compare::Settings& settings_;
   double redetect_vertices_;  ///< γ_e K
   bool guessing_ = true;      ///< whether the guess loop runs
-  bool lag_asked_ = false;    ///< a lag has triggered a detection in this step
-  bool found_ = false;        ///< contacts and bounds hold for the next event
+  bool lag_asked_ = false;    ///< whether a lag has triggered a detection in this step
+  bool found_ = false;        ///< whether contacts and bounds are valid for the next event
   std::int64_t rounds_ = 0, iterations_ = 0, since_detection_ = 0;
 };
 

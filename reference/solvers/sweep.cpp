@@ -22,7 +22,7 @@ std::span<const compare::VertexPlane> planes_of(const compare::SweepIn& in, Inde
 
 bool is_scaled(const compare::SweepIn& in) { return !traits_of(in.scene->settings.bounds).slides; }
 
-/// Returns the point from which a vertex that does not slide is scaled.
+/// Returns the point from which a proposal is scaled instead of sliding.
 const compare::Vec3f& start_of_way(const compare::SweepIn& in, std::size_t i) {
   return is_scaled(in) ? in.previous[i] : in.old[i];
 }
@@ -37,7 +37,7 @@ VertexUpdate free_vertex(const compare::SweepIn& in, const compare::SweepOut& an
   return update_of(terms_of_vertex(in, stencils, SweepPositions(in, answer, v), v), vertex, answer.position[i]);
 }
 
-/// Computes y, truncated, by the very question of the stage truncate.
+/// Truncates y by a question to the stage truncate.
 VertexUpdate prescribed_vertex(const compare::SweepIn& in, std::size_t i) {
   const compare::TruncateIn question{{in.previous[i]},
                                      {in.target[i]},
@@ -82,8 +82,7 @@ compare::SweepTruth sweep(const compare::SweepIn& in, const compare::SweepOut& a
 
 namespace {
 
-/// Returns the position of an update, stored inside its ball; where nothing slides, only as far as half-spaces allow on
-/// the way there.
+/// Returns the position of an update, stored inside its ball. If nothing slides, the way to it ends at the half-spaces.
 compare::Vec3f stored(const compare::Vec3& position, const compare::SweepIn& in, std::size_t v) {
   const compare::TruncateIn region{{in.previous[v]},
                                    {in.old[v]},

@@ -1,5 +1,5 @@
-// Eigenvalues and eigenvectors of a symmetric 3×3 matrix. How far an error of the force moves a vertex differs between
-// directions by the ratio of the eigenvalues, which contacts make large.
+// Eigenvalues and eigenvectors of a symmetric 3×3 matrix. An error of the force moves a vertex differently far in the
+// directions of the eigenvectors, and contacts make the ratio of the eigenvalues large.
 #pragma once
 
 #include <array>

@@ -1,9 +1,10 @@
-// The reference's own Vertex Block Descent: Algorithms 3 and 4 in double, for whole runs. Colours are solved one after
-// the other, vertices of a colour in parallel, with positions read as in method.md §7.2; each new position is cut to
-// its bound before it is written. Positions are doubles within a step and rounded at its end, as in Newton's method.
+// The reference's Vertex Block Descent: Algorithms 3 and 4 in double, for whole runs. Colours are solved one after the
+// other, vertices of a colour in parallel; method.md §7.2 defines the positions that they read. Each new position is
+// cut to its bound before it is written. Positions are doubles within a step and rounded at its end, as in Newton's
+// method.
 //
-// Residuals are measured beside the run, and their time does not count as the step's: those of the rows with the
-// contacts of the last detection, that of the step with contacts detected at its end.
+// Residuals are measured beside the run, and their time does not count as the step's. Rows have residuals with the
+// contacts of the last detection, a step has the residual with contacts detected at its end.
 #pragma once
 
 #include "reference/solvers/contact_step.hpp"
@@ -15,10 +16,10 @@ namespace ogc::reference {
 /// Vertex Block Descent in double (Alg. 3 and 4).
 class VbdSolver : public StepSolver, private ContactStep {
  public:
-  /// The scene must be rounded and valid; scene and topology must outlive this. `colour`: by vertex, from 0 on where
-  /// free, −1 elsewhere; no two vertices of a membrane, hinge or spring may share one. If it is empty, the solver
-  /// colours the vertices itself (colouring.hpp). Throws std::invalid_argument where the colours do not fit the scene.
-  /// Reads the settings of variants/settings.hpp.
+  /// The scene must be rounded and valid; scene and topology must outlive this. Reads the settings of
+  /// variants/settings.hpp. `colour`, by vertex: from 0 on if free, otherwise −1; no two vertices of a membrane, hinge
+  /// or spring may share one. If it is empty, the solver colours the vertices itself (colouring.hpp). Throws
+  /// std::invalid_argument if the colours do not fit the scene.
   VbdSolver(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options,
             std::vector<compare::Index> colour = {});
 
@@ -33,9 +34,9 @@ class VbdSolver : public StepSolver, private ContactStep {
   void iterate();
   std::size_t sweep();
   std::size_t cut_all(const State& old);  ///< cuts free vertices to their bounds
-  /// whether a vertex is deep inside a volume, by the contacts that the last detection froze
+  /// Returns whether a vertex is deep inside a volume, by the frozen contacts of the last detection.
   bool is_deep_inside() const;
-  /// Does work that needs the meter and takes no time of the step; does nothing without a meter.
+  /// Calls `work`, which needs the meter, without adding its time to the step's; does nothing without a meter.
   template <class Work>
   void measured(Work work);
   void add_row(bool detects);
@@ -46,7 +47,7 @@ class VbdSolver : public StepSolver, private ContactStep {
   std::vector<compare::Index> colour_;
   std::vector<std::vector<compare::Index>> classes_;  ///< vertices by colour
   std::optional<ResidualMeter> meter_;
-  std::vector<compare::Quaternion> orientations_;  ///< qᵗ, kept where residuals are measured
+  std::vector<compare::Quaternion> orientations_;  ///< qᵗ, kept if residuals are measured
   double measuring_ms_ = 0;
 };
 

@@ -20,20 +20,18 @@ std::array<Triple<double>, Count> plain_corners(const std::array<Index, Count>& 
   return corners;
 }
 
-/// Which of a contact's vertices are updated together with the updated vertex, itself included.
+/// Tells which of a contact's vertices are updated together, the updated vertex included.
 using Updated = std::array<bool, 4>;
 
-/// Returns Σ |w_u| over the vertices that are updated together, in units of |w| of the updated vertex. Blocks are
-/// multiplied by it, so that they majorise the motion of all of these vertices (method.md §7.4). Returns 1 where the
-/// updated vertex's weight is 0.
+/// Returns Σ |w_u| over the vertices that are updated together, divided by |w| of the updated vertex; 1 if its weight
+/// is 0. Blocks times this factor majorise the motion of all these vertices (method.md §7.4).
 double majorant(const std::array<double, 4>& weight, const Updated& updated, std::size_t own) {
   double sum = 0;
   for (std::size_t k = 0; k < 4; ++k) sum += updated[k] ? std::abs(weight[k]) : 0;
   return weight[own] == 0 ? 1 : sum / std::abs(weight[own]);
 }
 
-/// Returns which of a contact's vertices have the colour of `own`, by the colours of `x`; only `own` with
-/// ContactBlocks::own.
+/// Returns which of a contact's vertices have the colour of `own` in `x`; only `own` with ContactBlocks::own.
 Updated updated_with(Index own, const std::array<Index, 4>& vertex, const SweepView& x, ContactBlocks blocks) {
   Updated updated{};
   for (std::size_t k = 0; k < 4; ++k) {
@@ -54,7 +52,8 @@ void add_friction(const FrictionTerm& term, double factor, const std::array<Trip
     add_outer(2 * factor * slope, component.slope, component.slope, sum.block);
 }
 
-/// Below 2⁻²³ r slope and curvature are those at 2⁻²³ r, from r on those at r, as in the stage contact_force.
+/// Adds a contact. Below 2⁻²³ r slope and curvature are those at 2⁻²³ r, from r on those at r, as in the stage
+/// contact_force.
 void add_contact(const Potential& potential, const ContactTerm& term, const Updated& updated, std::size_t place,
                  const std::array<Triple<double>, 4>& corners, VertexSystem& sum) {
   const ClosestForm form = closest_form(term.sides, corners);
@@ -72,7 +71,7 @@ void add_contact(const Potential& potential, const ContactTerm& term, const Upda
   if (const auto friction = potential.friction_at(term, corners)) add_friction(*friction, factor, x, sum);
 }
 
-/// Adds a contact with a volume as its point or one of the triangle's corners feels it.
+/// Adds a contact with a volume for its point or for one of the triangle's corners.
 void add_volume(const VolumeTerm& term, const Updated& updated, std::size_t place,
                 const std::array<Triple<double>, 4>& corners, VertexSystem& sum) {
   if (term.weight[place] == 0) return;

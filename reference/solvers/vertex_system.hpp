@@ -1,6 +1,6 @@
 // The 3×3 system of one vertex in double, for whole runs: the sum of the forces and blocks of its stencils (method.md
-// §4). Each energy derives its force and block in its own file (kinds/kinds.hpp lists them). The judged sweep
-// (vertex_terms.hpp) sums what the stages answer for single-precision positions, each with its errors; its blocks are
+// §4). Each energy derives its force and block in its own file (listed in kinds/kinds.hpp). The judged sweep
+// (vertex_terms.hpp) sums the stages' answers for single-precision positions with their errors; its blocks come from
 // the same functions over another number type.
 #pragma once
 
@@ -21,8 +21,9 @@ using VertexSystem = VertexSystemOf<double>;
 /// Returns H⁻¹ a. Inertia alone makes H positive definite.
 Triple<double> solved(const VertexSystem& system, const Triple<double>& a);
 
-/// The positions that an update reads (method.md §7.2): vertices of lower colour than the one being solved at their new
-/// position, others at the old one. Colours count from 0; −1 means a prescribed or fixed vertex; these move first.
+/// The positions that an update reads (method.md §7.2): the new position of a vertex whose colour is below that of the
+/// updated vertex, otherwise the old position. Colours count from 0; −1 means a prescribed or fixed vertex, which moves
+/// first.
 struct SweepView {
   const State& old;
   const State& fresh;
@@ -39,11 +40,11 @@ class VertexSystems {
  public:
   /// The potential must outlive this.
   explicit VertexSystems(const Potential& potential, ContactBlocks blocks = ContactBlocks::majorised);
-  /// Lists the potential's contacts again. To be called after they have changed.
+  /// Lists the potential's contacts again; must be called after they have changed.
   void read_contacts();
-  /// Returns the system of a free vertex. Friction takes λ, n and w from the positions that are read.
+  /// Returns the system of a free vertex. Friction takes λ, n and w from the positions that the update reads.
   VertexSystem at(compare::Index vertex, const SweepView& x) const;
-  /// Returns the mean ‖f‖ over free vertices at one state [N], the numerator of Eq. 29.
+  /// Returns the mean ‖f‖ over free vertices [N], the numerator of Eq. 29.
   double mean_force(const State& x) const;
 
  private:
@@ -52,7 +53,7 @@ class VertexSystems {
     std::uint32_t stencil = 0;
     std::uint8_t place = 0;
   };
-  using Incidences = std::vector<std::vector<Incidence>>;  ///< by vertex; empty where not free
+  using Incidences = std::vector<std::vector<Incidence>>;  ///< by vertex; empty if not free
   template <class Terms>
   void list(const Terms& terms, Incidences& incidences) const;
 

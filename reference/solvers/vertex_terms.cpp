@@ -46,7 +46,7 @@ SweepStencils::SweepStencils(const compare::SweepIn& in) : body(body_of_vertex(*
   for (std::size_t i = 0; i < in.volumes.size(); ++i) {
     const compare::VolumeContact& contact = in.volumes[i];
     const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(contact.triangle)];
-    // Where the point is a corner of the triangle and c lies on the opposite edge, that corner has no part in c.
+    // If the point is a corner of the triangle and c lies on the opposite edge, this corner has the weight 0.
     const auto corner = [&](std::size_t k) { return contact.weights[k] == 0 ? -1 : corners[k]; };
     add_element(volumes, i, std::array{contact.point, corner(0), corner(1), corner(2)});
   }

@@ -1,4 +1,5 @@
-// The stencils of one vertex as questions to the force stages: what the sweep sums is exactly what those stages answer.
+// Converts the stencils of one vertex to questions for the force stages, so that the sweep sums exactly those stages'
+// answers.
 #pragma once
 
 #include <array>
@@ -12,16 +13,16 @@
 
 namespace ogc::reference {
 
-/// One term of force and block, with the tolerances of its stage in units of u · scale. Answers that differ from the
-/// exact one by no more than these tolerances are not tried one by one. They make a spread instead: the largest such
-/// difference, plus as much again for the scale, which may be twice the exact one's.
+/// One term of force and block, with its stage's tolerances in units of u · scale. Accepted answers within a tolerance
+/// of the exact one widen the spread and are not tried one by one. The spread is the largest of these differences,
+/// doubled because an answer's scale may be twice the exact one's.
 struct Term {
   std::vector<compare::ForceAnswer> accepted;  ///< the exact answer first
   double force_tolerance = 0, block_tolerance = 0;
   double force_spread = 0, block_spread = 0;  ///< [N], [N/m]
 };
 
-/// Makes a term of one energy's answers: those near the exact one widen its spread, the others stay beside it.
+/// Makes a term from one energy's answers: answers near the exact one widen its spread, the others stay in `accepted`.
 Term term_of(std::vector<compare::ForceAnswer> accepted, double force_tolerance, double block_tolerance);
 
 /// All terms of a vertex except inertia.
@@ -29,7 +30,7 @@ struct VertexTerms {
   std::vector<Term> terms;
 };
 
-/// By vertex: (number of the element, place of the vertex in it).
+/// By vertex: (number of the element, place of the vertex in the element).
 using ElementsOfVertex = std::vector<std::vector<std::pair<std::size_t, std::size_t>>>;
 
 /// Lists the elements and contacts of each vertex.
@@ -50,7 +51,7 @@ class SweepPositions {
     const auto i = static_cast<std::size_t>(vertex);
     return in_.colour[i] < in_.colour[static_cast<std::size_t>(own_)] ? answer_.position[i] : in_.old[i];
   }
-  /// Returns the answer whose new positions and orientations are read.
+  /// Returns the answer with the new positions and orientations.
   const compare::SweepOut& answer() const { return answer_; }
 
  private:
@@ -59,11 +60,11 @@ class SweepPositions {
   compare::Index own_;
 };
 
-/// Returns everything that acts on `vertex`, at the positions that its update reads.
+/// Returns all terms of `vertex` except inertia, at the positions that its update reads.
 VertexTerms terms_of_vertex(const compare::SweepIn& in, const SweepStencils& stencils, const SweepPositions& positions,
                             compare::Index vertex);
 
-/// Adds the terms of contacts alone: normal force, and friction where μ > 0; a contact with a volume is one term.
+/// Adds only the terms of contacts: normal force, and friction if μ > 0. A contact with a volume is one term.
 void add_contact_terms(const compare::SweepIn& in, const SweepStencils& stencils, const SweepPositions& positions,
                        compare::Index vertex, VertexTerms& sum);
 

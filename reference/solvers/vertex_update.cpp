@@ -1,13 +1,12 @@
-// Errors. A right answer solves (H + δH) dx = f + δf with ‖δf‖ ≤ φ, ‖δH‖ ≤ η, so with the exact dx* of H dx* = f
+// Errors. A right answer solves (H + δH) dx = f + δf with ‖δf‖ ≤ φ, ‖δH‖ ≤ η. With the exact dx* of H dx* = f
 //
 //   H (dx − dx*) = δf − δH dx,   |vᵢ·(dx − dx*)| ≤ (φ + η ‖dx‖)/λᵢ along each eigenvector of H,
 //   ‖dx‖ ≤ (‖dx*‖ + φ/λ)/(1 − η/λ), λ the smallest λᵢ.
 //
-// Storing moves the proposal by u ‖x + dx‖ more. Truncation is the projection on a ball, which brings points no farther
-// apart. Its effect on single directions depends on where the points lie, so for a vertex that may be cut the largest
-// of the three errors counts. A vertex that half-spaces cut, or may cut, must lie in its region, which the judge
-// checks, and where it does not slide, on the way from X_prev to its proposal: a point of a way is no farther off than
-// the way's end.
+// Storing moves the proposal by another u ‖x + dx‖. Truncation projects on a ball, which does not increase distances.
+// Its effect on single directions depends on the points, so the largest of the three errors counts for a vertex that
+// may be cut. A vertex that half-spaces cut, or may cut, must lie in its region, which the judge checks. If it does not
+// slide, it must also lie on the way from X_prev to its proposal, and its error is at most that of the proposal.
 #include "reference/solvers/vertex_update.hpp"
 
 #include <algorithm>
@@ -27,7 +26,7 @@ using compare::Vec3f;
 using reference::norm;
 
 constexpr double u = compare::unit_roundoff, infinity = std::numeric_limits<double>::infinity();
-/// A vertex with more combinations of accepted answers than this is only checked against its bound.
+/// A vertex with more combinations of accepted answers is only checked against its bound.
 constexpr std::size_t most_combinations = 4096;
 
 Vec3 wide(const Vec3f& a) { return {a.x, a.y, a.z}; }
@@ -37,7 +36,7 @@ Vec3 times(double s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
 double inner(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 double norm(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 
-/// H and f of one choice among the accepted answers, with φ and η, the solve's error included.
+/// H and f of one choice among the accepted answers, with φ and η; these include the solve's error.
 struct System {
   Vec3 force;
   Symmetric3 block{};
@@ -55,7 +54,7 @@ System system_of(const VertexTerms& terms, const FreeVertex& vertex, std::span<c
     sum.force = plus(sum.force, answer.force);
     for (std::size_t k = 0; k < 6; ++k) sum.block[k] += answer.block[k];
     errors_force += term.force_tolerance * answer.force_scale + term.force_spread / u;
-    // The stage's tolerance counts each entry off the diagonal once, the matrix holds it twice.
+    // The stage's tolerance counts each entry off the diagonal once, but the matrix holds it twice.
     errors_block += term.block_tolerance * answer.block_scale * std::sqrt(2.0) + term.block_spread / u;
     moduli_force += norm(answer.force);
     moduli_block += norm(answer.block);
@@ -79,10 +78,9 @@ double size_of(const FreeVertex& vertex) {
   return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) + vertex.bound;
 }
 double truncation_error(const FreeVertex& vertex) { return compare::truncate_position_tolerance * u * size_of(vertex); }
-/// Returns the error of truncation to a region with half-spaces [m].
 double region_error(const FreeVertex& vertex) { return compare::truncate_region_tolerance * u * size_of(vertex); }
 
-/// Returns the point between X_prev and the proposal that is closest to x.
+/// Returns the point of the segment from X_prev to the proposal that is closest to x.
 Vec3 nearest_on_way(const FreeVertex& vertex, const Vec3& proposal, const Vec3& x) {
   const Vec3 from = wide(vertex.previous), way = minus(proposal, from);
   const double square = inner(way, way);
@@ -90,8 +88,7 @@ Vec3 nearest_on_way(const FreeVertex& vertex, const Vec3& proposal, const Vec3& 
   return plus(from, times(share, way));
 }
 
-/// Returns how far x lies beyond its half-spaces, the largest of the distances [m]; negative inside all, minus infinity
-/// without any.
+/// Returns the largest distance of x beyond its half-spaces [m]; negative inside all, minus infinity without any.
 double beyond_planes(const FreeVertex& vertex, const Vec3& x) {
   double beyond = -infinity;
   for (const compare::VertexPlane& plane : vertex.planes) {
@@ -101,8 +98,8 @@ double beyond_planes(const FreeVertex& vertex, const Vec3& x) {
   return beyond;
 }
 
-/// Checks an ill-conditioned vertex, which has no known position: where nothing was cut, dx·f ≥ −‖dx‖(φ + η‖dx‖) up to
-/// the error of storing. Returns the accepted error: infinity if that holds or the vertex may be cut, otherwise 0.
+/// Checks an ill-conditioned vertex without a known position: if nothing was cut, dx·f ≥ −‖dx‖(φ + η‖dx‖) up to the
+/// error of storing. Returns the accepted error: infinity if that holds or the vertex may be cut, otherwise 0.
 double accepted_without_position(const System& system, const FreeVertex& vertex, const Vec3f& answer) {
   const Vec3 moved = minus(wide(answer), wide(vertex.old));
   const bool may_be_cut = norm(minus(wide(answer), wide(vertex.previous))) + truncation_error(vertex) >= vertex.bound ||
@@ -113,8 +110,7 @@ double accepted_without_position(const System& system, const FreeVertex& vertex,
   return inner(moved, system.force) >= -slack ? infinity : 0;
 }
 
-/// Returns the accepted error in the direction of `error`, without a cut: at most `along[i]` in the direction of each
-/// axis.
+/// Returns the accepted error in the direction of `error`, without a cut: at most `along[i]` along axis i.
 double accepted_along(const Vec3& error, const Eigen3& eigen, const std::array<double, 3>& along) {
   double share = 0;
   for (std::size_t i = 0; i < 3; ++i) share = std::max(share, std::abs(inner(error, eigen.axis[i])) / along[i]);
@@ -124,7 +120,7 @@ double accepted_along(const Vec3& error, const Eigen3& eigen, const std::array<d
 VertexUpdate update_with(const System& system, const FreeVertex& vertex, const Vec3f& answer) {
   const Eigen3 eigen = eigen_of(system.block);
   std::array<double, 3> stiffness;
-  // All terms but inertia are positive semidefinite.
+  // All terms except inertia are positive semidefinite.
   for (std::size_t i = 0; i < 3; ++i) stiffness[i] = std::max(eigen.value[i], vertex.inertia);
   const auto [least, most] = std::minmax_element(stiffness.begin(), stiffness.end());
   Vec3 change;
@@ -191,7 +187,7 @@ VertexUpdate update_of(const VertexTerms& terms, const FreeVertex& vertex, const
   for (const Term& term : terms.terms)
     combinations = std::min(combinations * term.accepted.size(), most_combinations + 1);
   if (combinations > most_combinations) return {best.position, infinity, true, Cut::doubtful};
-  // Where the bound hides which combination an answer has chosen, the cut may be that of any of them.
+  // If the bound hides which combination an answer chose, the cut may be that of any combination.
   bool cuts_differ = false;
   while (advance(choice, terms)) {
     const VertexUpdate other = update_with(system_of(terms, vertex, choice), vertex, answer);

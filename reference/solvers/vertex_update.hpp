@@ -1,4 +1,4 @@
-// One vertex update in double, and how far a right single-precision update may be from it.
+// Computes one vertex update in double, and the accepted error of a right single-precision update.
 #pragma once
 
 #include <array>
@@ -10,16 +10,16 @@
 
 namespace ogc::reference {
 
-/// A free vertex: where it is and what bounds it.
+/// A free vertex: its positions and its bounds.
 struct FreeVertex {
   compare::Vec3f old, target, previous;            ///< x, y, X_prev [m]
   float bound = 0;                                 ///< b_v [m]
   double inertia = 0;                              ///< m/h² [N/m]
-  std::span<const compare::VertexPlane> planes{};  ///< half-spaces that hold the vertex
-  bool is_scaled = false;                          ///< a cut vertex stops on the way from X_prev instead of sliding
+  std::span<const compare::VertexPlane> planes{};  ///< half-spaces of the vertex
+  bool is_scaled = false;  ///< whether a cut vertex stops on the way from X_prev instead of sliding
 };
 
-/// Whether truncation changes an update; doubtful where either answer is right.
+/// Tells whether truncation changes an update; doubtful if both answers are right.
 enum class Cut { no, yes, doubtful };
 
 /// The fields of SweepTruth for one vertex.
@@ -30,7 +30,7 @@ struct VertexUpdate {
   Cut cut = Cut::no;
 };
 
-/// Returns the truth about `answer`, the answer's position of the vertex.
+/// Returns the truth about `answer`, the position of the vertex in the answer.
 VertexUpdate update_of(const VertexTerms& terms, const FreeVertex& vertex, const compare::Vec3f& answer);
 
 }  // namespace ogc::reference

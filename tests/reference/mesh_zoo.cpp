@@ -1,4 +1,5 @@
-// Radii are so large that blocks of neighbours overlap; with smaller ones most points would lie in one block or none.
+// The radii are so large that blocks of neighbours overlap. With smaller radii most points would lie in one block or
+// none.
 #include "tests/reference/mesh_zoo.hpp"
 
 #include <algorithm>
@@ -27,7 +28,7 @@ Surface star_of(int k, double height_even, double height_odd) {
   return surface;
 }
 
-/// Returns thin triangles side by side, of height `thickness` over a base of 1.
+/// Returns thin triangles side by side, with height `thickness` over a base of 1.
 Surface needles(int count, double thickness) {
   Surface surface{{{0, 0, 0}}, {}, {}, {}};
   for (int i = 0; i <= count; ++i) surface.positions.push_back(at(1, thickness * i, 0.25 * thickness * (i % 2)));
@@ -35,7 +36,7 @@ Surface needles(int count, double thickness) {
   return surface;
 }
 
-/// Returns a sphere of rings whose poles are vertices.
+/// Returns a sphere of rings with vertices at both poles.
 Surface ball(int rings, int sides) {
   Surface surface;
   surface.positions.push_back(at(0, 0, 1));
@@ -59,7 +60,7 @@ Surface ball(int rings, int sides) {
   return surface;
 }
 
-/// Returns a sheet over a product of waves, with all kinds of vertices.
+/// Returns a wavy sheet with all kinds of vertices.
 Surface waves(int n, double amplitude) {
   return mapped(grid(n), [&](Vec3f x) { return at(x.x, x.y, amplitude * std::sin(2.1 * x.x) * std::cos(1.7 * x.y)); });
 }
@@ -73,7 +74,7 @@ Surface with_yarn(Surface surface) {
 }
 
 /// Returns points near a mesh: its vertices and the middles of its edges and triangles, each moved along the axes,
-/// along the diagonal and at random by parts of r.
+/// along the diagonal and at random by fractions of r.
 std::vector<Vec3f> points_near(const Surface& surface, float r, std::size_t count, std::mt19937& random) {
   std::vector<Vec3f> centres = surface.positions;
   for (const auto& t : surface.triangles) {
@@ -108,7 +109,7 @@ class Zoo {
     all_.push_back(std::move(specimen));
   }
 
-  /// Adds the mesh, and copies that are turned exactly, scaled by powers of ten and by powers of two down to denormal
+  /// Adds the mesh and its copies: turned exactly, scaled by powers of ten and by powers of two down to denormal
   /// coordinates, and moved far away.
   void add_family(const std::string& name, const Surface& surface, double radius) {
     add(name, surface, radius);

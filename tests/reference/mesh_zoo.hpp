@@ -1,5 +1,5 @@
-// Holds more than two hundred meshes on which the theorems of the paper's section 3 are tested: every kind of vertex
-// and edge, every size, exact coincidences.
+// Holds more than two hundred meshes on which the theorems of the paper's section 3 are tested: all kinds of vertices
+// and edges, all sizes, exact coincidences.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace ogc::tests {
 
-/// A mesh with a contact radius of about its edges' length, and points to test: near its faces, on its planes and
+/// A mesh, a contact radius of about the length of its edges, and test points: near its faces, on its planes and
 /// vertices.
 struct Specimen {
   std::string name;
   Surface surface;
   float radius = 1;
-  bool collapsed = false;  ///< has triangles without area or edges without length
+  bool collapsed = false;  ///< whether it has triangles without area or edges without length
   std::vector<Vec3f> points;
 };
 
@@ -25,8 +25,7 @@ const std::vector<Specimen>& mesh_zoo();
 Surface tetrahedron();
 Surface octahedron();
 Surface cube();
-/// Returns `pages` triangles on the edge from vertex 0 to vertex 1, evenly spread around it over `turn` (1: a full
-/// turn).
+/// Returns `pages` triangles on the edge from vertex 0 to vertex 1, evenly spread around it over `turn` turns.
 Surface book(int pages, double turn);
 /// Returns a closed strip of 2n triangles with a half twist.
 Surface moebius(int n);

@@ -1,5 +1,5 @@
-// Makes small meshes whose contacts can be derived by hand, and moves them exactly: integer coordinates stay exact in
-// single precision.
+// Makes small meshes whose contacts can be derived by hand, and maps that move them exactly: integer coordinates stay
+// exact in single precision.
 #pragma once
 
 #include <array>
@@ -14,7 +14,6 @@ namespace ogc::tests {
 using compare::Index;
 using compare::Vec3f;
 
-/// Positions, triangles and loose edges from which a question is made.
 struct Surface {
   std::vector<Vec3f> positions;
   std::vector<compare::Triangle> triangles;
@@ -26,13 +25,13 @@ struct Surface {
   }
 };
 
-/// Returns the question about a surface; both arguments must outlive it.
+/// Returns a detection question about a surface, which must outlive it, as must the topology.
 inline compare::DetectIn question(const Surface& surface, const compare::Topology& topology, float r, float r_q) {
   return {&topology, surface.groups, surface.positions, r, r_q};
 }
 
-/// Returns n × n vertices, vertex i + n j at (i, j, z) · spacing. Each cell is cut from its lower right to its upper
-/// left corner, so inner vertices have six neighbours.
+/// Returns n × n vertices; vertex i + n j lies at (i, j, z) · spacing. Each cell is cut from its lower right to its
+/// upper left corner, so inner vertices have six neighbours.
 inline Surface grid(int n, float z = 0, float spacing = 1) {
   Surface surface;
   for (int j = 0; j < n; ++j) {
@@ -49,7 +48,7 @@ inline Surface grid(int n, float z = 0, float spacing = 1) {
   return surface;
 }
 
-/// Returns both surfaces in one; the second one's vertices follow the first one's.
+/// Returns both surfaces in one; the vertices of `b` follow those of `a`.
 inline Surface together(Surface a, const Surface& b) {
   const auto shift = static_cast<Index>(a.positions.size());
   a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());
@@ -70,7 +69,7 @@ inline Surface jittered(const Surface& surface, std::mt19937& random, float amou
   return mapped(surface, [&](Vec3f x) { return Vec3f{x.x + move(random), x.y + move(random), x.z + move(random)}; });
 }
 
-/// Applies a similarity with integer entries that maps no axis to an axis and keeps integer coordinates exact.
+/// Applies a similarity with integer entries that maps no axis to an axis. Integer coordinates stay exact.
 inline Vec3f turned(const Vec3f& x) {
   const Vec3f a{3 * x.x - 4 * x.y, 4 * x.x + 3 * x.y, 5 * x.z};
   return {5 * a.x, 3 * a.y - 4 * a.z, 4 * a.y + 3 * a.z};
@@ -83,7 +82,7 @@ inline Surface with_vertex(Surface surface, const Vec3f& x) {
   return surface;
 }
 
-/// Returns a jittered grid whose two halves lie above each other, with self-contact of all kinds.
+/// Returns a jittered grid that is folded in half, with self-contact of all kinds.
 inline Surface folded(int n, float gap, std::mt19937& random, float amount) {
   Surface surface = mapped(grid(n), [&](Vec3f x) {
     const float middle = static_cast<float>(n) / 2;

@@ -1,5 +1,5 @@
-// Tests stage plane on two sheets an eighth of an edge apart, whose planes are known by hand: each possible fault is
-// found, and nothing else is.
+// Tests stage plane on two sheets an eighth of an edge apart, whose planes are derived by hand: each fault is found,
+// and nothing else.
 #include "reference/geometry/plane.hpp"
 
 #include "reference/geometry/pair_planes.hpp"
@@ -33,14 +33,13 @@ int sheet_of(const Vertices& vertices) {
   return lower == 0 ? 1 : (upper == 0 ? 0 : -1);
 }
 
-/// Holds the sheets at z = 0 and z = gap. Each vertex has one plane for each pair between the sheets to which it
-/// belongs.
+/// The sheets at z = 0 and z = gap. Each vertex has one plane for each pair between the sheets that contains it.
 struct TwoSheets {
   Surface surface = together(grid(side), grid(side, gap));
   compare::Topology topology = surface.topology();
   std::vector<std::uint8_t> is_fixed = std::vector<std::uint8_t>(surface.positions.size(), 0);
   std::vector<std::vector<VertexPlane>> rows{surface.positions.size()};
-  /// Within a sheet the nearest pairs are √½ apart: each vertex and the hypotenuse opposite to it.
+  /// Within a sheet the nearest pair is a vertex and the hypotenuse opposite to it, √½ apart.
   std::vector<float> bound = std::vector<float>(surface.positions.size(), relaxation * 0.7f);
   std::size_t pairs = 0;
 
@@ -89,7 +88,7 @@ TEST_CASE("plane: two sheets with planes between them, each vertex as free as it
 }
 
 TEST_CASE("plane: every fault of an answer is found", "[unit]") {
-  // Faults are planted at a vertex in the middle of the lower sheet and at one of its planes.
+  // The faults are planted at a vertex in the middle of the lower sheet, and at one of its planes.
   constexpr std::size_t vertex = 4, some = 3;
   const auto with = [](const std::function<void(TwoSheets&)>& fault) {
     TwoSheets sheets;
@@ -155,7 +154,7 @@ TEST_CASE("plane: a fixed side bears none, and stands where it is", "[unit]") {
 
 TEST_CASE("plane: positions that leave a half-space are counted, however near", "[unit]") {
   const compare::VertexPlanes planes{{0, 1}, {{{}, {0.1f, 0.2f, 0.3f}, 0}}};
-  const Vec3f on{-3, 0, 1};  // 0.3f − 3 · 0.1f > 0 by 7·10⁻⁹, since floats are no exact tenths
+  const Vec3f on{-3, 0, 1};  // 0.3f − 3 · 0.1f = 7·10⁻⁹ > 0, because floats are no exact tenths
   CHECK(reference::broken_planes(planes, std::array{on}) == 1);
   CHECK(reference::broken_planes(planes, std::array{Vec3f{0, 0, 0}}) == 0);
   CHECK(reference::broken_planes({}, std::array{on}) == 0);
@@ -191,7 +190,7 @@ TEST_CASE("pair_planes: of every mesh they hold all pairs within r_q, and no ver
 
 namespace {
 
-/// Holds two triangles above one another, so near that planes are due for all their pairs.
+/// Two triangles above one another, so near that all their pairs must have planes.
 struct TwoTriangles {
   compare::Topology topology = compare::build_topology(6, std::vector<compare::Triangle>{{0, 1, 2}, {3, 4, 5}});
   std::vector<Vec3f> positions{{0, 0, 0},           {1, 0, 0},           {0, 1, 0},
@@ -220,7 +219,8 @@ TEST_CASE("plane: what an answer takes from the vertices is told", "[unit]") {
     CHECK(reference::plane_freedom(two.in(), out).missing == due);
   }
   SECTION("room between two sides, however little") {
-    const double height = 0x1p-18 * gap;  // both sides lose 2⁻¹⁷ together; Σ|δ| is up to 23 gaps, and 69 u are accepted
+    // together both sides lose 2⁻¹⁷ of the gap; Σ|δ| is up to 23 gaps, so 69 u are accepted
+    const double height = 0x1p-18 * gap;
     for (VertexPlane& plane : out.planes.items) plane.offset -= height;
     CHECK(reference::plane_freedom(two.in(), out).narrowing > compare::plane_narrowing_tolerance);
   }

@@ -1,5 +1,5 @@
-// The energy −½ qᵀ M q − b·q on the unit sphere of ℝ⁴ over any number type, and its minimiser from a start by Newton's
-// method there, which uses neither the eigenvectors of M nor the equation of its multiplier.
+// The energy −½ qᵀ M q − b·q on the unit sphere of ℝ⁴ over any number type. Newton's method on the sphere finds a
+// minimiser from a start, without the eigenvectors of M and without the equation of its multiplier.
 #pragma once
 
 #include <cmath>
@@ -9,11 +9,11 @@
 
 namespace ogc::reference::on_sphere {
 
-/// Binary128 with 113 bits: the compiler's own type, whose exponents need no care.
+/// Binary128 with 113 bits; its exponents never overflow here.
 __extension__ using Many = __float128;
 
 inline double root(double x) { return std::sqrt(x); }
-/// Takes the root in double and improves it by two steps of Newton's method, each of which doubles its bits.
+/// Computes the root in double and improves it by two steps of Newton's method, each of which doubles the correct bits.
 inline Many root(const Many& x) {
   if (!(x > 0)) return 0;
   Many r = std::sqrt(static_cast<double>(x));
@@ -23,7 +23,7 @@ inline Many root(const Many& x) {
 
 template <class T>
 using Four = FourOf<T>;
-/// Symmetric 3×3 matrix of the tangent space.
+/// A symmetric 3×3 matrix on the tangent space.
 template <class T>
 using Square = std::array<Triple<T>, 3>;
 
@@ -44,7 +44,7 @@ T length_of(const Triple<T>& a) {
   return root(dot(a, a));
 }
 
-/// Returns the k-th of i, j, k, 1.
+/// Returns the k-th of the quaternions i, j, k, 1.
 template <class T>
 Four<T> basis(std::size_t k) {
   Four<T> e{T(0.0), T(0.0), T(0.0), T(0.0)};
@@ -52,7 +52,6 @@ Four<T> basis(std::size_t k) {
   return e;
 }
 
-/// The quantities of the energy −½ qᵀ M q − b·q.
 template <class T>
 struct Problem {
   Triple<T> apart, direction;  ///< D [m], c [1]
@@ -121,7 +120,7 @@ struct OnSphere {
   }
 };
 
-/// Returns the solution of (A + shift I) x = y by Cholesky's method; empty where that matrix is not positive definite.
+/// Returns the solution of (A + shift I) x = y by Cholesky's method; empty if that matrix is not positive definite.
 template <class T>
 std::optional<Triple<T>> solve(const Square<T>& a, const T& shift, const Triple<T>& y) {
   std::array<Triple<T>, 3> lower;
@@ -144,8 +143,8 @@ std::optional<Triple<T>> solve(const Square<T>& a, const T& shift, const Triple<
   return x;
 }
 
-/// Minimises from q on, until the slope is below `enough` of `unit` or the energy no longer falls. A shift makes the
-/// second derivative positive definite where it is not.
+/// Minimises from q on, until the slope is below `enough` · `unit` or the energy stops falling. If the second
+/// derivative is not positive definite, a shift makes it so.
 template <class T>
 Four<T> minimised(const Problem<T>& problem, Four<T> q, const T& unit, double enough) {
   q = scaled(T(T(1.0) / size_of(q)), q);
@@ -156,7 +155,7 @@ Four<T> minimised(const Problem<T>& problem, Four<T> q, const T& unit, double en
     T shift(0.0);
     auto turn = solve(at.bend, shift, at.slope);
     while (!turn) {
-      // starts as small as possible, since curvatures differ
+      // The smallest possible start, because curvatures have very different sizes.
       shift = shift > 0.0 ? T(T(16.0) * shift) : T(T(0x1p-120) * unit);
       turn = solve(at.bend, shift, at.slope);
     }
@@ -166,7 +165,7 @@ Four<T> minimised(const Problem<T>& problem, Four<T> q, const T& unit, double en
           q, Four<T>{T(0.0) - share * (*turn)[0], T(0.0) - share * (*turn)[1], T(0.0) - share * (*turn)[2], T(1.0)});
       there = scaled(T(T(1.0) / size_of(there)), there);
       const T found = problem.energy(there);
-      // Near the minimum the energy can't tell steps apart, and full steps are right.
+      // Near the minimum rounding of the energy hides the effect of a step; full steps are right there.
       const bool is_small = length_of(*turn) < T(1e-4) && shift == 0.0;
       if (found < energy || (is_small && share == 1.0)) q = there, energy = found, lower = true;
     }

@@ -1,7 +1,7 @@
-// The truth about an orientation follows from the energy alone: Newton's method on the unit sphere finds its
-// minimisers, without the eigenvectors of M or the equation of its multiplier. A function of this kind has at most one
-// local minimiser that is not global (Martínez 1994), so a handful of starts, in double, finds the basin. The rest is
-// done in numbers of 113 bits, in which b is resolved beside an M of 10²⁰ times its size.
+// Computes the truth about an orientation from the energy alone: Newton's method on the unit sphere finds the
+// minimisers, without the eigenvectors of M and without the equation of its multiplier. A function of this kind has at
+// most one local minimiser that is not global (Martínez 1994), so a handful of starts, in double, finds the basin. The
+// last steps use 113 bits, which resolve b even if M is 10²⁰ times as large.
 #include "reference/energies/rods/orientation.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ Triple<T> difference(const compare::Vec3f& a, const compare::Vec3f& b) {
   return {T(a.x) - T(b.x), T(a.y) - T(b.y), T(a.z) - T(b.z)};
 }
 
-/// Returns the least of the minimisers that many starts reach.
+/// Returns the least of the minimisers from many starts.
 Four<Many> least(const Problem<Many>& problem, const Four<Many>& old, const Many& unit) {
   const Problem<double> rough = problem.as<double>();
   std::vector<Four<double>> starts;
@@ -47,7 +47,7 @@ Four<Many> least(const Problem<Many>& problem, const Four<Many>& old, const Many
     }
   std::optional<Four<Many>> best;
   Many lowest = 0;
-  // Where nearly a whole circle of quaternions is equally good, ends lie all around it: the lowest lead to the
+  // If nearly a whole circle of quaternions is equally good, ends lie all around it; the lowest ends lead to the
   // minimiser.
   std::ranges::sort(ends, {}, [&](const Four<double>& q) { return rough.energy(q); });
   ends.resize(std::min<std::size_t>(ends.size(), 4));
@@ -59,15 +59,14 @@ Four<Many> least(const Problem<Many>& problem, const Four<Many>& old, const Many
   return *best;
 }
 
-/// An orientation towards which a neighbour pulls, by its rest shape or by damping.
+/// The orientation towards which a neighbour pulls, by its rest shape or by damping.
 struct Asked {
   Four<Many> orientation;  ///< t
   Many weight;             ///< w, or k w [N m]
   Many agreement;          ///< t·q of the old q
 };
 
-/// A case in exact numbers: products of at most five single-precision numbers are exact in 113 bits except for their
-/// last bits.
+/// A case in exact numbers: 113 bits hold products of at most five single-precision numbers except for their last bits.
 struct Question {
   Four<Many> old;
   Problem<Many> problem;  ///< without b
@@ -103,7 +102,7 @@ struct Question {
   }
 };
 
-/// Returns ‖H⁻¹ (columns)‖, Euclidean; infinite where H is not positive definite.
+/// Returns ‖H⁻¹ (columns)‖, Euclidean; infinite if H is not positive definite.
 double reaction(const Square<Many>& bend, const std::vector<Triple<Many>>& columns) {
   Many squared(0.0);
   for (const Triple<Many>& column : columns) {
@@ -119,7 +118,7 @@ Triple<Many> along(const std::array<Four<Many>, 3>& basis, const Four<Many>& v) 
   return {inner(basis[0], v), inner(basis[1], v), inner(basis[2], v)};
 }
 
-/// Returns Σ ‖∂q/∂y‖ ‖y‖ at the minimiser q. `pull_size`: the size of b, or of the vector in its place.
+/// Returns Σ ‖∂q/∂y‖ ‖y‖ at the minimiser q. `pull_size`: size of b, or of the vector that replaces it.
 double condition(const Question& question, const Problem<Many>& problem, const Four<Many>& q, double pull_size) {
   const auto basis_at = tangents(q);
   const Square<Many> bend = OnSphere<Many>(problem, q).bend;
@@ -138,7 +137,7 @@ double condition(const Question& question, const Problem<Many>& problem, const F
   return std::max(1.0, std::isnan(all) ? std::numeric_limits<double>::infinity() : all);
 }
 
-/// Returns whether the tolerance reaches a quarter of a radian: beyond it the first order means nothing, and any other
+/// Returns whether the tolerance exceeds a quarter of a radian. The first order is meaningless then, and any
 /// orientation is accepted.
 bool is_open(double scale) { return !(scale * compare::orientation_tolerance * compare::unit_roundoff <= 0.25); }
 
@@ -157,7 +156,7 @@ compare::OrientationAnswer answer(const Question& question, const Four<Many>& ve
   Four<Many> q = question.old;
   result.scale = 1;
   if (pull > 0.0 || sigma > 0.0) {
-    // Without neighbours many q are equally good; a faint pull towards the old q selects the one nearest to it.
+    // Without neighbours many q are equally good; a faint pull towards the old q selects the nearest one.
     double pull_size = question.pull_size;
     if (!(pull > 0.0)) {
       problem.vector = scaled(Many(Many(0x1p-60) * sigma), question.old);

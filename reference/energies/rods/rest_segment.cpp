@@ -1,5 +1,5 @@
 // Computes directions from exact differences, and everything else in extended precision, 2⁻⁶⁴. A rod of 10⁵ segments
-// loses at most 17 bits of it, which is far from single precision.
+// loses at most 17 of these bits, so single precision is not affected.
 #include <cmath>
 #include <limits>
 
@@ -24,14 +24,13 @@ Frame normalised(const Frame& q) {
   return unit;
 }
 
-/// A rotation between two directions, and the factor by which it magnifies a small error of them.
+/// A rotation between two directions, and the factor by which it magnifies their errors.
 struct Turn {
   Frame rotation;
   double factor;  ///< 1/cos(θ/2)
 };
 
-/// Uses half-way vectors: the product of both directions as quaternions is cos θ + sin θ axis; its root is the
-/// rotation.
+/// Computes the half-angle quaternion from (sin θ axis, 1 + cos θ), which is twice cos(θ/2) times the rotation.
 Turn smallest_turn(const Direction& from, const Direction& to) {
   const Triple<Wide> across = cross(from, to);
   const Wide along = dot(from, to), one = std::sqrt(dot(from, from) * dot(to, to));
@@ -104,7 +103,7 @@ class Rods {
     }
   }
 
-  /// Carries the frame of segment `e` through its end `end` to the following segments, as long as they have none.
+  /// Passes the frame of segment `e` on through its end `end`, from segment to segment, until a segment has a frame.
   void follow(std::size_t e, std::size_t end) {
     while (segment(e).neighbour[end] >= 0) {
       const auto next = static_cast<std::size_t>(segment(e).neighbour[end]);

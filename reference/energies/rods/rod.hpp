@@ -7,7 +7,7 @@ namespace ogc::reference {
 /// Returns the answer to one case.
 compare::ForceAnswer rod(const compare::RodCase& question);
 
-/// Computes the stage `rod`.
+/// Stage rod: computes all cases.
 compare::ForceTruth rod(const compare::RodIn& in);
 
 }  // namespace ogc::reference

@@ -1,5 +1,6 @@
-// What contacts leave of the moves of a guess loop, round after round (method.md §5.2, What contacts leave of a move):
-// in double for whole runs, and for the judge with the accepted error of an answer in single precision.
+// Computes the part of each move that contacts leave in a round of the guess loop (method.md §5.2, What contacts leave
+// of a move). For whole runs it computes in double; for the judge it adds the accepted error of a single-precision
+// answer.
 #pragma once
 
 #include <array>
@@ -15,30 +16,30 @@ namespace ogc::reference {
 
 /// A contact, seen from one of its vertices.
 struct Hold {
-  double weight = 0;        ///< of the vertex, not 0
+  double weight = 0;        ///< weight of the vertex, not 0
   Triple<double> normal{};  ///< n
   Triple<double> others{};  ///< o = Σ w_u m_u over the other vertices [m]
   double friction = 0;      ///< μ
-  /// Returns q [m]; it is not positive where the contact takes nothing.
+  /// Returns q [m]; the contact takes nothing if it is not positive.
   double taken(const Triple<double>& move) const;
-  /// Returns s/w, the slip of the vertex on its partner [m].
+  /// Returns s/w, the slip of the vertex relative to its partner [m].
   Triple<double> slide(const Triple<double>& move) const;
 };
-/// Returns what the contact leaves of a move [m].
+/// Returns the move that the contact leaves [m].
 Triple<double> held_by(const Hold& contact, const Triple<double>& move);
 
-/// A contact that may hold vertices: its vertices and its friction.
+/// A contact that may hold vertices.
 struct GuessContact {
   compare::ContactSides sides = compare::ContactSides::point_point;
   std::array<compare::Index, 4> vertex{-1, -1, -1, -1};  ///< in the order of the stage contact_force
   double friction = 0;                                   ///< μ
 };
 
-/// The guess loop of one step, as far as contacts hold it.
+/// Applies the contacts to the moves of one step's guess loop.
 class HeldMoves {
  public:
-  /// `groups`: by vertex; −1 for free vertices, which contacts hold; above 0 for prescribed ones, which stay or go. r
-  /// [m].
+  /// `groups`, by vertex: −1 for free vertices, which contacts hold; above 0 for prescribed vertices, which stay or
+  /// move. r in metres.
   HeldMoves(std::vector<compare::Index> groups, double contact_radius)
       : groups_(std::move(groups)),
         radius_(contact_radius),
@@ -46,11 +47,11 @@ class HeldMoves {
         taken_(groups_.size()),
         taken_error_(groups_.size(), 0) {}
 
-  /// Does a round about `previous`, with the contacts found there. Returns where each vertex goes if nothing truncates
-  /// it [m]: its target to the bit where no contact takes anything, `previous` where a prescribed vertex stays.
+  /// Computes a round about `previous` with the contacts found there. Returns the position of each vertex without
+  /// truncation [m]: its target to the bit if no contact takes anything, `previous` if a prescribed vertex stays.
   std::vector<Triple<double>> round(std::span<const GuessContact> contacts, const std::vector<Triple<double>>& previous,
                                     const std::vector<Triple<double>>& target);
-  /// Does the same round in the form that the judge compares with.
+  /// Computes the same round with accepted errors, for the judge.
   std::vector<compare::HeldMove> judged_round(std::span<const GuessContact> contacts,
                                               const std::vector<compare::Vec3f>& previous,
                                               const std::vector<compare::Vec3f>& target);
@@ -63,10 +64,10 @@ class HeldMoves {
 
   std::vector<compare::Index> groups_;
   double radius_;
-  bool is_first_ = true;               ///< no round has taken place
-  std::vector<bool> stays_;            ///< the result of stays()
+  bool is_first_ = true;  ///< whether no round has taken place
+  std::vector<bool> stays_;
   std::vector<Triple<double>> taken_;  ///< t by vertex [m]
-  std::vector<double> taken_error_;    ///< how far another implementation's t may be from it [m]
+  std::vector<double> taken_error_;    ///< accepted error of another implementation's t [m]
 };
 
 }  // namespace ogc::reference

@@ -10,8 +10,8 @@ namespace ogc::reference {
 namespace {
 
 constexpr int most_iterations = 500;
-/// ‖A z − θ z‖ ≤ tolerance θ implies an eigenvalue within tolerance θ of the Ritz value θ. The tolerance is small so
-/// that the iteration has time to tell the largest eigenvalue from its neighbours.
+/// ‖A z − θ z‖ ≤ tolerance θ implies an eigenvalue within tolerance θ of the Ritz value θ. The tolerance is small, so
+/// that the iteration separates the largest eigenvalue from its neighbours.
 constexpr double tolerance = 0x1p-20;
 
 /// Returns numbers in [−1, 1) without a pattern, the same in every run: a start orthogonal to the largest eigenvector
@@ -48,7 +48,7 @@ double largest_eigenvalue(Eigen::Index size, Apply apply) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Turns an operation on rows into one on Eigen's vectors.
+/// Converts an operation on std::vector to one on Eigen's vectors.
 template <class Operation>
 auto through(Operation operation) {
   return [operation](const Eigen::VectorXd& x) -> Eigen::VectorXd {

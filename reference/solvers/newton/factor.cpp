@@ -1,7 +1,6 @@
-// CHOLMOD copies the entries of each small supernode with four OpenMP threads on every machine, and BLAS may add as
-// many threads as there are cores. Both spin while they wait: on two busy cores the factorisation of 14,700 rows took
-// 2.4 times as long as with one thread. So OpenMP is limited to one thread here, and BLAS to one unless
-// OPENBLAS_NUM_THREADS is set.
+// CHOLMOD copies the entries of each small supernode with four OpenMP threads on every machine, and BLAS may add one
+// thread for each core. They spin while they wait: on two busy cores the factorisation of 14,700 rows took 2.4 times as
+// long as with one thread. So OpenMP is limited to one thread here, and so is BLAS unless OPENBLAS_NUM_THREADS is set.
 #include "reference/solvers/newton/factor.hpp"
 
 #include <cstdlib>
@@ -10,7 +9,7 @@
 
 #include "compare/problem/error.hpp"
 
-// Defined where CHOLMOD was built with OpenMP, and where BLAS is OpenBLAS.
+// Defined if CHOLMOD was built with OpenMP, and if BLAS is OpenBLAS.
 extern "C" {
 [[gnu::weak]] void omp_set_max_active_levels(int levels);
 [[gnu::weak]] void openblas_set_num_threads(int threads);
@@ -44,7 +43,7 @@ struct Factor::Memory {
 
 namespace {
 
-/// Returns a view: CHOLMOD reads the matrix in place and does not change it.
+/// Returns a view of the matrix, which CHOLMOD reads in place and does not change.
 cholmod_sparse view(const BlockMatrix& matrix) {
   cholmod_sparse a{};
   a.nrow = a.ncol = matrix.rows();

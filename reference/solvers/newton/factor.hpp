@@ -1,5 +1,5 @@
-// A supernodal Cholesky factorisation whose symbolic part is kept while the pattern stays. Only this header's source
-// uses CHOLMOD.
+// A supernodal Cholesky factorisation that keeps its symbolic part while the pattern stays. Only the source of this
+// header uses CHOLMOD.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace ogc::reference {
 
-/// A Cholesky factorisation by CHOLMOD, whose analysis is kept as long as the pattern stays.
+/// A Cholesky factorisation by CHOLMOD.
 class Factor {
  public:
   Factor();
@@ -17,9 +17,9 @@ class Factor {
   Factor(const Factor&) = delete;
   Factor& operator=(const Factor&) = delete;
 
-  /// Orders the pattern for little fill. Throws compare::ResourceError where memory runs out.
+  /// Orders the pattern for little fill. Throws compare::ResourceError if memory runs out.
   void analyze(const BlockMatrix& matrix);
-  /// Returns false where the matrix is not positive definite (or holds a not-a-number). Throws like `analyze`.
+  /// Factorises; returns false if the matrix is not positive definite (or holds a not-a-number). Throws like `analyze`.
   bool factorize(const BlockMatrix& matrix);
   /// Returns A⁻¹ b. The last factorisation must have succeeded.
   std::vector<double> solve(const std::vector<double>& b);

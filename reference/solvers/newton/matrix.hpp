@@ -1,7 +1,6 @@
-// The sparse system matrix of Newton's method: the lower triangle of a symmetric matrix of 3×3 blocks, one row of
-// blocks for each free vertex, in compressed columns as CHOLMOD reads it. Its pattern is kept as long as it holds all
-// blocks that the stencils need. Each value is summed by one thread, in the order of the stencils, so that threads
-// change no bit.
+// The sparse system matrix of Newton's method: the lower triangle of a symmetric matrix of 3×3 blocks, with one row of
+// blocks for each free vertex, in CHOLMOD's compressed columns. The pattern is kept while it holds all blocks that the
+// stencils need. One thread sums each value in the order of the stencils, so the number of threads changes no bit.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +11,7 @@
 
 namespace ogc::reference {
 
-/// Vertices of a stencil in the order of its derivatives; missing ones are −1.
+/// Vertices of a stencil in the order of its derivatives; unused entries are −1.
 using StencilVertices = std::array<compare::Index, 4>;
 
 /// The matrix of the free vertices, lower triangle, by columns.
@@ -21,23 +20,23 @@ class BlockMatrix {
   /// Makes a row of blocks for each free vertex.
   explicit BlockMatrix(const std::vector<Mobility>& mobility);
 
-  /// Finds the blocks of these stencils. The first `steady` of them must be the same in every call with this number.
-  /// Returns whether the pattern changed.
+  /// Finds the blocks of these stencils; returns whether the pattern changed. The first `steady` stencils must be the
+  /// same in every call with this value of `steady`.
   bool set_stencils(std::span<const StencilVertices> stencils, std::size_t steady = 0);
-  /// Makes the next stencils get a pattern of their own. A kept pattern may hold more blocks than they need, and it
-  /// decides the order of elimination: with it a step's last bits would depend on earlier steps, and a run that is
-  /// continued from a stored state could not have the bits of an uninterrupted one.
+  /// Forgets the pattern, so that the next stencils get a minimal one. A kept pattern may hold more blocks than needed,
+  /// and it decides the order of elimination. The last bits of a step would then depend on earlier steps, and a
+  /// continued run would differ from an uninterrupted one.
   void forget_pattern() { blocks_.clear(); }
-  /// Sums the stencils' Hessians and, by vertex, the term of the diagonal (m/h²) [N/m].
+  /// Sums the stencils' Hessians, and the vertices' terms of the diagonal (m/h²) [N/m].
   void assemble(std::span<const double> diagonal, std::span<const StencilDerivatives> stencils);
 
-  /// Adds `value` ≥ 0 to the diagonal of row `row` of blocks, until the next assemble. A positive definite matrix stays
+  /// Adds `value` ≥ 0 to the diagonal of the block row `row`, until the next assemble. A positive definite matrix stays
   /// so.
   void add_to_diagonal(std::size_t row, double value);
 
   /// Returns the number of scalar rows, three for each free vertex.
   std::size_t rows() const { return 3 * free_.size(); }
-  /// Returns where each column begins, as CHOLMOD reads it.
+  /// Returns the first entry of each column in CHOLMOD's format.
   const std::vector<std::int32_t>& column_begin() const { return column_begin_; }
   /// Returns the row of each entry.
   const std::vector<std::int32_t>& row_index() const { return row_index_; }
@@ -50,7 +49,8 @@ class BlockMatrix {
   std::vector<double> times(const std::vector<double>& x) const;
 
  private:
-  /// The part of a stencil's Hessian that is added to a block: the block at places `row` and `column` of the stencil.
+  /// A block of a stencil's Hessian at places `row` and `column` of the stencil, and the matrix block to which it is
+  /// added.
   struct Share {
     std::uint64_t block = 0;  ///< column · 2³² + row
     std::uint32_t stencil = 0;
@@ -65,11 +65,11 @@ class BlockMatrix {
                        std::span<const StencilDerivatives> stencils);
 
   std::vector<std::size_t> free_;
-  std::vector<std::int32_t> number_;                    ///< of each vertex among the free ones, or −1
+  std::vector<std::int32_t> number_;                    ///< number among the free vertices, or −1
   std::vector<std::uint64_t> blocks_;                   ///< ascending
   std::vector<std::size_t> block_begin_, share_begin_;  ///< by column; by block
   std::vector<Share> shares_, steady_shares_;
-  std::size_t steady_ = 0;  ///< number of stencils that steady_shares_ belong to
+  std::size_t steady_ = 0;  ///< number of stencils in steady_shares_
   std::vector<std::int32_t> column_begin_, row_index_;
   std::vector<double> values_;
 };

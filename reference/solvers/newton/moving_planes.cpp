@@ -9,9 +9,9 @@ namespace {
 
 /// Most sweeps over pairs that come too near (see `truncated`).
 constexpr int most_sweeps = 64;
-/// Rounds in which vertices are scaled one by one, before all are scaled alike.
+/// Rounds in which vertices are scaled one by one, before all get the same scale.
 constexpr int most_scalings = 16;
-/// Share of its room that a pair gets back when it is moved apart, so that sweeps end.
+/// Share of its room that a pair gets back when it is moved apart; it makes the sweeps end.
 constexpr double given_back = 0x1p-6;
 /// Rounding of a difference of two sums of three products in double: each operation rounds by 2⁻⁵³ of its result.
 constexpr double height_noise = 0x1p-49;
@@ -52,7 +52,7 @@ MovingPlanes::MovingPlanes(const std::vector<NearPair>& pairs, const std::vector
       pair.vertices[k] = static_cast<std::size_t>(near.vertices[k]);
       size = std::max(size, largest(centre_[pair.vertices[k]]) + radius_[pair.vertices[k]]);
     }
-    // n is a unit vector up to 2⁻²²; both x and its stored value may be off, on each side by this much.
+    // n is a unit vector up to 2⁻²²; on each side, both x and its stored value may have this error.
     const double noise = 2 * (1 + 0x1p-20) * rounding_of(size) + 3 * height_noise * size;
     pair.gap = separation(pair, [&](std::size_t v) { return centre_[v]; });
     pair.least = (1 - 2 * relaxation) * pair.gap + noise;
@@ -85,7 +85,7 @@ double MovingPlanes::share_in_ball(std::size_t vertex, const Triple<double>& x, 
   return std::clamp((std::sqrt(ab * ab + bb * room) - ab) / bb * (1 - 0x1p-40), 0.0, 1.0);
 }
 
-/// Returns the pairs whose sides could come too near if both moved straight towards each other by twice their steps.
+/// Returns the pairs whose sides would come too near if both moved straight towards each other by twice their steps.
 std::vector<std::uint32_t> MovingPlanes::endangered(const State& x, const State& step) const {
   std::vector<double> reach(x.size());
   for (std::size_t v = 0; v < x.size(); ++v) reach[v] = length(step[v]);
@@ -129,8 +129,7 @@ bool MovingPlanes::shares(const State& x, const State& step, std::vector<double>
   for (const Pair& pair : pairs_) {
     const double after = separation(pair, [&](std::size_t v) { return x[v] + step[v]; });
     if (after >= pair.least) continue;
-    // the separation is concave along the way, so it is at least the linear interpolation between its values at both
-    // ends
+    // The separation is concave along the way, so it is at least the linear interpolation between both ends.
     const double before = separation(pair, [&](std::size_t v) { return x[v]; }),
                  left = std::max(0.0, (before - pair.least) / (before - after)) * (1 - 0x1p-40);
     for (const std::size_t v : pair.vertices) share[v] = std::min(share[v], left);

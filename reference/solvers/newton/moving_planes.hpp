@@ -1,6 +1,6 @@
-// How far Newton's step may move the free vertices between two detections, pair by pair. A ball or a half-space that
-// stands still holds back two near vertices although they travel together; a plane that travels with them does not. At
-// X_prev a pair (p, q) within r_q has a unit vector n, from closest point to closest point, and the gap
+// Limits Newton's step of the free vertices between two detections, pair by pair. A fixed ball or half-space stops two
+// near vertices even if they travel together; a plane that travels with them does not. At X_prev a pair (p, q) within
+// r_q has a unit vector n, from closest point to closest point, and the gap
 //
 //   g = min over q of n·X_prev − max over p of n·X_prev.
 //
@@ -8,13 +8,13 @@
 //
 //   min over q of n·x − max over p of n·x ≥ (1 − 2γ_p) g                                                          (*)
 //
-// and no vertex has moved by more than γ_p r_q, so that pairs farther apart than r_q can't meet. The left side of (*)
-// is the smallest of linear functions of all positions, so the set of inside states is convex: on the straight way from
-// X_prev to an inside state, and between two inside states, a plane with the normal n always lies between the hulls of
-// p and q. Two balls of radius γ_p d keep (*), too: it is Eq. 21 for relative motion, and restricts approach alone.
+// and no vertex has moved by more than γ_p r_q, so that pairs farther apart than r_q cannot meet. The left side of (*)
+// is the minimum of linear functions of all positions, so the set of inside states is convex. On the straight way
+// between two inside states, or from X_prev to one, a plane with the normal n always separates the hulls of p and q.
+// Two balls of radius γ_p d keep (*), too; (*) is Eq. 21 for relative motion, and restricts only approach.
 //
-// Positions are doubles within a step, but X_prev and what is stored are rounded: (*) is tested with additional room
-// for rounding. Where the gap is too small for that, the pair's vertices stay at X_prev.
+// Positions are doubles within a step, but X_prev and stored positions are rounded. So (*) is tested with additional
+// room for rounding. If the gap is too small for that room, the pair's vertices stay at X_prev.
 #pragma once
 
 #include <cstdint>
@@ -25,23 +25,23 @@
 
 namespace ogc::reference {
 
-/// The pairs of one detection and their planes.
+/// The planes of all pairs of one detection.
 class MovingPlanes {
  public:
   MovingPlanes() = default;
-  /// Takes all pairs within r_q [m] at X_prev, of vertices with this mobility; `relaxation` is γ_p.
+  /// Takes all pairs within r_q [m] at X_prev, and the mobility of the vertices; `relaxation` is γ_p.
   MovingPlanes(const std::vector<NearPair>& pairs, const std::vector<compare::Vec3f>& previous,
                const std::vector<Mobility>& mobility, double query_radius, double relaxation);
 
-  /// Moves vertices that must stay at X_prev there; x is X_prev up to rounding.
+  /// Moves vertices that must stay to X_prev; x is X_prev up to rounding.
   void enter(State& x) const;
   /// Returns a step of the free vertices near `step` [m] that stays inside; x must be inside. Cuts the step to the
-  /// balls, then moves apart, in sweeps, both sides of pairs that would come too near; what the sweeps leave is scaled
-  /// for the vertices concerned.
+  /// balls. Then moves the sides of pairs that would come too near apart, in sweeps. Scales the step of the vertices
+  /// for which sweeps are not enough.
   State truncated(const State& x, State step) const;
   /// Returns the largest share in [0, 1] of `step` that surely stays inside.
   double share_inside(const State& x, const State& step) const;
-  /// Returns the same where only `vertex` moves.
+  /// Returns the same if only `vertex` moves.
   double share_inside(const State& x, std::size_t vertex, const Triple<double>& step) const;
   /// Checks whether stored positions keep every pair apart, exactly.
   bool kept_by(const std::vector<compare::Vec3f>& stored) const;
@@ -51,7 +51,7 @@ class MovingPlanes {
     std::array<std::size_t, 4> vertices{};
     std::size_t second_from = 1;
     Triple<double> normal;
-    double least = 0;  ///< what must remain of the gap [m]
+    double least = 0;  ///< least allowed gap [m]
     double gap = 0;    ///< [m]
   };
   /// Returns min over q of n·x − max over p of n·x; `at` maps a vertex to x.
@@ -60,7 +60,7 @@ class MovingPlanes {
   double share_in_ball(std::size_t vertex, const Triple<double>& x, const Triple<double>& step) const;
   std::vector<std::uint32_t> endangered(const State& x, const State& step) const;
   bool move_apart(const Pair& pair, const State& x, State& step) const;
-  /// Sets for each vertex the smallest share that its ball and its pairs leave; returns whether all are 1.
+  /// Sets for each vertex the smallest share that its ball and its pairs allow; returns whether all shares are 1.
   bool shares(const State& x, const State& step, std::vector<double>& share) const;
 
   bool stays(std::size_t vertex) const { return mobility_[vertex] == Mobility::fixed || radius_[vertex] == 0; }
@@ -68,7 +68,7 @@ class MovingPlanes {
 
   State centre_;
   double ball_ = 0;             ///< γ_p r_q [m]
-  std::vector<double> radius_;  ///< of the ball about X_prev, less rounding; 0 where the vertex stays [m]
+  std::vector<double> radius_;  ///< of the ball about X_prev, minus rounding; 0 if the vertex stays [m]
   std::vector<Mobility> mobility_;
   std::vector<Pair> pairs_;
   std::vector<std::uint32_t> first_of_, of_vertex_;  ///< pairs of each vertex

@@ -1,5 +1,4 @@
-// Limits of settings are numbers that single precision holds exactly, so that rounding can't take a setting out of its
-// range.
+// Limits of settings are exact in single precision, so that rounding cannot take a setting out of its range.
 #include "reference/solvers/newton/settings.hpp"
 
 #include <array>

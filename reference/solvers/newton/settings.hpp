@@ -8,9 +8,9 @@
 
 namespace ogc::reference {
 
-/// What bounds Newton's step between two detections.
+/// Selects what limits Newton's step between two detections.
 enum class Truncation {
-  vertex,  ///< each vertex has its own region, by `bounds`
+  vertex,  ///< a region for each vertex, by `bounds`
   pair     ///< near pairs have planes that travel with them (moving_planes.hpp)
 };
 /// Returns whether planes travel with near pairs.
@@ -22,13 +22,13 @@ constexpr bool moves_planes(Truncation truncation) {
   return false;
 }
 
-/// Newton's settings. The table of settings has ranges and defaults.
+/// Newton's settings. The table of settings has their ranges and defaults.
 struct NewtonSettings {
-  std::int64_t iterations;       ///< most iterations of a step
-  double tolerance;              ///< residual (Eq. 29) at which a step has converged; 0: all iterations are done
-  double step_tolerance;         ///< a step has also converged where no vertex wants to move faster than this [m/s]
-  std::int64_t friction_solves;  ///< solves of a step, each with friction lagged to the solve before
-  HessianProjection projection;  ///< of each stencil's Hessian
+  std::int64_t iterations;  ///< most iterations of a step
+  double tolerance;         ///< residual (Eq. 29) at which a step has converged; 0: all iterations run
+  double step_tolerance;  ///< a step has also converged if Newton's direction moves every vertex slower than this [m/s]
+  std::int64_t friction_solves;  ///< solves of a step; each lags friction to the previous solve
+  HessianProjection projection;  ///< projection of each stencil's Hessian
   Truncation truncation;
 };
 

@@ -12,17 +12,16 @@ namespace {
 
 using compare::Vec3f;
 
-/// A scaled step is preferred if it lowers the energy this many times as much: see the head of solver.hpp.
+/// A scaled step is preferred if it lowers the energy this many times as much as δ' (head of solver.hpp).
 constexpr double far_more = 2;
-/// The number of judgements after which a converged solve ends although the contacts found at its result are no better
-/// than those before: see the head of solver.hpp.
+/// Number of judgements after which a converged solve ends although the contacts at its result are not better (head of
+/// solver.hpp).
 constexpr int most_judgements = 4;
-/// Largest ‖δ_v‖/‖δ'_v‖ that counts: beyond it a vertex practically stands still.
+/// Largest ‖δ_v‖/‖δ'_v‖ that is used; beyond it a vertex practically does not move.
 constexpr double most_pinned = 1e6;
-/// Each round costs a factorisation; from the third on they rarely lower the energy more.
+/// Each round costs a factorisation; from the third round on they rarely lower the energy more.
 constexpr int most_pin_rounds = 6;
-/// A line search that accepts a smaller share of a direction has come to a standstill, in its balls or at a kink of its
-/// contacts.
+/// A line search that accepts a smaller share has stalled, at its balls or at a kink of its contacts.
 constexpr double least_share = 1e-3;
 
 double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
@@ -56,12 +55,12 @@ StepResult NewtonSolver::step(const std::vector<Vec3f>& start, const std::vector
   pattern_stale_ = true;
   guess(GuessEnd::contact);
   if (!moves_planes(newton_.truncation)) return finish(status_of(solve()));
-  detect_next_ = true;  // the guess loop has balls alone
+  detect_next_ = true;  // the guess loop has only balls
   const std::uint32_t status = status_of(solve());
   return finish(end_between_planes(status));
 }
 
-/// Checks that what is stored keeps the planes of the last detection; then detects there once more, for the reported
+/// Checks that the stored positions keep the planes of the last detection; then detects there again, for the reported
 /// bounds.
 std::uint32_t NewtonSolver::end_between_planes(std::uint32_t status) {
   if (status == compare::step_not_finite) return status;
@@ -118,8 +117,8 @@ NewtonSolver::Outcome NewtonSolver::solve() {
   }
 }
 
-/// Each round does an iteration, or detects because the residual is small enough. Two such detections never follow one
-/// another, except while prescribed vertices creep towards their targets. The limit ends both.
+/// Each round runs an iteration, or detects because the residual is small enough. Such detections never follow each
+/// other, except while prescribed vertices approach their targets slowly. The limit ends both.
 NewtonSolver::Outcome NewtonSolver::solve_once() {
   for (std::int64_t round = 0; round <= 2 * newton_.iterations + 1; ++round)
     if (const std::optional<Outcome> outcome = iterate()) return *outcome;
@@ -132,8 +131,8 @@ double NewtonSolver::mean_force() const {
   return potential_.free_count() > 0 ? sum / static_cast<double>(potential_.free_count()) : 0;
 }
 
-/// Compares torques, like forces, with those after the guess, or with what rounding leaves of them: a straight rod that
-/// falls freely has none.
+/// Compares torques with those after the guess and with their rounding error, which decides for a freely falling
+/// straight rod.
 bool NewtonSolver::has_small_torque() {
   double sum = 0;
   for (std::size_t i = x_.size(); i < derivatives_.gradient.size(); ++i) sum += length(derivatives_.gradient[i]);
@@ -168,15 +167,14 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::iterate() {
   return advance(prescribed_cut);
 }
 
-/// Returns whether most_judgements solves have converged without being converged for the contacts found at their
-/// result. Rounds that halve the force are progress and don't count.
+/// Returns whether most_judgements solves have converged, but not for the contacts at their result. Rounds that halve
+/// the force do not count.
 bool NewtonSolver::judged_in_vain(double force) {
   if (judgements_ == 0 || force > 0.5 * least_judged_) ++judgements_;
   least_judged_ = std::min(least_judged_, force);
   return judgements_ >= most_judgements;
 }
 
-/// Solves, truncates, searches along the line.
 std::optional<NewtonSolver::Outcome> NewtonSolver::advance(std::size_t prescribed_cut) {
   if (!factorized_definite()) return Outcome::indefinite;
   const Direction direction = direction_of();
@@ -254,7 +252,7 @@ NewtonSolver::Direction NewtonSolver::direction_of() {
 void NewtonSolver::truncate(Direction& direction) const {
   if (moves_planes(newton_.truncation)) direction.truncated = planes_.truncated(x_, direction.delta);
   for (const std::size_t v : matrix_.free_vertices()) {
-    if (v >= x_.size()) {  // a segment's frame, which nothing bounds
+    if (v >= x_.size()) {  // a segment's frame, which has no bound
       direction.truncated[v] = direction.delta[v];
       continue;
     }
@@ -268,8 +266,8 @@ void NewtonSolver::truncate(Direction& direction) const {
   }
 }
 
-/// Adds springs to the matrix that hold each cut vertex where it is, and factorises it. A vertex that only inertia
-/// holds then goes as far as its ball allows; so do sheets that travel together.
+/// Adds springs to the matrix that hold each cut vertex at its position, and factorises the matrix. A vertex with only
+/// inertia then moves to the limit of its ball, and so do sheets that travel together.
 bool NewtonSolver::pin(const Direction& direction, std::vector<double>& pins) {
   const std::vector<std::size_t>& free = matrix_.free_vertices();
   const std::vector<double> inertias = potential_.inertias();
@@ -285,7 +283,7 @@ bool NewtonSolver::pin(const Direction& direction, std::vector<double>& pins) {
   return timed(factorization, [&] { return factor_.factorize(matrix_); });
 }
 
-/// Searches along δ' of the system with pins, which are stiffened where vertices are cut again, as long as that lowers
+/// Searches along δ' of the system with pins. If vertices are cut again, stiffens their pins, as long as that lowers
 /// the energy more.
 Accepted NewtonSolver::pinned(Direction direction, const PotentialTerms& before, double noise) {
   Accepted best;
@@ -342,8 +340,8 @@ double NewtonSolver::room_for(const State& delta) const {
   return room;
 }
 
-/// Searches along δ'; where it was cut, also along δ scaled to fit all balls, which is taken if the energy falls far
-/// more.
+/// Searches along δ'. If δ' was cut, also searches along δ scaled to fit all balls, and takes it if the energy falls
+/// far more.
 Accepted NewtonSolver::searched(const Direction& direction, const PotentialTerms& before, double noise) const {
   Accepted best = backtracked(potential_, unknowns(), direction.truncated, 1, before, noise);
   if (direction.cut > 0) {

@@ -15,28 +15,28 @@
 
 namespace ogc::reference {
 
-/// A segment with its quantities that are constant in a step.
+/// A segment and its constants in a step.
 struct RodTerm {
   std::array<compare::Index, 2> vertex{-1, -1};     ///< x₀, x₁
   double length = 0, stretch = 0, damping = 0;      ///< l [m], k_s [N], k [1]
   Triple<double> start{};                           ///< R(qᵗ)ᵀ Dᵗ/l
   std::array<compare::Index, 2> neighbour{-1, -1};  ///< behind, ahead
   std::array<double, 2> weight{};                   ///< w = 4 k_b/l̄ [N m]
-  std::array<FourOf<double>, 2> rest{}, before{};   ///< p°, pᵗ, as this segment reads them
+  std::array<FourOf<double>, 2> rest{}, before{};   ///< p°, pᵗ, from this segment to each neighbour
   compare::Index held = -1;                         ///< the segment's entry of compare::segment_groups
 };
 
-/// Returns colours of the free segments, −1 for others: no two neighbours share one, and each has the lowest that its
-/// lower-numbered neighbours leave.
+/// Returns colours of the free segments, −1 for others. A segment gets the lowest colour that no lower-numbered
+/// neighbour has.
 std::vector<compare::Index> segment_colours_of(const compare::RestStateOut& rest,
                                                const std::vector<compare::Index>& held);
 
-/// Returns the orientations of the scene's start: those that the scene gives, or those of the rest shape, turned into
-/// each segment's starting direction.
+/// Returns the orientations at the scene's start: the scene's own, or those of the rest shape, turned into each
+/// segment's starting direction.
 std::vector<compare::Quaternion> start_orientations(const compare::Scene& scene, const compare::RestStateOut& rest);
 
-/// Returns q after the smallest rotation from one direction to another: half a turn about the first axis of q between
-/// opposite directions, q itself where one of them is 0.
+/// Returns q after the smallest rotation from one direction to another. Opposite directions give half a turn about the
+/// first axis of q; a zero direction leaves q unchanged.
 FourOf<double> turned_along(const Triple<double>& from, const Triple<double>& to, const FourOf<double>& q);
 
 /// The rods of one scene, step after step.
@@ -46,31 +46,31 @@ class RodSystem {
   RodSystem(const compare::Scene& scene, const compare::RestStateOut& rest);
 
   bool is_used() const { return !terms_.empty(); }  ///< whether the scene has rods
-  /// Sets qᵗ of the next step; an empty span means the orientations of the scene's start. Throws std::invalid_argument
-  /// for another number of segments.
+  /// Sets qᵗ of the next step; an empty span selects the orientations of the scene's start. Throws
+  /// std::invalid_argument if the number of segments differs.
   void set_start(std::span<const compare::Quaternion> orientations);
-  /// Sets q of a state that another solver made; an empty span keeps q. Throws std::invalid_argument for another number
-  /// of segments.
+  /// Sets q of another solver's state; an empty span keeps q. Throws std::invalid_argument if the number of segments
+  /// differs.
   void put(std::span<const compare::Quaternion> orientations);
   /// Returns q, rounded.
   std::vector<compare::Quaternion> orientations() const;
 
-  /// Begins a step at xᵗ, from which damping counts, with q = qᵗ.
+  /// Begins a step at xᵗ with q = qᵗ; damping is relative to this state.
   void begin_step(const std::vector<Triple<double>>& start, std::int64_t number);
-  /// Sets q after the guess loop: turns qᵗ as the segment has turned from xᵗ to x, or as its prescribed motion turns.
-  /// Fixed segments keep qᵗ, and so do free ones with rod_start=kept.
+  /// Sets q after the guess loop: turns qᵗ like the segment from xᵗ to x, or like its prescribed motion. Fixed segments
+  /// keep qᵗ; free ones keep it with rod_start=kept.
   void turn(const std::vector<Triple<double>>& x);
   /// Moves each free segment to its minimiser, colour by colour.
   void sweep(const std::vector<Triple<double>>& x);
 
   /// Returns all segments.
   std::span<const RodTerm> terms() const { return terms_; }
-  /// Adds the force of segment `e` on its end `end`; `ends`: positions of its ends.
+  /// Adds the force of segment `e` on its end `end`; `ends` are the positions of both ends.
   void add_force(compare::Index e, std::size_t end, const std::array<Triple<double>, 2>& ends,
                  VertexSystemOf<double>& sum) const;
 
-  // Stencils of Newton's method: segments, then joints. Behind the vertices, at `vertex_count + e`, are the three
-  // unknowns ω of segment e: positions that include them mean q exp(ω/2), others q.
+  // Stencils of Newton's method: segments, then joints. The three unknowns ω of segment e have the number `vertex_count
+  // + e`, after the vertices. The quaternion is q exp(ω/2) if the positions include ω, otherwise q.
   std::size_t size() const { return terms_.size() + joints_.size(); }
   std::array<compare::Index, 4> vertices(std::size_t stencil) const;
   /// Returns how many of the stencil's first unknowns are vertices: two for a segment, none for a joint.
@@ -81,7 +81,7 @@ class RodSystem {
   StencilDerivatives derivatives(std::size_t stencil, const std::vector<Triple<double>>& x,
                                  HessianProjection projection) const;
   /// Writes the derivatives into the places from `to` on. Calls `finished` with the number of each stencil, on the
-  /// thread that did it.
+  /// thread that computed it.
   template <class Finished>
   void differentiate(const std::vector<Triple<double>>& x, HessianProjection projection, StencilDerivatives* to,
                      Finished finished) const {
@@ -93,9 +93,9 @@ class RodSystem {
   double length(std::size_t segment) const { return terms_[segment].length; }  ///< l [m]
   std::size_t segments() const { return terms_.size(); }
   bool is_free(std::size_t segment) const { return terms_[segment].held == -1; }
-  /// Returns the diagonal term of ω, which makes a matrix with a free twist definite: far below k_s l [N m].
+  /// Returns the diagonal term of ω, which makes a matrix with a free twist definite; far below k_s l [N m].
   double regularisation(std::size_t segment) const { return 1e-8 * terms_[segment].stretch * terms_[segment].length; }
-  /// Sets q ← q exp(ω/2), where x includes ω behind the positions.
+  /// Sets q ← q exp(ω/2); x has ω after the positions.
   void turn_by(const std::vector<Triple<double>>& x);
 
   double elastic_energy(const std::vector<Triple<double>>& x) const;  ///< without damping [J]
@@ -113,7 +113,7 @@ class RodSystem {
   using Positions = std::vector<Triple<double>>;
   Triple<double> apart(std::size_t e, const Positions& x) const;
   on_sphere::Problem<double> problem(std::size_t e, const Positions& x) const;
-  /// The neighbour `second` across end `end` of segment `first` < `second`.
+  /// Segment `second` is the neighbour across end `end` of segment `first` < `second`.
   struct Joint {
     std::size_t first, end, second;
   };

@@ -10,19 +10,19 @@
 
 namespace ogc::reference {
 
-/// The contacts of a set.
+/// The contacts of one set.
 struct ListedContacts {
   std::vector<compare::VertexFacetContact> vertex_facet;  ///< sorted by vertex and triangle
   std::vector<compare::EdgeEdgeContact> edge_edge;        ///< sorted by the edges that generate them
 };
 
-/// Returns the contacts nearer than in.contact_radius; in.query_radius is not read. `body`: by vertex. Throws
+/// Returns the contacts nearer than in.contact_radius; does not read in.query_radius. `body`: by vertex. Throws
 /// std::logic_error for the method's own set.
 ///
-/// ContactSet::pairs: the closest faces of each vertex and triangle, and of each two edges, that are no neighbours. A
-/// face that is closest in several pairs is listed once a pair, so that its force is a multiple; no block is tested.
-/// ContactSet::distance: for each vertex the closest face of each other body, by the lowest-numbered triangle where
-/// several are equally near; edges have no contacts.
+/// ContactSet::pairs: for each non-adjacent vertex and triangle, and for each two non-adjacent edges, their closest
+/// faces. A face that is closest in several pairs is listed several times, so that its force is a multiple; blocks are
+/// not tested. ContactSet::distance: for each vertex the closest face of each other body; the lowest-numbered triangle
+/// decides ties. Edges have no contacts.
 ListedContacts contact_variant(ContactSet set, const compare::DetectIn& in, std::span<const compare::Index> body);
 
 }  // namespace ogc::reference

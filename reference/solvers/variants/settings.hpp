@@ -1,31 +1,31 @@
-// Choices of the reference's solvers that an ablation replaces by others. Those are no part of the method;
-// reference_vbd at the defaults is the method.
+// Choices by which an ablation changes the reference's solvers. They are not part of the method; reference_vbd with the
+// defaults is the method.
 #pragma once
 
 #include "compare/problem/settings.hpp"
 
 namespace ogc::reference {
 
-/// Which contacts a detection lists (contact_sets.hpp).
+/// Selects the contacts that a detection lists (contact_sets.hpp).
 enum class ContactSet {
-  ogc,      ///< each face that is closest and whose block holds the other side, once (Alg. 1 and 2)
+  ogc,      ///< each closest face whose block holds the other side, once (Alg. 1 and 2)
   pairs,    ///< one for each pair of primitives within r, as in IPC, regardless of blocks
-  distance  ///< for each vertex the closest point of each other body: the gradient of an unsigned distance field
+  distance  ///< the closest point of each other body, for each vertex: the gradient of an unsigned distance field
 };
-/// Which vertices are updated together (colouring.hpp).
+/// Selects the vertices that are updated together (colouring.hpp).
 enum class Colouring {
-  turned,   ///< greedy colours, turned by one in each component
+  turned,   ///< greedy colours, shifted by k in the k-th component
   greedy,   ///< greedy colours in the order of the mesh
   random,   ///< greedy colours in an order drawn with the scene's seed
   vertex,   ///< one vertex at a time
   together  ///< all vertices at once (Jacobi)
 };
-/// What a contact adds to a vertex's block.
+/// Selects a contact's term of a vertex's block.
 enum class ContactBlocks {
-  majorised,  ///< |w| Σ |w_u| over its vertices that are updated together
+  majorised,  ///< w| Σ |w_u| over the contact's vertices that are updated together
   own         ///< w²
 };
-/// Returns whether a vertex's block counts the others that are updated with it.
+/// Returns whether a vertex's block includes the other vertices that are updated with it.
 constexpr bool majorises(ContactBlocks blocks) {
   switch (blocks) {
     case ContactBlocks::majorised: return true;
@@ -33,9 +33,9 @@ constexpr bool majorises(ContactBlocks blocks) {
   }
   return true;
 }
-/// When a position is cut to its bound.
+/// Selects when a position is cut to its bound.
 enum class CutAfter {
-  update,    ///< at once, so that others read the cut position
+  update,    ///< at once, so that later updates read the cut position
   iteration  ///< all vertices together, after the iteration
 };
 /// Returns whether each update cuts its vertex.

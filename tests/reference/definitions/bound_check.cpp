@@ -45,8 +45,8 @@ TEST_CASE(
     const auto in = question(specimen.surface, topology, specimen.radius, 2 * specimen.radius);
     const auto bounds = bounds_of(in, 0.45f);
     CHECK(reference::bounds_above_exact(in, 0.45f, bounds).empty());
-    // Distance and product are each rounded down, by less than one unit in the last place. Their digits may begin a
-    // power of two apart, so three steps up exceed the exact bound.
+    // Distance and product are each rounded down, by less than one unit in the last place. Their last places may differ
+    // by a factor of two, so three steps up exceed the exact bound.
     const bool all_above = reference::bounds_above_exact(in, 0.45f, stepped_up(bounds, 3)).size() == bounds.size();
     CHECK(all_above);
     tight += reference::bounds_above_exact(in, 0.45f, stepped_up(bounds, 1)).size();
@@ -84,7 +84,7 @@ TEST_CASE("bound_check: Eq. 27, moves within the bounds never make an intersecti
       auto after = before;
       for (std::size_t v = 0; v < after.size(); ++v) {
         const double x = normal(random), y = normal(random), z = normal(random), length = std::hypot(x, y, z);
-        // the sums round by far less than this leaves
+        // The factor leaves more room than the sums lose by rounding.
         const double step = 0.999999 * static_cast<double>(bounds[v]) / length;
         after[v] = {after[v].x + step * x, after[v].y + step * y, after[v].z + step * z};
       }

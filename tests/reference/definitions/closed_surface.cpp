@@ -1,5 +1,5 @@
-// Tests §3.9 outside the body: the decision which points are inside, and the blocks, which extend outward only. The two
-// decisions share no formula, so each tests the other.
+// Tests §3.9 outside the body: which points are inside, and the blocks, which extend only outward. Both decisions share
+// no formula, so each tests the other.
 #include "reference/definitions/closed_surface.hpp"
 
 #include <algorithm>
@@ -18,8 +18,8 @@ using reference::FaceKind;
 
 namespace {
 
-/// Returns a cube with a dent: the corner (2, 2, 2) moves inward, far enough for a reentrant vertex with valleys and
-/// ridges.
+/// Returns a cube with a dent: the corner (2, 2, 2) moves inward, so far that the vertex is reentrant and has valleys
+/// and ridges.
 Surface dented_cube() {
   Surface surface = cube();
   surface.positions[7] = {0.5f, 0.75f, 0.5f};
@@ -33,7 +33,7 @@ Surface hollow_cube() {
   return together(cube(), inner);
 }
 
-/// Returns two overlapping cubes; the surface winds twice around their common points.
+/// Returns two overlapping cubes; their surface winds twice around common points.
 Surface overlapping_cubes() {
   return together(cube(), mapped(cube(), [](Vec3f x) { return Vec3f{x.x + 1.25f, x.y + 0.5f, x.z + 0.25f}; }));
 }
@@ -55,7 +55,7 @@ struct Body {
   Complex mesh() const { return {topology, surface.positions}; }
 };
 
-/// Returns points on a grid of the box, and moved off it, that often hit vertices, edges and triangles.
+/// Returns points on a grid over the box, and points off the grid; many lie on vertices, edges and triangles.
 std::vector<Vec3f> points_around(const Surface& surface, std::mt19937& random) {
   Vec3f low = surface.positions[0], high = low;
   for (const Vec3f& x : surface.positions) {
@@ -74,7 +74,7 @@ std::vector<Vec3f> points_around(const Surface& surface, std::mt19937& random) {
   return points;
 }
 
-/// Returns the faces nearest to x: those whose blocks of any radius hold it, at the smallest distance.
+/// Returns the faces nearest to x: the faces at the smallest distance whose blocks of any radius hold x.
 std::vector<Face> nearest_faces(const Complex& mesh, const Vec3f& x) {
   constexpr float far = 1e6f;
   std::vector<Face> nearest;
@@ -116,7 +116,7 @@ TEST_CASE(
   CHECK(a.locate({-1, 0, 0}).outside());  // the ray runs along an edge
   CHECK(a.locate({-1, 1, 1}).outside());  // and through diagonals
   CHECK(a.locate({0, 3, 0}).outside());
-  CHECK(b.locate({1.75f, 1.75f, 1.75f}).outside());  // the place of the former corner
+  CHECK(b.locate({1.75f, 1.75f, 1.75f}).outside());  // the former corner
   CHECK(b.locate({0.25f, 0.25f, 0.25f}).inside());
   CHECK(c.locate({1, 1, 1}).outside());
   CHECK(c.locate({0.25f, 1, 1}).winding == 1);
@@ -129,7 +129,7 @@ TEST_CASE("closed surface: the block of a nearest face is outward exactly where 
   std::mt19937 random(9);
   std::size_t inside = 0, outside = 0, on_surface = 0;
   for (const Surface& surface : bodies()) {
-    // Nearest faces of overlapping cubes may lie inside the body.
+    // The nearest face of overlapping cubes may lie inside the body.
     if (surface.triangles.size() == overlapping_cubes().triangles.size() && surface.positions[8].x == 1.25f) continue;
     const Body body(surface);
     const ClosedSurface closed(body.mesh());
@@ -174,10 +174,10 @@ TEST_CASE("closed surface: a ridge has its outward block, a dent only its own po
   CHECK(closed.in_outward_block(reference::edge_face(ridge), {1, 0, 0}, 1));
   const reference::Face dent = reference::vertex_face(7);
   CHECK(closed.in_outward_block(dent, body.mesh().at(7), 1));
-  // The point is outside, but in no direction of the dent's normals.
+  // The point is outside, but no normal of the dent points to it.
   CHECK_FALSE(closed.in_outward_block(dent, {1.5f, 1.5f, 1.5f}, 4));
   CHECK(reference::in_block(body.mesh(), dent, {0.25f, 0.5f, 0.25f}, 4));
-  CHECK_FALSE(closed.in_outward_block(dent, {0.25f, 0.5f, 0.25f}, 4));  // in a direction of its normals, but inside
+  CHECK_FALSE(closed.in_outward_block(dent, {0.25f, 0.5f, 0.25f}, 4));  // a normal points to it, but it is inside
 }
 
 TEST_CASE("closed surface: what is not closed, not oriented, folded or inside out is refused by its element's name",

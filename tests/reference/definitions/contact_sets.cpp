@@ -1,5 +1,5 @@
-// Tests that three ways to find the contact sets agree: by definition over all faces, by the algorithms over all pairs,
-// by the algorithms with CGAL's tree. The detections, with their own tree and grey zone, are a fourth.
+// Tests that three computations of the contact sets agree: by definition over all faces, by the algorithms over all
+// pairs, and by the algorithms with CGAL's tree. The detections, with their own tree and grey zone, are a fourth.
 #include "reference/definitions/contact_sets.hpp"
 
 #include <algorithm>
@@ -128,10 +128,10 @@ TEST_CASE(
     const Complex mesh{topology, surface.positions};
     const auto contacts = reference::vertex_facet_over_all_pairs(question(surface, topology, 1, 1));
     CHECK(reference::ipc_face_set(mesh, 4, 1) == std::vector<Index>{0, 1});
-    // Both slopes are equally near, so the printed argmin is not one triangle.
+    // Both slopes are equally near, so the printed argmin is not unique.
     CHECK(reference::sdf_face_set(mesh, mesh.at(4), 1) == std::vector<Index>{0, 1});
     const Vec3f beside{0, 0x1p-20f, 0.5f};
-    // One slope is nearer. Over the ridge the nearest point is still on the crest, which belongs to both.
+    // One slope is nearer. Over the ridge the nearest point is still on the crest, which belongs to both slopes.
     CHECK(reference::sdf_face_set(mesh, beside, 1) == (height < 0 ? std::vector<Index>{0, 1} : std::vector<Index>{0}));
     if (height < 0) {
       REQUIRE(contacts.size() == 1);

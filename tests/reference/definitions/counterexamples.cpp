@@ -1,5 +1,5 @@
-// Tests sentences of the paper's sections 3 and 4 that, as printed, fail on some class of meshes, each with the
-// smallest mesh that shows it (compare/deviations.md). What does hold there is checked beside it.
+// Tests statements of the paper's sections 3 and 4 that, as printed, fail on some meshes. Each case has the smallest
+// such mesh (compare/deviations.md), and checks what holds there instead.
 #include <algorithm>
 
 #include "reference/definitions/contact_sets.hpp"
@@ -38,7 +38,7 @@ std::vector<Face> faces_touched(const std::vector<VertexFacetContact>& contacts,
 
 TEST_CASE("counterexample to the remark on saddles in §3.3: within r of one, and in no block of its faces or edges",
           "[unit]") {
-  // The star extends 2.3 from its saddle and r = 6, so the closest points of the star are vertices of its rim.
+  // The star extends 2.3 from its saddle and r = 6, so its closest points are vertices on its rim.
   const Surface star = with_vertex(saddle(), {0, 0, 5});
   const auto topology = star.topology();
   const Complex mesh{topology, star.positions};
@@ -47,7 +47,7 @@ TEST_CASE("counterexample to the remark on saddles in §3.3: within r of one, an
   REQUIRE(reference::sign(reference::gap_points(mesh.at(0), x, 6)) < 0);
   for (const Index t : topology.vertex_triangles[0]) CHECK_FALSE(in_block(mesh, triangle_face(t), x, 6));
   for (const Index e : topology.vertex_edges[0]) CHECK_FALSE(in_block(mesh, edge_face(e), x, 6));
-  // Covering still holds, by two vertices of the rim.
+  // Covering still holds, by two vertices on the rim.
   const auto contacts = reference::vertex_facet_over_all_pairs(question(star, topology, 6, 6));
   CHECK(faces_touched(contacts, 5) == std::vector<Face>{vertex_face(1), vertex_face(3)});
 }
@@ -153,14 +153,14 @@ TEST_CASE(
   const auto topology = bend.topology();
   const Complex mesh{topology, bend.positions};
   const float r = 2;
-  const Vec3f on_edge_0{0, 0, 0}, on_edge_2{1, 0, 1};  // closest points of the two, √2 apart
+  const Vec3f on_edge_0{0, 0, 0}, on_edge_2{1, 0, 1};  // closest points of both edges, √2 apart
   const auto closest = reference::closest_features({{mesh.at(0), mesh.at(1)}, {mesh.at(3), mesh.at(4)}});
   REQUIRE(closest == reference::EdgeFeatures{compare::EdgeFeature::end_1, compare::EdgeFeature::interior});
-  // From edge 0, {e, a} is entered with the interior of edge 2 as a.
+  // Edge 0 enters {e, a} with a = the interior of edge 2.
   CHECK(in_edge_only_block(mesh, edge_face(2), on_edge_0, r));
-  CHECK_FALSE(in_edge_only_block(mesh, vertex_face(1), on_edge_2, r));  // from edge 2, a = vertex 1 is refused
+  CHECK_FALSE(in_edge_only_block(mesh, vertex_face(1), on_edge_2, r));  // edge 2 refuses a = vertex 1
   const auto contacts = reference::detect_edge_edge(question(bend, topology, r, r)).exact.contacts;
-  // Only the pair that both sides accept is a contact.
+  // Only the pair that both edges accept is a contact.
   CHECK(contacts == std::vector<compare::EdgeEdgeContact>{{edge_face(1), edge_face(2), 1, 2}});
 }
 
@@ -183,7 +183,6 @@ TEST_CASE(
 }
 
 TEST_CASE("two vertices in each other's blocks are two contacts, (v, a) and (a, v)", "[unit]") {
-  // Two tips point at each other.
   const Surface tips{
       {{0, 0, 0.25f}, {1, 0, 2}, {0, 1, 2}, {0, 0, -0.25f}, {-1, 0, -2}, {0, -1, -2}}, {{0, 1, 2}, {3, 4, 5}}, {}, {}};
   const auto topology = tips.topology();

@@ -1,4 +1,5 @@
-// Compares two definitions of blocks on the whole zoo: half-spaces (Eq. 8–10, 14, 15) and cones of normals (Eq. 7).
+// Compares two definitions of blocks on all meshes of the zoo: half-spaces (Eq. 8–10, 14, 15) and cones of normals (Eq.
+// 7).
 #include "reference/definitions/defined_blocks.hpp"
 
 #include <algorithm>
@@ -97,8 +98,7 @@ TEST_CASE("block_margins: a point is in a block where all margins hold; lengths 
 
 TEST_CASE("block_margins: distances to each boundary of an edge's, a triangle's and a vertex's block by hand",
           "[unit]") {
-  // Edge 0 goes from (0,0,0) to (4,0,0); its triangle lies towards +y with its third corner at (0,3,0); x = (1,-2,0)
-  // with r = 5.
+  // Edge 0 goes from (0,0,0) to (4,0,0), and the third corner of its triangle is (0,3,0); x = (1,-2,0), r = 5.
   const Surface surface{{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}, {{0, 1, 2}}, {}, {}};
   const auto topology = surface.topology();
   const Complex mesh{topology, surface.positions};

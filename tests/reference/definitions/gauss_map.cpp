@@ -1,4 +1,4 @@
-// Tests the polyhedral Gauss map: kinds of vertices by hand, corners that are normals of triangles, areas that are
+// Tests the polyhedral Gauss map: kinds of vertices by hand, corners that are normals of triangles, and areas that are
 // angle deficits.
 #include "reference/definitions/gauss_map.hpp"
 
@@ -42,8 +42,8 @@ double angle_deficit(const Complex& mesh, Index v) {
 
 bool near_unit(const Unit& a, const Unit& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) < 1e-12; }
 
-/// Returns five triangles around vertex 0. Its neighbours are the corners of a square at height −1, and vertex 2 in the
-/// middle of a side at `height`.
+/// Returns five triangles around vertex 0. Its neighbours are the corners of a square at height −1, and the middle of
+/// one of the square's sides at `height` (vertex 2).
 Surface five_spokes(float height) {
   return {{{0, 0, 0}, {2, 2, -1}, {0, 2, height}, {-2, 2, -1}, {-2, -2, -1}, {2, -2, -1}},
           {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1}},
@@ -74,7 +74,7 @@ TEST_CASE("gauss_map: convex, mixed and saddle vertices by hand", "[unit]") {
   CHECK(kind_of(saddle(), 0) == VertexKind::saddle);
   CHECK(kind_of(saddle(), 1) == VertexKind::convex);  // at the rim two triangles meet in a ridge
   CHECK(kind_of(grid(3), 4) == VertexKind::convex);   // flat
-  // (0,2,−1/4) is above the line between its neighbours, which is still a ridge.
+  // (0,2,−1/4) lies above the line between its neighbours, and that line is still a ridge.
   CHECK(kind_of(five_spokes(-0.25f), 0) == VertexKind::convex);
   CHECK(kind_of(five_spokes(-1.5f), 0) == VertexKind::mixed);
   CHECK(kind_of({{{0, 0, 0}, {1, 0, 0}}, {}, {{0, 1}}, {}}, 0) == VertexKind::convex);
@@ -187,9 +187,9 @@ TEST_CASE(
       if (!polygon || !polygon->closed) continue;
       ++closed;
       CHECK(polygon->normals.size() == topology.vertex_triangles[static_cast<std::size_t>(v)].size());
-      // An area on the sphere is known up to whole spheres. Where a star passes through itself, it is known up to half
-      // spheres: an arc between two normals that passed through opposite directions has jumped to the other side of the
-      // sphere.
+      // An area on the sphere is known up to whole spheres. If the star passes through itself, the area is known only
+      // up to half spheres: an arc between two normals that pass through opposite directions changes to the other side
+      // of the sphere.
       const bool crosses_itself = specimen.name.starts_with("folded sheet") || specimen.name.starts_with("jittered") ||
                                   specimen.name.starts_with("soup");
       const double turns = (polygon->area - angle_deficit(mesh, v)) / (crosses_itself ? 2 * pi : 4 * pi);

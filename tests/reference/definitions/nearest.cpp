@@ -1,5 +1,5 @@
 // Compares exact smallest distances with CGAL's squared distances in rational numbers over all pairs, and with
-// fractions by hand.
+// fractions derived by hand.
 #include "reference/definitions/nearest.hpp"
 
 #include <CGAL/Exact_rational.h>
@@ -32,7 +32,7 @@ Kernel::Point_3 point(const Surface& surface, Index v) {
   return {exact(x.x), exact(x.y), exact(x.z)};
 }
 
-/// Holds the square of d_min, or r_q² if nothing is nearer, and the lowest-numbered partner at that distance.
+/// The square of d_min, or r_q² if no pair is nearer, and the lowest-numbered partner at this distance.
 struct Smallest {
   Rational square;
   Index partner = -1;
@@ -79,7 +79,7 @@ AllPairs all_pairs(const Surface& surface, const compare::Topology& topology, fl
   return result;
 }
 
-/// Returns the fraction in lowest terms, as Rational is.
+/// Returns the fraction as text; a Rational is in lowest terms.
 std::string text(const Rational& q) {
   std::ostringstream stream;
   stream << numerator(q) << "/" << denominator(q);
@@ -132,8 +132,8 @@ TEST_CASE("nearest: partners and fractions are those of CGAL's rational squared 
 }
 
 TEST_CASE("nearest: fractions by hand", "[unit]") {
-  // The vertex is 3/4 above the middle of a triangle's long side. An edge's own smallest distance is to other edges;
-  // there is none, so it is r_q = 2.
+  // The vertex is 3/4 above the middle of the triangle's long side. No edge has another edge near it, so d_min,e is r_q
+  // = 2.
   const Surface surface = with_vertex({{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}, {}, {}}, {2, 2, 0.75f});
   const auto topology = surface.topology();
   const auto squares = reference::exact_squares(question(surface, topology, 1, 2), 0.5f);

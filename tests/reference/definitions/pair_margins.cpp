@@ -31,8 +31,8 @@ TEST_CASE("pair margins: two crossing edges, and a vertex beside an edge, by han
   };
   CHECK(lengths(margins.first) == std::vector<double>{0.5, 1, 3});
   CHECK(lengths(margins.second) == std::vector<double>{0.5, 1, 3});
-  // Vertex 2, an end of the chain 2–3, lies beside the middle of edge 0–1. Its block begins at the plane across its own
-  // edge.
+  // Vertex 2, an end of the chain 2–3, lies next to the middle of edge 0–1. Its block ends at the plane perpendicular
+  // to edge 2–3.
   const Surface beside{{{-1, 0, 0}, {3, 0, 0}, {0, 0.5f, 0}, {0, 2, 0}}, {}, {{0, 1}, {2, 3}}, {}};
   const auto near = beside.topology();
   const auto end = reference::pair_margins({near, beside.positions},

@@ -1,5 +1,5 @@
-// Compares the answer of a volume of triangles, decided by the sides of its nearest faces, with winding numbers, with
-// the answer of each part alone, and with results by hand.
+// Compares the contacts with a volume of triangles, which the sides of the nearest faces decide, with winding numbers,
+// with the contacts of each part alone, and with results by hand.
 #include "reference/definitions/part_contacts.hpp"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ Surface dented_cube() {
   return surface;
 }
 
-/// Returns the cube, 2 m wide from 0 on, without the two triangles at z = 2.
+/// Returns the cube [0, 2]³ [m] without the two triangles at z = 2.
 Surface open_cube() {
   Surface surface = cube();
   std::erase_if(surface.triangles, [&](const compare::Triangle& t) {
@@ -46,7 +46,7 @@ Surface open_cube() {
   return surface;
 }
 
-/// Returns points on a grid that meets vertices, edges, triangles and medial axes, and points off it.
+/// Returns points on a grid that contains vertices, edges, triangles and medial axes, and points off the grid.
 std::vector<Vec3f> points(std::mt19937& random) {
   std::vector<Vec3f> all;
   std::uniform_int_distribution<int> eighth(-4, 20);
@@ -122,8 +122,8 @@ TEST_CASE("a point is held by each of several parts as if it were alone, whereve
 
 namespace {
 
-/// A cube with a void of half its size in its middle. The void's triangles begin at number 12; `part` makes one part of
-/// both.
+/// A cube with a cavity of half its size in its middle. The cavity's triangles begin at number 12; `part` joins both
+/// surfaces in one part.
 struct Hollow {
   Body body{together(cube(), void_inside())};
   std::vector<Index> part = compare::joined_components(body.topology, {}, std::vector<compare::Edge>{{8, 0}});
@@ -185,7 +185,7 @@ TEST_CASE("weights give the closest point, and the direction leads from it out o
       const compare::Vec3 c = closest_point(body, contact), n = contact.direction;
       CHECK(std::hypot(n.x, n.y, n.z) == Approx(1).epsilon(1e-14));
       const compare::Vec3 w{x.x - c.x, x.y - c.y, x.z - c.z};
-      const double height = n.x * w.x + n.y * w.y + n.z * w.z;  // φ, where r − φ is the depth
+      const double height = n.x * w.x + n.y * w.y + n.z * w.z;  // φ; the depth is r − φ
       CHECK(static_cast<double>(r) - height == Approx(contact.depth).margin(1e-12));
       CHECK(std::abs(height) == Approx(std::hypot(w.x, w.y, w.z)).margin(1e-12));
       CHECK((height < 0) == (contact.inside && std::hypot(w.x, w.y, w.z) > 0));
@@ -209,7 +209,7 @@ TEST_CASE("the depth is r from both sides of the surface, and every deep point i
   CHECK(depth_at(2.125f) == 0.125);
   CHECK(depth_at(1.5f) == 0.75);
   CHECK(body.ask({0.75f, 1, 2.25f}, 0.25f).empty());
-  // r does not limit the search: the middle is a metre away from all faces.
+  // r does not limit the search: the middle is one metre from all faces.
   const std::vector<PartContact> middle = body.ask({1, 1, 1}, 0x1p-10f);
   REQUIRE(middle.size() == 1);
   CHECK(middle[0].depth == 1 + 0x1p-10);
@@ -226,7 +226,7 @@ TEST_CASE("ridges, valleys and corners: the side is that of the dihedral, not of
   REQUIRE(corner.size() == 1);
   CHECK(corner[0].face.kind == FaceKind::vertex);
   CHECK(!corner[0].inside);
-  // In a cube that faces inward, the inner side of the corner is beyond the box; no point is inside there.
+  // In a cube that faces inward, the inner side of the corner is beyond the box, where no point is inside.
   Surface inner = cube();
   for (compare::Triangle& t : inner.triangles) std::swap(t[1], t[2]);
   CHECK(Body(inner).ask({2.25f, 2.25f, 2.25f}, 0.5f).empty());
@@ -234,7 +234,7 @@ TEST_CASE("ridges, valleys and corners: the side is that of the dihedral, not of
 
 TEST_CASE("a rim has no inner side, and what lies behind a surface with rims is inside", "[unit]") {
   const Body body(open_cube());
-  // Over the opening, the rim is nearest.
+  // Above the opening the rim is nearest.
   const std::vector<PartContact> over = body.ask({1, 0.25f, 2.25f}, 0.5f);
   REQUIRE(!over.empty());
   CHECK(std::ranges::none_of(over, &PartContact::inside));
@@ -243,10 +243,11 @@ TEST_CASE("a rim has no inner side, and what lies behind a surface with rims is 
   REQUIRE(below.size() == 1);
   CHECK(below[0].inside);
   CHECK(below[0].depth == 0.75);
-  // Level with the rim, the foot of the perpendicular lies on it.
+  // At the rim's height, the foot of the perpendicular lies on the rim.
   const std::vector<PartContact> level = body.ask({1, 0.25f, 2}, 0.5f);
   CHECK(std::ranges::none_of(level, &PartContact::inside));
-  // Beyond a box that faces inward nothing is inside, neither beside the valley nor level with its end near the rim.
+  // Outside the box of a cube that faces inward no point is inside, neither next to a valley nor next to its end at the
+  // rim.
   Surface inward = open_cube();
   for (compare::Triangle& t : inward.triangles) std::swap(t[1], t[2]);
   const std::vector<PartContact> along = Body(inward).ask({2.25f, 2.25f, 1.5f}, 0.5f),
@@ -258,7 +259,7 @@ TEST_CASE("a rim has no inner side, and what lies behind a surface with rims is 
 
 TEST_CASE("of equally near faces the lowest-dimensional, then the lowest-numbered one answers", "[unit]") {
   const Body body(cube());
-  // At the middle, twelve triangles and six diagonals are equally near; the feet lie on the diagonals.
+  // The middle has twelve nearest triangles and six nearest diagonals; the feet lie on the diagonals.
   const std::vector<PartContact> middle = body.ask({1, 1, 1}, 0.5f);
   REQUIRE(middle.size() == 1);
   CHECK(middle[0].face.kind == FaceKind::edge);

@@ -1,5 +1,5 @@
-// Tests the truth of stage volume_depth for tetrahedra. Where the map is locally injective its exact answer is that of
-// TetVolume; tetrahedra without positive volume neither hold a point nor let a path through.
+// Tests the truth of stage volume_depth for tetrahedra. If the map is locally injective, the exact answer is that of
+// TetVolume. Tetrahedra without positive volume neither hold a point nor let a path through.
 #include "reference/definitions/solid_depth.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using reference::Tetrahedron;
 
 namespace {
 
-/// Makes cells of six tetrahedra each; vertex (i, j, k) lies at map(i, j, k).
+/// Cells of six tetrahedra each; vertex (i, j, k) lies at map(i, j, k).
 struct Cells {
   std::vector<Vec3f> positions;
   std::vector<Tetrahedron> tetrahedra;
@@ -101,7 +101,7 @@ TEST_CASE("where the map is locally injective the contacts of tetrahedra are tho
       const VolumePartTruth& part = truth.parts[i].front();
       const auto sheets = volume.sheets(points[i]);
       CHECK(part.inside == !sheets.empty());
-      std::map<Index, double> paths;  // by triangle: two sheets with one nearest face have one contact
+      std::map<Index, double> paths;  // by triangle: two sheets with the same nearest face have one contact
       for (const auto& sheet : sheets) {
         const reference::BoundaryPath path = volume.shortest_path_to_boundary(points[i], sheet[0]).path;
         paths[path.triangle] = path.length;
@@ -151,14 +151,14 @@ TEST_CASE("a vertex asks without its own sheet and its own faces", "[property]")
 }
 
 TEST_CASE("a way does not lead through tetrahedra that are turned inside out, nor end at theirs", "[unit]") {
-  // The middle one of three cells in a row is turned inside out: its inner layers are swapped.
+  // The inner layers of three cells in a row are swapped, so the middle cell is turned inside out.
   const auto folded = [](int i, int j, int k) {
     constexpr std::array<float, 4> x{0, 3, 2, 5};
     return Vec3f{x[static_cast<std::size_t>(i)], 4.0f * static_cast<float>(j), 4.0f * static_cast<float>(k)};
   };
   const Cells body(3, 1, 1, folded);
   const compare::Topology topology = surface_of(Cells(3, 1, 1, straight));
-  // The point lies in both end cells, 0.4 and 0.6 from where they join the middle one, and 1.75 from their bottoms.
+  // The point lies in both end cells, 0.4 and 0.6 from the middle cell, and 1.75 from the bottom of each.
   const VolumeDepthTruth truth = ask(body, topology, {{2.6f, 2.0f, 1.75f}}, 0.5f);
   const VolumePartTruth& part = truth.parts[0].front();
   const std::vector<double> found = depths(part, true);
@@ -168,7 +168,7 @@ TEST_CASE("a way does not lead through tetrahedra that are turned inside out, no
 }
 
 TEST_CASE("a sheet that nothing but tetrahedra without volume surrounds has no way, and says so", "[unit]") {
-  // Behind each side of one tetrahedron there is one of negative volume, whose apex lies within the first one.
+  // Behind each side of one tetrahedron lies a tetrahedron of negative volume, whose apex is inside the first one.
   Cells body(1, 1, 1, straight);
   body.positions = {{0, 0, 0},     {4, 0, 0},     {0, 4, 0},    {0, 0, 4}, {1.25f, 1.25f, 1.25f},
                     {0.25f, 1, 1}, {1, 0.25f, 1}, {1, 1, 0.25f}};
@@ -176,7 +176,7 @@ TEST_CASE("a sheet that nothing but tetrahedra without volume surrounds has no w
   std::vector<compare::Triangle> triangles;
   for (std::size_t t = 1; t < 5; ++t) {
     const auto [a, b, c, apex] = body.tetrahedra[t];
-    // The side abc is shared with the first one and is its outward side.
+    // The side abc is shared with the first tetrahedron and is its outward side.
     for (const auto& [p, q] : {std::array{a, b}, std::array{b, c}, std::array{c, a}}) triangles.push_back({p, q, apex});
   }
   const compare::Topology topology = compare::build_topology(8, triangles);

@@ -1,5 +1,5 @@
-// Compares the sphere query of CGAL's tree with a check of all boxes, in integers small enough for exact doubles, and
-// on balls that touch.
+// Compares the sphere query of CGAL's tree with a test of all boxes, in integers small enough for exact doubles, also
+// for balls that touch.
 #include "reference/definitions/sphere_tree.hpp"
 
 #include <algorithm>

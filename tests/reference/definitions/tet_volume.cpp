@@ -1,5 +1,5 @@
-// Tests §3.9 inside the body: the depth by the definition of Chen et al. 2023, on bodies whose depth is known
-// otherwise.
+// Tests §3.9 inside the body: the depth by the definition of Chen et al. 2023, on bodies whose depth has another
+// derivation.
 #include "reference/definitions/tet_volume.hpp"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ struct Body {
 };
 
 /// Returns nx × ny × nz cells, each of six tetrahedra around its diagonal; vertex (i, j, k) lies at map(i, j, k).
-/// Tetrahedra are listed cell by cell, i slowest.
+/// Tetrahedra are listed cell by cell; i changes slowest.
 template <class Map>
 Body blocks(int nx, int ny, int nz, Map map) {
   Body body;
@@ -49,7 +49,7 @@ Body blocks(int nx, int ny, int nz, Map map) {
             ++at[static_cast<std::size_t>(orders[o][s])];
             t[s + 1] = number(at[0], at[1], at[2]);
           }
-          if (o >= 3) std::swap(t[2], t[3]);  // odd orders have the other orientation
+          if (o >= 3) std::swap(t[2], t[3]);  // odd permutations have the other orientation
           body.tetrahedra.push_back(t);
         }
   return body;
@@ -72,7 +72,7 @@ Body overlapping_ring() {
   });
 }
 
-/// Returns the cell along the bar in which a tetrahedron of the ring lies.
+/// Returns the number of the ring's cell, counted along the bar, that contains a tetrahedron.
 int ring_cell(Index tetrahedron) { return tetrahedron / 12 % ring_cells; }
 
 double euclidean(const Vec3f& x, const std::array<double, 3>& y) {
@@ -134,7 +134,7 @@ TEST_CASE(
   std::uniform_real_distribution<double> share(0.01, 0.99), radius(1.2, 2.8), height(0.1, 1.9);
   int misled = 0;
   for (int n = 0; n < 20; ++n) {
-    // Half of the points lie near an end.
+    // Half of the points lie near an end of the bar.
     const double overlap = ring_cells - ring_turn,
                  cell = n % 2 == 0 ? overlap * share(random) : overlap - 0.5 * share(random);
     const double angle = 2 * std::numbers::pi * cell / ring_turn, rho = radius(random);
@@ -143,7 +143,7 @@ TEST_CASE(
     const auto sheets = volume.sheets(x);
     REQUIRE(sheets.size() == 2);
     for (const auto& sheet : sheets) {
-      // Up to a quarter turn away from the sheet the bar does not overlap itself, so the nearest boundary there is the
+      // Within a quarter turn of the sheet the bar does not overlap itself, so the nearest boundary there is the
       // answer.
       double expected = 1e9;
       for (const auto& side : volume.boundary())
@@ -164,8 +164,8 @@ TEST_CASE(
     "[unit]") {
   const Body body = overlapping_ring();
   const TetVolume volume(body.positions, body.tetrahedra);
-  // The point is 0.02 of a cell before the last end. The bar's second sheet ends there; its first one continues for
-  // half a turn.
+  // The point is 0.02 of a cell before the bar's end. The second sheet ends there; the first one continues for a
+  // further half turn.
   const double angle = 2 * std::numbers::pi * (ring_cells - ring_turn - 0.02) / ring_turn;
   const Vec3f x{static_cast<float>(2 * std::cos(angle)), static_cast<float>(2 * std::sin(angle)), 1.0f};
   const auto sheets = volume.sheets(x);
@@ -231,7 +231,7 @@ TEST_CASE("tet volume: inverted, flat, folded, crowded and wound tetrahedra are 
   const Body crowded{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}, {1, 1, -1}},
                      {{0, 1, 2, 3}, {0, 2, 1, 4}, {0, 2, 1, 5}}};
   CHECK(contains(refusal(crowded), "belongs to 3 tetrahedra"));
-  // Six tetrahedra make a turn around the edge of vertices 0 and 1; there are two turns, each with its own rim
+  // Six tetrahedra make a turn around the edge of vertices 0 and 1. These make two turns, each with its own rim
   // vertices.
   Body wound{{{0, 0, 0}, {0, 0, 1}}, {}};
   for (int k = 0; k < 12; ++k) {

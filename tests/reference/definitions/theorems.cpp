@@ -1,5 +1,5 @@
-// Tests the paper's statements about blocks and contact sets (§3.3, §4.1) on the whole zoo. Statements that hold on
-// some classes of meshes only are in counterexamples.cpp too.
+// Tests the paper's statements about blocks and contact sets (§3.3, §4.1) on the whole zoo. Statements that hold only
+// on some meshes are also in counterexamples.cpp.
 #include <algorithm>
 #include <numeric>
 #include <set>
@@ -104,8 +104,8 @@ void examine_edges(const Complex& mesh, const std::set<Face>& blocks, const Vec3
   }
 }
 
-/// Checks for a ⊂ t that the closest point of t is the one on a, so that dis(x, a) ≤ dis(x, b) for all faces b of t,
-/// and dis(x, a) < dis(x, b) for those with b ⊂ a.
+/// Checks for a ⊂ t that a holds the closest point of t. Then dis(x, a) ≤ dis(x, b) for all faces b of t, with < if b ⊂
+/// a.
 void examine_triangles(const Complex& mesh, const std::set<Face>& blocks, const Vec3f& x, Findings& findings) {
   for (std::size_t i = 0; i < mesh.topology.triangles.size(); ++i) {
     const auto t = static_cast<Index>(i);
@@ -136,7 +136,7 @@ Findings examine(const Specimen& specimen) {
   return findings;
 }
 
-/// Holds both contact sets and the bounds of one mesh.
+/// Both contact sets and the bounds of one mesh.
 struct Answer {
   std::vector<compare::VertexFacetContact> facets;
   std::vector<compare::EdgeEdgeContact> edges;
@@ -153,7 +153,7 @@ Answer answer(const Surface& surface, float r) {
       reference::bound({&topology, facets.d_min_vertex, edges.d_min_edge, facets.d_min_triangle, 0.5f}).exact.bound};
 }
 
-/// Contacts by the vertices of their faces, so that numbers of edges and triangles do not matter.
+/// Contacts as the vertices of their faces, which do not depend on the numbers of edges and triangles.
 using Named = std::set<std::vector<std::vector<Index>>>;
 
 Named named(const Surface& surface, const Answer& given, const std::vector<Index>& name) {
@@ -183,8 +183,8 @@ std::vector<Index> shuffled(std::size_t n, std::mt19937& random) {
   return names;
 }
 
-/// Renames vertex v to name[v] and shuffles the triangles; each begins at another corner, every other one is turned
-/// over.
+/// Renames vertex v to name[v] and shuffles the triangles. Each triangle begins at another corner, and every second one
+/// has the opposite orientation.
 Surface renumbered(const Surface& surface, const std::vector<Index>& name, std::mt19937& random) {
   Surface result = surface;
   for (std::size_t v = 0; v < name.size(); ++v)
@@ -200,8 +200,8 @@ Surface renumbered(const Surface& surface, const std::vector<Index>& name, std::
 
 Vec3f scaled(Vec3f x, float factor) { return {factor * x.x, factor * x.y, factor * x.z}; }
 
-/// Returns whether the map and its inverse lose nothing and, if the map moves the origin, it moves every point by the
-/// same amount.
+/// Returns whether the map and its inverse are exact and, if the map moves the origin, move every point by the same
+/// amount.
 template <class Map>
 bool is_exact(const Surface& surface, Map map, Map back) {
   const float shift = map({0, 0, 0}).x;
@@ -256,7 +256,7 @@ TEST_CASE("theorems: the block of a vertex without normals is the vertex itself,
 
 TEST_CASE("theorems: orthogonality, the connection of a point in a block with the face is perpendicular to it",
           "[property]") {
-  // Decided without rounding: the closest points of a, and of the edges of a, lie in the interior of a alone.
+  // Decides without rounding: the closest points of a, and of the edges of a, lie in the interior of a only.
   for (const Specimen& specimen : mesh_zoo()) {
     if (specimen.collapsed) continue;
     CAPTURE(specimen.name);

@@ -1,5 +1,5 @@
-// Tests the truth of stage volume_depth: its exact answer is that of part_contacts, and where it is in doubt it accepts
-// both sides.
+// Tests the truth of stage volume_depth: its exact answer is that of part_contacts, and grey decisions accept both
+// sides.
 #include "reference/definitions/volume_depth.hpp"
 
 #include <algorithm>

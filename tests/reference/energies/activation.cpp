@@ -55,7 +55,7 @@ TEST_CASE("activation: slope and curvature are the derivatives of the energy, of
       const auto low = activation_at(d - h, r, k, kind), at = activation_at(d, r, k, kind),
                  high = activation_at(d + h, r, k, kind);
       if ((d - h < r / 2 && d + h >= r / 2) || d + h >= r) continue;
-      // Next to r the cubic's slope tends to 0, but the error of the difference, h²/6 · 4k/r, does not.
+      // Near r the cubic's slope tends to 0, but the error of the difference, h²/6 · 4k/r, does not.
       CHECK((high.energy - low.energy) / (2 * h) == Approx(at.slope).epsilon(1e-6).margin(1e-7 * k * r));
       CHECK((high.slope - low.slope) / (2 * h) == Approx(at.curvature).epsilon(1e-6).margin(1e-7 * k));
     }
@@ -121,9 +121,9 @@ TEST_CASE("activation: the two stages by hand, and their scales", "[unit]") {
 }
 
 TEST_CASE("activation: IPC's curvature over OGC's at equal force", "[unit]") {
-  // At κ = 1 the ratio is largest, 3.35, where OGC's stages meet, at f = k_c r/2; it is 0.52 at 0.02. For small forces
-  // it is κ √(12 f/κ), since the depth is √(f/(3κ)). For large ones OGC's curvature is 4 f²/(k_c r²) and IPC's is f²/(κ
-  // k_c r²) up to a logarithm.
+  // For κ = 1 the largest ratio is 3.35, at f = k_c r/2, where OGC's stages meet; at f = 0.02 it is 0.52. For small
+  // forces the depth is √(f/(3κ)) and the ratio κ √(12 f/κ). For large forces OGC's curvature is 4 f²/(k_c r²) and
+  // IPC's is f²/(κ k_c r²), up to a logarithm.
   using reference::curvature_ratio;
   CHECK(curvature_ratio(0.5, 1) == Approx(3.35).margin(0.005));
   CHECK(curvature_ratio(0.02, 1) == Approx(0.52).margin(0.005));
@@ -141,7 +141,7 @@ TEST_CASE("activation: the curves of the drawing are those of the energies", "[u
   for (std::size_t i = 0; i < reference::stiffness_ratios.size(); ++i)
     for (const auto& point : panels[1].layers[i].points)
       CHECK(point[1] == reference::curvature_ratio(point[0], reference::stiffness_ratios[i]));
-  // Up to half of k_c r OGC's curvature is k_c = 1, so the ratio is IPC's own curvature, which the first panel shows.
+  // Up to forces of k_c r/2 OGC's curvature is k_c = 1, so the ratio is IPC's curvature, which the first panel has.
   const reference::DrawingLayer& ipc = panels[0].layers[3];
   REQUIRE(ipc.name == "ipc_log");
   for (std::size_t i = 280; i < 399; ++i) {  // 0.7 r and beyond: forces up to 0.34

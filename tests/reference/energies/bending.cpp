@@ -1,5 +1,5 @@
-// Compares the hinge of the reference with differences of its energy and with mechanics, and tests it where its angle
-// jumps or does not exist.
+// Compares the reference's hinge with differences of its energy and with mechanics. Also tests angles that jump or do
+// not exist.
 #include "reference/energies/bending.hpp"
 
 #include <numbers>
@@ -15,7 +15,8 @@ using compare::BendingCase;
 
 namespace {
 
-/// Returns the angle from the unit vectors across the edge, not from normals: 0 if flat, positive about x1 − x0.
+/// Returns the angle between the unit vectors perpendicular to the edge, without normals: 0 if flat, positive about x1
+/// − x0.
 double angle(const std::array<Point, 4>& x) {
   Point edge = minus(x[1], x[0]);
   const double length = norm(edge);
@@ -93,7 +94,7 @@ TEST_CASE("the reference's hinge force is minus the slope of the energy at each 
     REQUIRE(answers.size() == 1);
     const Point fallen = slope([&](const Point& x) { return energy(x, c); },
                                point(c.vertex[static_cast<std::size_t>(c.own)]), 1e-5);
-    // Energies are some 10 J, and third derivatives below 10⁴ at heights above 0.4 m. Truncation gives 10⁻¹⁰/6 · 10⁴,
+    // Energies are about 10 J, and third derivatives below 10⁴ for heights above 0.4 m. Truncation gives 10⁻¹⁰/6 · 10⁴,
     // rounding 10 · 2⁻⁵³/10⁻⁵.
     CHECK(std::abs(answers[0].force.x + fallen[0]) < 1e-6);
     CHECK(std::abs(answers[0].force.y + fallen[1]) < 1e-6);
@@ -117,8 +118,8 @@ TEST_CASE("the reference's hinge exerts no net force and no net torque", "[prope
       }
       scale += answer.force_scale;
     }
-    // The angle depends on the four points alone, so in double only its rounding remains: some tens of 2⁻⁵³ on arms
-    // shorter than 2 m. Scales of the isometric model are at most a quarter of the condition.
+    // The angle depends only on the four points, so only rounding in double remains: some tens of 2⁻⁵³ on arms shorter
+    // than 2 m. Scales of the isometric model are at most a quarter of the condition.
     CHECK(norm(force) < 1e-13 * scale);
     CHECK(norm(torque) < 1e-13 * scale);
   }
@@ -135,7 +136,7 @@ TEST_CASE("the reference's hinge block is positive semidefinite, and the force v
     c.rest_angle = static_cast<float>(angle(points(c.vertex)));
     c.damping = 0;
     const compare::ForceAnswer rest = reference::bending(c)[0];
-    // θ₀ is the angle rounded to single precision: an error of one unit of a condition that contains θ₀ itself.
+    // θ₀ is the angle, rounded to single precision: its error is one unit of a condition that includes θ₀ itself.
     CHECK(norm({rest.force.x, rest.force.y, rest.force.z}) <= 2 * compare::unit_roundoff * rest.force_scale);
   }
 }
@@ -174,7 +175,7 @@ TEST_CASE(
     "the isometric model agrees with the hinge for small angles of a shape that keeps its lengths, and is 2 sin(θ/2) "
     "for large ones",
     "[property]") {
-  // x0 and x1 lie on the edge, o0 above it and o1 below and turned. The weights belong to this rest shape.
+  // x0 and x1 lie on the edge, o0 above it, and o1 below it and turned. The weights belong to this rest shape.
   const double length = 2, foot_a = 0.5, foot_b = 1.25, height_a = 1, height_b = 0.5;
   for (const double theta : {0.0, 1e-3, 0.7, 2.5}) {
     BendingCase c;
@@ -195,8 +196,8 @@ TEST_CASE(
       const compare::ForceAnswer hinge = reference::bending(c)[0];
       const double apart = std::hypot(quadratic.force.x - hinge.force.x, quadratic.force.y - hinge.force.y,
                                       quadratic.force.z - hinge.force.z);
-      // Forces are at most 3 · 2 · θ. The models differ by θ² of that, and by the rounding of coordinates: a few times
-      // c w² 2⁻²⁴.
+      // Forces are at most 3 · 2 · θ. The models differ by θ² times this, and by rounded coordinates: a few times c w²
+      // 2⁻²⁴.
       if (theta < 0.1) CHECK(apart <= 1e-5);
     }
   }
@@ -210,7 +211,7 @@ TEST_CASE("damping of the isometric model sees no rigid motion, and resists a ch
   c.start = c.vertex;
   BendingCase elastic = c;
   elastic.damping = 0;
-  // The hinge turned by 90° about z and moved since the start.
+  // Since the start the hinge has turned by 90° about z and has moved.
   for (std::size_t k = 0; k < 4; ++k) c.start[k] = {-c.vertex[k].y + 1, c.vertex[k].x, c.vertex[k].z};
   for (c.own = elastic.own = 0; c.own < 4; ++c.own, ++elastic.own) {
     const compare::ForceAnswer damped = reference::bending(c)[0], free = reference::bending(elastic)[0];
@@ -238,7 +239,8 @@ TEST_CASE("damping by vertex of both bending models is k times the block on the 
 }
 
 TEST_CASE("a force that vanishes because angle and gradient both do keeps the product of their errors", "[unit]") {
-  // o0, x0, o1 lie on a line, o0 and o1 equally far: the angle is 0, and the levers of both triangles cancel at x1.
+  // o0, x0, o1 lie on a line, and o0 and o1 are equally far from x0. So the angle is 0, and the lever arms of both
+  // triangles cancel at x1.
   BendingCase c;
   c.vertex = {{{0.033203125f, 0.236328125f, 0.366210938f},
                {0.099609375f, 0.236425787f, 0.36597997f},
@@ -250,7 +252,7 @@ TEST_CASE("a force that vanishes because angle and gradient both do keeps the pr
   const compare::ForceAnswer answer = reference::bending(c)[0];
   const double error = compare::bending_force_tolerance * compare::unit_roundoff * answer.force_scale;
   CHECK(norm({answer.force.x, answer.force.y, answer.force.z}) < 1e-20);
-  // A single-precision kernel has an error of 1.5e-22 N here. The moment is known to u c, the gradient to u over the
+  // A single-precision kernel has an error of 1.5e-22 N here. The moment's error is u c, the gradient's is u over the
   // height.
   CHECK(error > 1.5e-22);
   CHECK(error < 1e-3 * c.stiffness / 0.0668945 * 0x1p-24);
@@ -258,7 +260,7 @@ TEST_CASE("a force that vanishes because angle and gradient both do keeps the pr
 
 TEST_CASE("a hinge passes from π to -π only where its triangles touch, so that its angle needs no unwrapping",
           "[property]") {
-  // At ±π both triangles lie in one plane on one side of their edge, where they overlap: a vertex of one lies on the
+  // At ±π both triangles lie in one plane on the same side of their edge and overlap: a vertex of one lies on the
   // other, or two of their edges cross. Bounds keep both distances above zero. Coordinates are integers, so nothing is
   // rounded.
   std::mt19937 engine(3);

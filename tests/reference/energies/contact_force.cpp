@@ -1,5 +1,5 @@
 // Compares the reference's contact with differences of its energy, with mechanics and with closed forms, and tests
-// where it has more than one answer.
+// cases with several accepted answers.
 #include "reference/energies/contact_force.hpp"
 
 #include "tests/catch.hpp"
@@ -12,7 +12,7 @@ namespace {
 
 compare::ForceAnswer exact(const ContactForceCase& c) { return reference::contact_force(c).front(); }
 
-/// Returns a point above a large triangle, at weights of a quarter of its second and half of its third corner.
+/// Returns a point above a large triangle; the weights of the second and third corner are a quarter and a half.
 ContactForceCase above(float height, float r = 0.5f, float k = 8) {
   ContactForceCase c;
   c.sides = ContactSides::point_triangle;
@@ -196,7 +196,7 @@ TEST_CASE("two edges without triangles share the energy by their overlap where t
     REQUIRE(at(-2, 6, slope) == Approx(1));     // all of the first
     REQUIRE(at(-2, 3, slope) == Approx(0.75));  // three quarters of the first
   }
-  REQUIRE(at(4, 6, 0) == Approx(1));      // they share no more than a point: another rule
+  REQUIRE(at(4, 6, 0) == Approx(1));      // they share only a point: another rule applies
   REQUIRE(at(3, 5, 0.01f) == Approx(1));  // not nearly parallel
   c.rest_squared = {4, 0};
   REQUIRE(at(3, 5, 0) == Approx(1));
@@ -225,7 +225,7 @@ TEST_CASE("where a decision is grey both answers are accepted, the exact one fir
   const auto on_side = reference::contact_force(beside);
   REQUIRE(on_side.size() == 2);
   REQUIRE(on_side[0].force.z == 0);
-  // The point cannot be distinguished from a touching one: every force up to that at 2^-23 r is accepted.
+  // Within rounding the point may touch: every force up to that at 2^-23 r is accepted.
   REQUIRE(reference::contact_force(above(1e-7f)).size() == 2);
 }
 

@@ -1,6 +1,5 @@
-// Makes random contacts, and finds closest points without features, to test the reference's contact stages. Minima are
-// found by alternating projections or as the smallest of all candidates, never by deciding in which region a point
-// lies.
+// Makes random contacts, and finds closest points without features, to test the reference's contact stages. Minima come
+// from alternating projections or are the smallest of all candidates; no region is decided.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +26,7 @@ inline double nearest(const Point& p, const Point& a, const Point& b) {
   return std::clamp(inner(minus(p, a), e) / inner(e, e), 0.0, 1.0);
 }
 
-/// Signed weights of the closest points: they add up to 1 on the first side and to −1 on the second.
+/// Signed weights of the closest points: 1 in sum on the first side, −1 on the second.
 using Weights = std::array<double, 4>;
 
 inline Weights weights_of_edges(const std::array<Point, 4>& x) {

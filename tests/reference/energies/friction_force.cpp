@@ -29,7 +29,7 @@ double potential(double y, double limit) {
   return y < limit ? y * y / limit - y * y * y / (3 * limit * limit) + limit / 3 : y;
 }
 
-/// Weights, normal and λ, which friction keeps fixed.
+/// Weights, normal and λ, which friction keeps constant.
 struct Lagged {
   Weights weight{};
   Point normal{};
@@ -57,7 +57,7 @@ struct Lagged {
   }
 };
 
-/// Returns a point at 0.25 m above a large triangle that has slipped along x and moved up; λ = 2 N.
+/// Returns a point 0.25 m above a large triangle that has slipped along x and has moved up; λ = 2 N.
 FrictionForceCase above(float slip, float lift) {
   FrictionForceCase c;
   c.contact.sides = ContactSides::point_triangle;
@@ -160,7 +160,7 @@ TEST_CASE(
     c.contact.contact_radius = radius;
     return reference::friction_force(compare::FrictionForceIn{{c}}).near[0] != 0;
   };
-  constexpr float radius = 0.6f;  // 0.25 is neither this radius nor half of it
+  constexpr float radius = 0.6f;  // neither r nor r/2 is 0.25
   for (const float slip : {0.125f, 0.125f * (1 + 0x1p-15f), 0.125f * (1 - 0x1p-15f)}) CHECK(near(slip, radius));
   for (const float slip : {0.0f, 0.1f, 0.124f, 0.126f, 0.2f}) CHECK_FALSE(near(slip, radius));
   CHECK_FALSE(near(0.125f, 0.2f));

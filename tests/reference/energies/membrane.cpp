@@ -1,5 +1,5 @@
-// Compares the membrane of the reference with differences of its energy, with mechanics, and with a stretch whose force
-// has a closed form.
+// Compares the reference's membrane with differences of its energy, with mechanics, and with a stretch whose force has
+// a closed form.
 #include "reference/energies/membrane.hpp"
 
 #include "tests/catch.hpp"
@@ -67,7 +67,7 @@ double energy(const Point& own, const MembraneCase& c) {
   return c.area * (psi + c.damping * density({now[0] - before[0], now[1] - before[1], now[2] - before[2]}, c));
 }
 
-/// Returns the same stencil with its next corner as the first.
+/// Returns the same stencil; its second corner becomes the first.
 MembraneCase turned(const MembraneCase& c) {
   MembraneCase next = c;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -89,8 +89,8 @@ TEST_CASE("the reference's membrane force is minus the slope of the energy", "[p
     const MembraneCase c = i % 2 == 0 ? random_case(draw) : neo_hookean(random_case(draw));
     const compare::ForceAnswer answer = exact(c);
     const Point fallen = slope([&](const Point& x) { return energy(x, c); }, point(c.corner[0]), 1e-5);
-    // Energies reach 10⁵ J, so rounding is 10⁵ · 2⁻⁵³ / 10⁻⁵ ≈ 10⁻⁶. The truncation error of a quartic with third
-    // derivatives of that size is 10⁻¹⁰ · 10⁵.
+    // Energies reach 10⁵ J, so rounding gives 10⁵ · 2⁻⁵³ / 10⁻⁵ ≈ 10⁻⁶. Truncation of a quartic with third derivatives
+    // of this size gives 10⁻¹⁰ · 10⁵.
     const double accepted = 1e-4 + 1e-8 * answer.force_scale;
     CHECK(std::abs(answer.force.x + fallen[0]) < accepted);
     CHECK(std::abs(answer.force.y + fallen[1]) < accepted);
@@ -114,8 +114,8 @@ TEST_CASE("the reference's membrane exerts no net force and, without damping, no
       }
       scale += answer.force_scale;
     }
-    // Gradients of a turned stencil are rounded to single precision once more: an error of u in an input, one unit of
-    // the condition. Arms are shorter than 3 m.
+    // Gradients of a turned stencil are rounded to single precision again: an input has an error of u, one unit of the
+    // condition. Arms are shorter than 3 m.
     CHECK(norm(force) < 4 * compare::unit_roundoff * scale);
     CHECK(norm(torque) < 12 * compare::unit_roundoff * scale);
   }
@@ -134,7 +134,7 @@ TEST_CASE("the reference's membrane block is positive semidefinite, also under c
 
 TEST_CASE("a uniform stretch of the reference's membrane has the force of its closed form", "[property]") {
   // Corners (0,0), (1,0), (0,1) are stretched to (s,0), (0,s). Then G = (s² − 1)/2 I and S = 2 (λ + μ) G. The force on
-  // corner 0 is A F S ∇N₀, summed, towards the inside.
+  // corner 0 is the sum of A F S ∇N₀, towards the inside.
   for (const float s : {0.5f, 1.0f, 1.25f, 2.0f}) {
     MembraneCase c;
     c.gradient = {{{1, 0}, {0, 1}}};
@@ -160,7 +160,7 @@ TEST_CASE("the reference's membrane at rest exerts nothing, and damping resists 
   c.lame_lambda = c.lame_mu = 4;
   c.damping = 3;
   CHECK(exact(c).force == compare::Vec3{});
-  // The triangle turned as a whole since the start of the step: no strain, no damping.
+  // Since the start of the step the triangle has turned as a whole: no strain, no damping.
   c.corner = {{{0, 0, 0}, {0, 0, 1}, {0, 1, 0}}};
   CHECK(exact(c).force == compare::Vec3{});
   c.corner[0] = {-0.25f, 0, 0};
@@ -183,7 +183,7 @@ TEST_CASE("at rest the stable Neo-Hookean membrane exerts nothing, and answers s
       MembraneCase moved = c;
       (corner == 1 ? moved.corner[1].x : moved.corner[2].x) += small;
       const compare::ForceAnswer a = exact(moved), b = exact(neo_hookean(moved));
-      // The models agree to first order; the second-order term is some small² times the stiffness.
+      // The models agree to first order; the second-order difference is about small² times the stiffness.
       CHECK(std::hypot(a.force.x - b.force.x, a.force.y - b.force.y) < 20 * small * small);
       CHECK(std::hypot(a.force.x, a.force.y) > 0.5 * std::abs(small));
     }
@@ -191,7 +191,7 @@ TEST_CASE("at rest the stable Neo-Hookean membrane exerts nothing, and answers s
 
 TEST_CASE("a uniform stretch of the stable Neo-Hookean membrane has the force of its closed form", "[property]") {
   // Corners (0,0), (1,0), (0,1) are stretched to (s,0), (0,s). Then ψ = (λ + μ)/2 (s² − 1)² and ∂ψ/∂F = (λ + μ)(s² − 1)
-  // s I; the force on corner 0 is A times its row sums.
+  // s I. The force on corner 0 is A times the row sums of this.
   for (const float s : {0.5f, 1.0f, 1.25f, 2.0f}) {
     MembraneCase c;
     c.gradient = {{{1, 0}, {0, 1}}};
@@ -235,7 +235,7 @@ TEST_CASE(
     double largest = 0;
     for (std::size_t k = 0; k < 6; ++k)
       raised[k] = block[k] - second[k], largest = std::max(largest, std::abs(raised[k]));
-    // Differences over 10⁻⁴ of energies of the size of the block have errors of 2⁻⁵³/10⁻⁸ by rounding and 10⁻⁸ times
+    // Energies have the size of the block. Differences over 10⁻⁴ have errors of 2⁻⁵³/10⁻⁸ by rounding and of 10⁻⁸ times
     // fourth derivatives.
     CHECK(smallest_quadratic(raised, draw) >= -1e-4 * size);
     if (smallest_quadratic(second, draw) < 1e-3 * size) continue;

@@ -1,5 +1,5 @@
-// Tests rest data by partitions and identities that hold for every mesh, and by shapes whose numbers can be written
-// down.
+// Tests rest data by partitions and identities that hold for every mesh, and by shapes whose numbers are known in
+// closed form.
 #include "reference/energies/rest_state.hpp"
 
 #include <cmath>
@@ -84,7 +84,7 @@ TEST_CASE(
     const auto& corners = rest.exact.triangles[t].corner;
     const auto at = [&](std::size_t k) { return scene.rest_positions[static_cast<std::size_t>(corners[k])]; };
     const auto& g = rest.gradient[t];
-    // F = (x₁ − x₀) ∇N₁ᵀ + (x₂ − x₀) ∇N₂ᵀ: constants drop out, because ∇N₀ = −∇N₁ − ∇N₂.
+    // F = (x₁ − x₀) ∇N₁ᵀ + (x₂ − x₀) ∇N₂ᵀ, because ∇N₀ = −∇N₁ − ∇N₂.
     const auto column = [&](std::size_t axis) {
       const Vec3 o = at(0), p = at(1), q = at(2);
       const double a = g[0][axis], b = g[1][axis];
@@ -106,7 +106,7 @@ TEST_CASE(
 TEST_CASE("rest state: a flat hinge has angle 0, a right angle has a quarter turn, folded ones half a turn", "[unit]") {
   using std::numbers::pi;
   CHECK(angle_of({1, -1, 0}) == 0);
-  // The second normal for the far corner (1, 0, 1) is (0, 1, 0)·2: +z turned about +x by −90°.
+  // For the far corner (1, 0, 1) the second normal is (0, 1, 0)·2: +z turned about +x by −90°.
   CHECK(angle_of({1, 0, 1}) == Approx(-pi / 2).epsilon(1e-15));
   CHECK(angle_of({1, 0, -1}) == Approx(pi / 2).epsilon(1e-15));
   CHECK(angle_of({1, -1, 1}) == Approx(-pi / 4).epsilon(1e-15));

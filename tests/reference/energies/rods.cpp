@@ -1,5 +1,5 @@
-// Compares the reference's rod with differences of its energy written in plain doubles. Checks that its orientations
-// are minimisers on the sphere: no orientation near or far has less energy, and M q + b = μ q with μ at least σ.
+// Compares the reference's rod with differences of its energy in plain doubles. Checks that its orientations are
+// minimisers on the sphere: no orientation near or far has less energy, and M q + b = μ q with μ ≥ σ.
 #include <algorithm>
 #include <limits>
 
@@ -90,7 +90,8 @@ double energy(const OrientationAnswer& answer, const Four& q) {
 
 double size(const Four& q) { return std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]); }
 
-/// Returns the angle θ of the remaining rotation between the segment and a neighbour, from the trace of matrices alone.
+/// Returns the angle θ of the rotation between the segment and a neighbour relative to rest, from the trace of matrices
+/// only.
 double angle_to(const OrientationCase& c, const Quaternion& q, bool is_ahead) {
   const RodNeighbour& f = is_ahead ? c.ahead : c.behind;
   const auto a = matrix_of(is_ahead ? q : f.now), b = matrix_of(is_ahead ? f.now : q), p = matrix_of(f.rest);
@@ -101,7 +102,7 @@ double angle_to(const OrientationCase& c, const Quaternion& q, bool is_ahead) {
   return std::acos(std::clamp((trace - 1) / 2, -1.0, 1.0));
 }
 
-/// Returns k_s l/2 ‖D/l − R e₃‖² plus w (1 − cos θ/2) of both neighbours.
+/// Returns k_s l/2 ‖D/l − R e₃‖² plus w (1 − cos θ/2) for each neighbour.
 double physical_energy(const OrientationCase& c, const Quaternion& q) {
   const auto r = matrix_of(q);
   const Point d = minus(point(c.vertex[1]), point(c.vertex[0]));
@@ -130,7 +131,7 @@ TEST_CASE("the reference's force of a rod is minus the slope of its energy, its 
       const compare::ForceAnswer exact = reference::rod(c);
       const Point x = point(c.vertex[static_cast<std::size_t>(own)]),
                   by_differences = slope([&](const Point&at) { return energy(c, at); }, x, 1e-3);
-      // A parabola has no truncation error. Rounding gives 2⁻⁵³ of 200 J over the step; quaternions have length 1
+      // A parabola has no truncation error. Rounding gives 2⁻⁵³ of 200 J over the step. Quaternions have length 1
       // within 2⁻²³, with forces of at most 300 N.
       CHECK(std::abs(exact.force.x + by_differences[0]) <= 1e-4);
       CHECK(std::abs(exact.force.y + by_differences[1]) <= 1e-4);
@@ -192,12 +193,12 @@ TEST_CASE("from a near old q it minimises the energy of stretch, shear, bend and
     c.damping = 0;
     const Four q = reference::orientation(c).front().orientation;
     for (std::size_t k = 0; k < 4; ++k) c.orientation[k] = static_cast<float>(q[k]);
-    // Signs come from the answer itself; at a fixed point they are those of the nearest turns.
+    // Signs come from the answer itself; at a fixed point they are the signs of the nearest turns.
     const Four again = reference::orientation(c).front().orientation;
     if (std::abs(again[0] - q[0]) + std::abs(again[1] - q[1]) + std::abs(again[2] - q[2]) + std::abs(again[3] - q[3]) >
         1e-5)
       continue;
-    // At π the energy has a ridge, and beyond it another turn than the chosen one may have less energy.
+    // At π the energy has a ridge, and the turn beyond it may have less energy than the chosen one.
     if (std::max(angle_to(c, c.orientation, false), angle_to(c, c.orientation, true)) > 2.9) continue;
     ++compared;
     const double least = physical_energy(c, c.orientation);
@@ -241,10 +242,10 @@ TEST_CASE("a grey sign has two answers, and a reversed director none that stands
   REQUIRE(both.size() == 2);
   CHECK(both[0].orientation[2] == Approx(1));
   CHECK(both[1].orientation[2] == Approx(-1));
-  c.ahead.now = {1, 0, 0, 0};  // a half turn that reverses the director, against a stretch that keeps it
+  c.ahead.now = {1, 0, 0, 0};  // a half turn that reverses the director, while the stretch keeps it
   c.orientation = {0.6f, 0, 0, 0.8f};
   CHECK(std::isinf(reference::orientation(c).front().scale));
-  c.ahead.weight = 100;  // here the neighbour overcomes the stretch
+  c.ahead.weight = 100;  // this neighbour overcomes the stretch
   CHECK(reference::orientation(c).front().orientation[0] == Approx(1));
   CHECK(reference::orientation(c).front().scale < 10);
 }

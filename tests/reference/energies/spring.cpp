@@ -1,5 +1,5 @@
-// Compares the spring of the reference with differences of its energy and with mechanics, and tests the lengths at
-// which its form changes.
+// Compares the reference's spring with differences of its energy and with mechanics, and tests the lengths at which its
+// formula changes.
 #include "reference/energies/spring.hpp"
 
 #include "tests/catch.hpp"
@@ -54,7 +54,7 @@ TEST_CASE("the reference's spring force is minus the slope of the energy, along 
     if (norm(minus(point(c.vertex[0]), point(c.vertex[1]))) < 0.1) continue;
     const Point force = force_of(reference::spring(c)),
                 fallen = slope([&](const Point&x) { return energy(x, c); }, point(c.vertex[0]), 1e-5);
-    // Energies are some 100 J, with third derivatives below 10⁵ at lengths above 0.1 m.
+    // Energies are about 100 J, with third derivatives below 10⁵ for lengths above 0.1 m.
     for (std::size_t k = 0; k < 3; ++k) CHECK(std::abs(force[k] + fallen[k]) < 1e-4);
     CHECK(norm(outer(force, minus(point(c.vertex[0]), point(c.vertex[1])))) < 1e-13 * (1 + norm(force)));
     std::swap(c.vertex[0], c.vertex[1]);
@@ -165,7 +165,7 @@ TEST_CASE(
 }
 
 TEST_CASE("what a lost length leaves of a stitch's block is accepted, no block is not", "[property]") {
-  SpringCase c;  // off the middle of the edge by 10⁻⁸ of its length, a fifth of a rounding
+  SpringCase c;  // 10⁻⁸ of the length beside the middle of the edge, a fifth of the rounding error
   c.vertex = {{{0.5f, 1e-8f, 0}, {0, 0, 0}, {1, 0, 0}}};
   c.start = c.vertex;
   c.stiffness = 16;
@@ -174,7 +174,7 @@ TEST_CASE("what a lost length leaves of a stitch's block is accepted, no block i
     c.rest_length = rest_length;
     const compare::ForceAnswer answer = reference::spring(c);
     const double accepted = compare::spring_block_tolerance * compare::unit_roundoff * answer.block_scale;
-    // The part missing is that of n nᵀ alone.
+    // The missing part is that of I − n nᵀ; `missing` leaves out the entry along n.
     const double missing = std::sqrt(answer.block[0] * answer.block[0] + answer.block[5] * answer.block[5]);
     CHECK((missing <= accepted) == (rest_length > 0));
     CHECK(std::sqrt(missing * missing + answer.block[3] * answer.block[3]) > accepted);
@@ -184,7 +184,7 @@ TEST_CASE("what a lost length leaves of a stitch's block is accepted, no block i
 TEST_CASE("damping of a spring's strain sees no rigid motion, damping by vertex a translation, too", "[property]") {
   SpringCase c;
   c.vertex = {{{1, 0, 0}, {0, 0, 0}, {0, 0, 0}}};
-  c.start = {{{5, 1, 0}, {5, 0, 0}, {5, 0, 0}}};  // turned and moved, with the same length
+  c.start = {{{5, 1, 0}, {5, 0, 0}, {5, 0, 0}}};  // the spring has turned and moved, with the same length
   c.stiffness = 2;
   c.rest_length = 1;
   c.damping = 3;

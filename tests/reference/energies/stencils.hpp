@@ -1,5 +1,5 @@
-// Makes random stencils and writes the energies once more in plain doubles, for the tests of reference/energies. The
-// derivatives to compare with must not come from the differentiation that is tested.
+// Makes random stencils and writes the energies in plain doubles again, for the tests of reference/energies. The
+// expected derivatives must not come from the differentiation under test.
 #pragma once
 
 #include <array>
@@ -31,8 +31,8 @@ class Draw {
   std::mt19937 engine_;
 };
 
-/// Returns central differences of an energy of one point. With step s the truncation error is s²/6 times a third
-/// derivative, the rounding error 2⁻⁵³ E/s.
+/// Returns central differences of an energy by one point. With step s the truncation error is s²/6 times a third
+/// derivative, the rounding error is 2⁻⁵³ E/s.
 template <class Energy>
 Point slope(Energy energy, const Point& at, double step) {
   Point result{};

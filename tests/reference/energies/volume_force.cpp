@@ -1,5 +1,5 @@
-// Compares the reference's force of a volume with differences of its energy, with fixed weights, direction and normal
-// force.
+// Compares the reference's force of a volume with differences of its energy; weights, direction and normal force are
+// fixed.
 #include "reference/energies/volume_force.hpp"
 
 #include "tests/catch.hpp"
@@ -71,7 +71,8 @@ TEST_CASE("the reference's force of a volume is minus the slope of its energy", 
         std::array<Point, 4> above = points(c.vertex), below = above;
         above[static_cast<std::size_t>(own)][axis] += step;
         below[static_cast<std::size_t>(own)][axis] -= step;
-        // Third derivatives of f₀ are at most 2/ε² times μ λ ≤ 10 N: 2e5 step². Rounding is 2⁻⁵² of 10 J over the step.
+        // Third derivatives of f₀ are at most 2/ε² times μ λ ≤ 10 N: 2e5 step². Rounding gives 2⁻⁵² of 10 J over the
+        // step.
         REQUIRE(std::abs(force[axis] + (energy(c, above) - energy(c, below)) / (2 * step)) <= 1e-6);
       }
     }

@@ -1,5 +1,5 @@
-// Tests stage block: compares it with the conditions as printed in Eq. 8–10, 14 and 15, evaluated with closest points
-// in double, and tests its boundaries.
+// Tests stage block against the conditions as printed in Eq. 8–10, 14 and 15, evaluated with closest points in double,
+// and tests its boundaries.
 #include "reference/geometry/block.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ Point operator+(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y, 
 Point operator*(double s, const Point& a) { return {s * a.x, s * a.y, s * a.z}; }
 double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/// Holds all conditions of a block as margins that must be ≥ 0; the smallest decides. `inside` returns nothing where it
+/// Collects the conditions of a block as margins that must be ≥ 0; the smallest decides. `inside` returns nothing if it
 /// is too small for double.
 class Printed {
  public:
@@ -50,7 +50,7 @@ class Mesh {
     return reference::block({&topology_, surface_.positions, questions});
   }
 
-  /// Returns all questions of a kind about all faces.
+  /// Returns all questions of one kind about all faces.
   std::vector<BlockQuestion> questions(Kind kind) const {
     std::vector<BlockQuestion> all;
     const auto count = kind == Kind::edge_in_edges ? topology_.edges.size()
@@ -128,7 +128,7 @@ class Mesh {
     conditions.need(dot(x - b, a - b));
   }
 
-  /// Eq. 9: (x − p)·(p − w) ≥ 0, where p is the foot of w on the line of the edge.
+  /// Adds Eq. 9: (x − p)·(p − w) ≥ 0, where p is the foot of w on the line of the edge.
   void beside(const Point& x, Index e, Printed& conditions) const {
     const auto [a, b] = ends(e);
     const Point along = b - a;
@@ -138,7 +138,7 @@ class Mesh {
     }
   }
 
-  /// Eq. 10 in barycentric coordinates of the foot.
+  /// Adds Eq. 10 in barycentric coordinates of the foot.
   void within(const Point& x, Index t, Printed& conditions) const {
     const auto& [i, j, k] = topology_.triangles[static_cast<std::size_t>(t)];
     const Point a = at(i), u = at(j) - a, v = at(k) - a, p = x - a;
@@ -168,7 +168,7 @@ void compare_all(const Mesh& mesh, Kind kind, Counts& counts) {
   }
 }
 
-/// Compares on soups and folded sheets.
+/// Compares on soups and on folded sheets.
 Counts compare_on_random_meshes(Kind kind) {
   std::mt19937 random(11);
   Counts counts;
@@ -219,8 +219,8 @@ TEST_CASE(
 }
 
 TEST_CASE("block: a boundary is grey within rounding of it, and decided exactly", "[unit]") {
-  // The boundary of the block of vertex 0 towards vertex 1 is reached on a slant, so that coordinates cancel: (1 + δ) −
-  // 1 with both signs of 1.
+  // The line to the boundary between the blocks of vertices 0 and 1 is slanted, so that coordinates cancel: (1 + δ) − 1
+  // with both signs of 1.
   const auto about = [](float x) {
     const Surface surface{{{1, 1, 0}, {2, 2, 0}, {x, 0, 5}, {9, 9, 9}, {9, 8, 9}}, {}, {{0, 1}, {2, 3}, {3, 4}}, {}};
     return Mesh(surface).ask({{Kind::vertex_in_surface, 2, {FaceKind::vertex, 0}}});
@@ -236,7 +236,7 @@ TEST_CASE("block: a boundary is grey within rounding of it, and decided exactly"
 }
 
 TEST_CASE("block: the point of an edge is that inside it or its nearer end", "[unit]") {
-  // Above vertex 0, the foot on the edge over it lies beyond x = 0 for a slanted edge, at the end for a short one.
+  // The edge lies above vertex 0. If it is slanted, the foot lies beyond x = 0; if it is short, at its end.
   const auto inside = [](const Vec3f& from, const Vec3f& to, Face a) {
     return Mesh(patch(from, to)).ask({{Kind::edge_in_edges, 8, a}}).inside[0];
   };
@@ -246,7 +246,7 @@ TEST_CASE("block: the point of an edge is that inside it or its nearer end", "[u
   CHECK(inside({0, 0, 1}, {1, 0, 1}, vertex) == 1);
   CHECK(inside({0.25f, 0, 1}, {1, 0, 1}, vertex) == 0);
   CHECK(inside({-1, 0, 0.5f}, {1, 0, 1}, vertex) == 0);
-  // The edge lies across edge 0, from vertex 0 to vertex 1, or beside it.
+  // The edge crosses above edge 0 (from vertex 0 to vertex 1), or lies next to it.
   CHECK(inside({0.5f, -1, 1}, {0.5f, 1, 1}, {FaceKind::edge, 0}) == 1);
   CHECK(inside({0.5f, 1, 1}, {0.5f, 2, 1}, {FaceKind::edge, 0}) == 1);
   CHECK(inside({-0.5f, -1, 1}, {-0.5f, 1, 1}, {FaceKind::edge, 0}) == 0);

@@ -1,4 +1,4 @@
-// Tests the four properties of blocks of §3.3 as theorems, on random and hand-made meshes, and the boundaries of Eq.
+// Tests the four properties of blocks of §3.3 as theorems, on random and handmade meshes, and the boundaries of Eq.
 // 8–10, 14 and 15 as printed.
 #include "reference/geometry/blocks.hpp"
 
@@ -86,7 +86,7 @@ void examine(const Complex& mesh, const Vec3f& x, float r, Counts& counts) {
       for (const Face b : faces) {
         if (is_part(mesh, a, b) || is_part(mesh, b, a)) counts.shared += in_block(mesh, b, x, r);
         const double to_a = distance_to(mesh, a, x), to_b = distance_to(mesh, b, x);
-        if (is_part(mesh, a, b)) counts.farther += to_b < to_a;   // equal: the closest point of b lies on a
+        if (is_part(mesh, a, b)) counts.farther += to_b < to_a;   // equal if the closest point of b lies on a
         if (is_part(mesh, b, a)) counts.farther += to_b <= to_a;  // strict
       }
     }
@@ -196,7 +196,8 @@ TEST_CASE(
   const auto topology = surface.topology();
   const Complex mesh{topology, surface.positions};
   const Index spine = compare::find_edge(topology, 0, 1), loose = compare::find_edge(topology, 2, 3);
-  // Opposite vertices lie towards +y, −y (slightly up) and +z; only −z with a small y is away from all three.
+  // The opposite vertices lie towards +y, −y (slightly up) and +z. Only directions near −z with a small y point away
+  // from all three.
   CHECK(in_block(mesh, edge_face(spine), {2, 0, -1}, 1));
   CHECK_FALSE(in_block(mesh, edge_face(spine), {2, 0, 1}, 1));
   CHECK_FALSE(in_block(mesh, edge_face(spine), {2, 0.5f, -0.5f}, 1));

@@ -1,5 +1,5 @@
-// Tests closest_face: values derived by hand on one triangle in all vertex orders, the planes between features,
-// collapsed and needle triangles.
+// Tests closest_face: values derived by hand on one triangle in all orders of its vertices, planes between features,
+// collapsed triangles, needles.
 #include "reference/geometry/closest_face.hpp"
 
 #include <algorithm>
@@ -27,8 +27,8 @@ struct Case {
   std::array<double, 3> weights;
 };
 
-// Points lie strictly inside each region, then on each plane between two regions (the lower-dimensional feature wins),
-// then on three planes at once.
+// Points strictly inside each region, then on each plane between two regions (the lower-dimensional feature wins), then
+// on three planes at once.
 const std::vector<Case> cases{
     {{1, 1, 3}, TriangleFeature::interior, 3, {0.5, 0.25, 0.25}},
     {{-1, -2, 2}, TriangleFeature::corner_0, 3, {1, 0, 0}},
@@ -52,7 +52,7 @@ const std::vector<Case> cases{
     {{1, 1, 0}, TriangleFeature::interior, 0, {0.5, 0.25, 0.25}},
 };
 
-/// Returns the feature of the permuted triangle (t[order[0]], …) that is the same set of points.
+/// Returns the feature of the permuted triangle (t[order[0]], …) with the same points.
 TriangleFeature renamed(TriangleFeature feature, const std::array<std::size_t, 3>& order) {
   const auto place = [&](std::size_t corner) {
     return static_cast<int>(std::find(order.begin(), order.end(), corner) - order.begin());
@@ -95,7 +95,7 @@ TEST_CASE("closest_face: every region and every plane between two, in all six ve
 
 TEST_CASE("closest_face: the smallest step across a plane changes the feature, and both answers are accepted",
           "[unit]") {
-  // The plane between interior and edge_12 passes through (1.1, 2.9, z). One unit in the last place of x moves the
+  // The plane between the interior and edge_12 passes through (1.1, 2.9, z). One unit in the last place of x moves the
   // point to either side.
   const Corners t{Vec3f{0, 0, 0}, Vec3f{4, 0, 0}, Vec3f{0, 4, 0}};
   const float y = 2.9f, on = 4 - y;  // exact: 4 − y needs fewer digits than y
@@ -118,10 +118,10 @@ TEST_CASE("closest_face: a collapsed triangle gives corners and edges, never its
     in.triangle.push_back(t);
     in.point.push_back(p);
   };
-  add({a, b, middle}, {2, 3, 4});   // beside the common part of edges 01 and 12; the lower-numbered edge
-  add({a, b, middle}, {1, 3, 4});   // straight beside the middle corner
+  add({a, b, middle}, {2, 3, 4});   // next to the common part of edges 01 and 12: the lower-numbered edge
+  add({a, b, middle}, {1, 3, 4});   // right next to the middle corner
   add({a, b, middle}, {-3, 0, 4});  // beyond an end
-  add({a, a, b}, {2, 3, 4});        // two corners coincide; edge 12 is the lowest of positive length
+  add({a, a, b}, {2, 3, 4});        // two corners coincide: edge 12 is the lowest with positive length
   add({a, a, b}, {-3, 0, 4});
   add({b, b, b}, {4, 3, 4});
   const auto truth = reference::closest_face(in);
@@ -150,7 +150,7 @@ TEST_CASE(
       return Vec3f{scale * coordinate(random), scale * coordinate(random), scale * height * coordinate(random)};
     };
     const Vec3f a = draw(1), along = draw(1);
-    // Every second triangle is a needle, whose third corner lies almost on the line of the other two.
+    // Every second triangle is a needle: its third corner lies almost on the line of the other two.
     const float s = share(random);
     const Vec3f needle{a.x + s * along.x + flat * scale * coordinate(random), a.y + s * along.y, a.z + s * along.z};
     in.triangle.push_back({a, {a.x + along.x, a.y + along.y, a.z + along.z}, i % 2 == 0 ? draw(1) : needle});

@@ -1,5 +1,5 @@
-// Tests closest_points: values derived by hand for each pair of features, parallel, nearly parallel and zero-length
-// edges.
+// Tests closest_points: values derived by hand for each pair of features, and for parallel, nearly parallel and
+// zero-length edges.
 #include "reference/geometry/closest_points.hpp"
 
 #include <algorithm>
@@ -43,10 +43,10 @@ const std::vector<Case> cases{
     {{Vec3f{1, 9, 4}, Vec3f{1, 3, 4}}, interior, end_1, {0.25, 1}, 5},
     {{Vec3f{7, 0, 4}, Vec3f{9, 1, 4}}, end_1, end_0, {1, 0}, 5},
     {{Vec3f{-9, 1, 4}, Vec3f{-3, 0, 4}}, end_0, end_1, {0, 1}, 5},
-    // The next pair lies on the plane between interior and end_0 of the first edge.
+    // This pair lies on the plane between the interior and end_0 of the first edge.
     {{Vec3f{0, -1, 3}, Vec3f{0, 3, 3}}, end_0, interior, {0, 0.25}, 3},
-    {{Vec3f{1, 0, 3}, Vec3f{1, 3, 3}}, interior, end_0, {0.25, 0}, 3},  // same for the second
-    {{Vec3f{4, 0, 3}, Vec3f{4, 3, 3}}, end_1, end_0, {1, 0}, 3},        // both
+    {{Vec3f{1, 0, 3}, Vec3f{1, 3, 3}}, interior, end_0, {0.25, 0}, 3},  // the same for the second edge
+    {{Vec3f{4, 0, 3}, Vec3f{4, 3, 3}}, end_1, end_0, {1, 0}, 3},        // for both edges
     {{Vec3f{4, 3, 4}, Vec3f{8, 3, 4}}, end_1, end_0, {1, 0}, 5},        // parallel, projections share one point
     {{Vec3f{7, 0, 4}, Vec3f{9, 0, 4}}, end_1, end_0, {1, 0}, 5},        // parallel, projections apart
     {{Vec3f{1, 3, 4}, Vec3f{1, 3, 4}}, interior, end_0, {0.25, 0}, 5},  // zero length
@@ -61,7 +61,7 @@ double distance_at(const Ends& e, double s, const Ends& f, double t) {
                 at(e[0].z, e[1].z, s) - at(f[0].z, f[1].z, t));
 }
 
-/// Returns an edge that crosses above the middle of one along x, with this slope.
+/// Returns an edge with this slope that crosses above the middle of an edge along x.
 Ends sloped(float slope) { return {Vec3f{-1, -slope, 0.5f}, Vec3f{1, slope, 0.5f}}; }
 
 }  // namespace
@@ -89,7 +89,7 @@ TEST_CASE("closest_points: every pair of features, with the edges in both roles 
 }
 
 TEST_CASE("closest_points: parallel edges that overlap meet in the middle of the overlap", "[unit]") {
-  // The overlap is [2, 4] on the first edge. Its middle 3 is s = 0.75; projected, t = (3 − 2)/4.
+  // The overlap is [2, 4] on the first edge. Its middle 3 has s = 0.75, and its projection t = (3 − 2)/4.
   const auto truth = ask(edge, {Vec3f{2, 3, 4}, Vec3f{6, 3, 4}});
   CHECK(truth.exact.nearly_parallel[0] == 1);
   CHECK(truth.exact.first_feature[0] == interior);
@@ -102,7 +102,7 @@ TEST_CASE("closest_points: parallel edges that overlap meet in the middle of the
 }
 
 TEST_CASE("closest_points: the limit between nearly parallel and not is 10⁻⁶ of the squared sine", "[unit]") {
-  // For edges (2,0,0) and (2, 2y, 0), sin² = y²/(1 + y²) < 10⁻⁶ if y < 10⁻³ (1 + 5·10⁻⁷).
+  // For edges (2,0,0) and (2, 2y, 0), sin² = y²/(1 + y²); it is < 10⁻⁶ if y < 10⁻³ (1 + 5·10⁻⁷).
   const Ends first{Vec3f{-1, 0, 0}, Vec3f{1, 0, 0}};
   CHECK(ask(first, sloped(0.001f)).exact.nearly_parallel[0] == 1);
   CHECK(ask(first, sloped(0.0010001f)).exact.nearly_parallel[0] == 0);
@@ -115,8 +115,8 @@ TEST_CASE("closest_points: the limit between nearly parallel and not is 10⁻⁶
 
 TEST_CASE("closest_points: a nearly parallel pair keeps its true distance beside that of the contact points",
           "[unit]") {
-  // Edges of slope 10⁻⁴ cross at x = −1/2 above the first edge, at a true distance of 1/2. At x = 0, the middle of the
-  // overlap, the second edge is 5·10⁻⁵ aside.
+  // Edges of slope 10⁻⁴ cross at x = −1/2 above the first edge; their true distance is 1/2. At x = 0, the middle of the
+  // overlap, the second edge is 5·10⁻⁵ to the side.
   const Ends first{Vec3f{-1, 0, 0}, Vec3f{1, 0, 0}};
   const float slope = 1e-4f;
   const auto truth = ask(first, {Vec3f{-1, -0.5f * slope, 0.5f}, Vec3f{1, 1.5f * slope, 0.5f}});

@@ -30,7 +30,7 @@ compare::DetectEdgeEdgeTruth detect(const Surface& surface, float r, float r_q) 
   return reference::detect_edge_edge(question(surface, topology, r, r_q));
 }
 
-/// Holds all pairs of edges as one batch of closest_points, lower number first.
+/// All pairs of edges as one batch of closest_points, the lower number first.
 struct Pairs {
   std::vector<std::array<Index, 2>> edges;
   compare::ClosestPointsTruth truth;
@@ -59,8 +59,7 @@ Face face_of(const compare::Topology& topology, Index e, EdgeFeature feature) {
   return vertex_face(topology.edges[static_cast<std::size_t>(e)][static_cast<std::size_t>(feature)]);
 }
 
-/// Decides Eq. 15 for a closest point in double, with a margin instead of a sign; it uses no exact predicate and gives
-/// no NaN.
+/// Decides Eq. 15 for a closest point in double, by a margin instead of a sign; uses no exact predicate.
 bool in_vertex_block(const compare::Topology& topology, const Surface& surface, Index v,
                      const std::array<double, 3>& c) {
   const auto& x = surface.positions[static_cast<std::size_t>(v)];
@@ -80,7 +79,7 @@ std::array<double, 3> point_on(const compare::Topology& topology, const Surface&
           a.z + s * (static_cast<double>(b.z) - a.z)};
 }
 
-/// Returns E_OGC from closest points in double; random states have no case that is too close to a boundary.
+/// Returns E_OGC from closest points in double. Random states have no case too close to a boundary.
 std::vector<EdgeEdgeContact> by_definition(const Surface& surface, float r) {
   const auto topology = surface.topology();
   const Pairs pairs = all_pairs(surface, topology);
@@ -107,7 +106,7 @@ std::vector<EdgeEdgeContact> by_definition(const Surface& surface, float r) {
   return contacts;
 }
 
-/// Returns whether an answer is the exact one or differs from it only as grey decisions allow.
+/// Returns whether an answer differs from the exact one only as grey decisions allow.
 bool accepted(const compare::DetectEdgeEdgeTruth& truth, const std::vector<EdgeEdgeContact>& answer) {
   std::multimap<EdgeEdgeContact, const compare::GreyDecision<EdgeEdgeContact>*> decisions;
   for (const auto& decision : truth.grey) {
@@ -130,7 +129,7 @@ bool accepted(const compare::DetectEdgeEdgeTruth& truth, const std::vector<EdgeE
 
 Surface two_edges(Vec3f a, Vec3f b, Vec3f c, Vec3f d) { return {{a, b, c, d}, {}, {{0, 1}, {2, 3}}, {}}; }
 
-/// Returns whether neighbours surround all vertices of the face: none lies on the rim of a sheet of n × n vertices.
+/// Returns whether no vertex of the face lies on the rim of a sheet of n × n vertices.
 bool inner(const reference::Complex& mesh, Face face, int n) {
   const auto vertices = mesh.vertices(face);
   return std::all_of(vertices.span().begin(), vertices.span().end(), [&](Index v) {
@@ -163,7 +162,7 @@ TEST_CASE(
   bend.positions[3].z = bend.positions[4].z = 0.5f;
   CHECK(detect(bend, 1, 2).exact.contacts ==
         std::vector<EdgeEdgeContact>{{edge_face(0), edge_face(2), 0, 2}, {edge_face(1), edge_face(2), 1, 2}});
-  // Vertices 1 and 4 of two bends meet through four pairs of edges.
+  // Vertices 1 and 4 of two bends are in contact through four pairs of edges.
   const Surface bends{{{-2, 0, 2}, {0, 0, 0.5f}, {2, 0, 2}, {0, -2, -2}, {0, 0, -0.5f}, {0, 2, -2}},
                       {},
                       {{0, 1}, {1, 2}, {3, 4}, {4, 5}},
@@ -184,7 +183,7 @@ TEST_CASE("detect_edge_edge: nearly parallel edges are one interior pair, from t
 }
 
 TEST_CASE("detect_edge_edge: nearly parallel edges count where closest points lie in the blocks", "[unit]") {
-  // Edge 01 of a triangle lies below edge 23 of another one; arguments are their third vertices.
+  // Edge 01 of a triangle lies below edge 23 of another triangle; the arguments are the third vertices.
   const auto pair_with = [](Vec3f below, Vec3f above, float tilt, float shift) {
     const Surface surface{{{0, 0, 0}, {4, 0, 0}, {1 + shift, 0, 1}, {5 + shift, 0, 1 + tilt}, below, above},
                           {{0, 1, 4}, {2, 3, 5}},
@@ -200,10 +199,12 @@ TEST_CASE("detect_edge_edge: nearly parallel edges count where closest points li
     for (const float tilt : {0.0f, 0x1p-40f, -0x1p-40f, 0x1p-11f}) {
       CHECK(pair_with(down, up, tilt, shift));
       CHECK(pair_with(aside, beside, 0, shift));
-      CHECK_FALSE(pair_with({2, 3, 1}, {3, 3, 0}, tilt, shift));  // each leans towards the other, at both ends
+      // at both ends, each triangle leans towards the other edge
+      CHECK_FALSE(pair_with({2, 3, 1}, {3, 3, 0}, tilt, shift));
     }
   }
-  // A further triangle leans over vertex 1 alone: there is no contact at that end of the overlap, but one at vertex 2.
+  // Another triangle leans over vertex 1 only: there is no contact at that end of the overlap, but there is one at
+  // vertex 2.
   const auto leaning_at = [](float tilt) {
     const Surface surface{
         {{0, 0, 0}, {4, 0, 0}, {1, 0, 1}, {5, 0, 1 + tilt}, {4, 2, 1}, {5, 2, 1}, {2, 2, -1}, {2, 2, 2}},
@@ -226,7 +227,7 @@ TEST_CASE("detect_edge_edge: a flat sheet has no contact with itself at rest, wh
     CHECK(count(grid(7), r) == 0);
     CHECK(count(mapped(grid(7), turned), turned_scale * r) == 0);
   }
-  // Two sheets face each other, edge above edge.
+  // Each edge of one sheet lies above an edge of the other.
   const Surface sheets = together(grid(5), grid(5, 0.5f));
   for (const auto& c : detect(sheets, 1.5f, 3).exact.contacts) CHECK((c.first_edge < 56) != (c.second_edge < 56));
   CHECK(count(sheets, 1.5f) > 56);
@@ -250,8 +251,7 @@ TEST_CASE("detect_edge_edge: parallel strands keep their contacts at any tilt", 
 }
 
 TEST_CASE("detect_edge_edge: two parallel flat sheets have interior pairs only, along the normal", "[unit]") {
-  // The second sheet is turned by the angle of a 3-4-5 triangle and shifted, so no two edges across the sheets are
-  // parallel.
+  // The second sheet is turned by the angle of a 3-4-5 triangle and shifted, so no edges of both sheets are parallel.
   const int n = 7;
   const Surface upper = mapped(grid(n), [](Vec3f x) {
     return Vec3f{0.6f * x.x - 0.8f * x.y + 3.37f, 0.8f * x.x + 0.6f * x.y - 1.21f, 0.5f};
@@ -367,8 +367,8 @@ TEST_CASE("detect_edge_edge: pairs inside one rigid group are neither contacts n
 
 TEST_CASE("detect_edge_edge: boundaries of every kind are grey on both sides", "[unit]") {
   const auto one_up = [](float x) { return std::nextafter(x, 1e9f); };
-  // At an oblique end, the second edge lies in the plane x + y = 8 through vertex 1 up to a last place; 8 − 5.1 and 8 −
-  // 5.7 are exact.
+  // At an oblique end the second edge lies in the plane x + y = 8 through vertex 1, up to the last place; 8 − 5.1 and 8
+  // − 5.7 are exact.
   for (const float x : {5.1f, one_up(5.1f)}) {
     const auto truth = detect(two_edges({0, 0, 0}, {4, 4, 0}, {x, 8 - 5.1f, 2}, {8 - 5.7f, 5.7f, 2}), 3, 4);
     REQUIRE(truth.grey.size() == 1);
@@ -376,13 +376,13 @@ TEST_CASE("detect_edge_edge: boundaries of every kind are grey on both sides", "
     CHECK(truth.grey[0].contacts ==
           std::vector<EdgeEdgeContact>{{vertex_face(1), edge_face(1), 0, 1}, {edge_face(0), edge_face(1), 0, 1}});
   }
-  // Next to the distance r, absence is accepted on both sides.
+  // Near the distance r, absence is accepted on both sides.
   for (const float z : {std::nextafter(1.0f, 0.0f), 1.0f, one_up(1.0f)}) {
     const auto truth = detect(two_edges({-2, 0, 0}, {2, 0, 0}, {0, -2, z}, {0, 2, z}), 1, 1);
     REQUIRE(truth.grey.size() == 1);
     CHECK(truth.grey[0].absence_accepted);
   }
-  // At the limit of nearly parallel the other answer is end to interior.
+  // At the limit between nearly parallel and not, the other answer is end to interior.
   const auto limit = detect(two_edges({0, 0, 0}, {4, 0, 0}, {1, 0, 1}, {5, 0, 1.004f}), 2, 3);
   REQUIRE(limit.grey.size() == 1);
   CHECK(limit.grey[0].contacts ==
@@ -391,7 +391,7 @@ TEST_CASE("detect_edge_edge: boundaries of every kind are grey on both sides", "
 
 TEST_CASE("detect_edge_edge: moving every coordinate by a unit in the last place stays within the grey decisions",
           "[property]") {
-  // Coordinates and differences have one size, so a last place is less than 16 u of every difference.
+  // Coordinates and differences have the same size, so a last place is less than 16 u of every difference.
   std::mt19937 random(18);
   std::uniform_int_distribution<int> step(-1, 1);
   const Surface flat = together(mapped(grid(4), turned), mapped(grid(4, 0.5f), turned));
@@ -404,8 +404,8 @@ TEST_CASE("detect_edge_edge: moving every coordinate by a unit in the last place
     CHECK(accepted(truth, truth.exact.contacts));
     for (int k = 0; k < 10; ++k) CHECK(accepted(truth, detect(mapped(flat, moved), r, 30).exact.contacts));
   }
-  // Edges 01 and 23 are exactly parallel. Their blocks hold one end of their overlap, the other, both, none, or end
-  // there.
+  // Edges 01 and 23 are exactly parallel. Their blocks hold one end of the overlap, the other end, both, or none, or
+  // have their boundary there.
   for (int way = 0; way < 81; ++way) {
     const auto lean = [way](int place) { return static_cast<float>(way / place % 3 - 1); };
     const Surface surface{{{0, 0, 0},

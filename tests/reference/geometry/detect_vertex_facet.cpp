@@ -94,7 +94,7 @@ Distances smallest_by_definition(const Surface& surface, float r_q) {
   return result;
 }
 
-/// Returns whether an answer is the exact one or differs from it only as grey decisions allow.
+/// Returns whether an answer differs from the exact one only as grey decisions allow.
 bool accepted(const compare::DetectVertexFacetTruth& truth, const std::vector<VertexFacetContact>& answer) {
   const std::set<VertexFacetContact> exact(truth.exact.contacts.begin(), truth.exact.contacts.end()),
       given(answer.begin(), answer.end());
@@ -125,7 +125,7 @@ TEST_CASE(
     "detect_vertex_facet: a vertex straight above a vertex, an edge or an interior has one contact, whatever the "
     "valence",
     "[unit]") {
-  // Vertex 12 is (2,2); triangle 20 is (12, 13, 17), its centre (7/3, 7/3).
+  // Vertex 12 is (2,2). Triangle 20 is (12, 13, 17) with the centre (7/3, 7/3).
   const Surface sheet = grid(5);
   const auto topology = sheet.topology();
   const Index level = compare::find_edge(topology, 11, 12), slanted = compare::find_edge(topology, 12, 16);
@@ -166,7 +166,7 @@ TEST_CASE("detect_vertex_facet: d = r is no contact, and d_min counts faces whos
   const Surface sheet = grid(3, 0, 4);
   CHECK(detect(with_vertex(sheet, {1, 1, 2}), 2, 3).exact.contacts.empty());
   CHECK(detect(with_vertex(sheet, {1, 1, std::nextafter(2.0f, 0.0f)}), 2, 3).exact.contacts.size() == 1);
-  // Over the saddle's vertex only faces of its neighbours can be contacts, but the distance to the vertex counts.
+  // Above the saddle's vertex only faces of its neighbours can be contacts, but the distance to the vertex counts.
   const Surface saddle{{{0, 0, 0}, {2, 0, 1}, {0, 2, -1}, {-2, 0, 1}, {0, -2, -1}},
                        {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}},
                        {},
@@ -259,7 +259,7 @@ TEST_CASE("detect_vertex_facet: pairs inside one rigid group are neither contact
   CHECK(rigid.pairs == 0);
   surface.groups[9] = 1;
   CHECK(detect(surface, 0.5f, 1).exact.contacts.size() == 1);
-  // The vertex below is in the group, but not all triangles around it are; the others still generate the contact.
+  // The vertex below is in the group, but some triangles around it are not; these still generate the contact.
   surface.groups.assign(10, 0);
   surface.groups[5] = -1;
   CHECK(detect(surface, 0.5f, 1).exact.contacts == std::vector<VertexFacetContact>{{9, vertex_face(4), 1}});
@@ -277,7 +277,7 @@ TEST_CASE("detect_vertex_facet: loose edges are no faces of triangles, coincidin
   CHECK(truth.exact.d_min_vertex[3] == 0.5f);
   CHECK(truth.exact.d_min_vertex[4] == 0);
   // Vertices 1 and 2 coincide, so both are closest in triangle 0. The lower-numbered corner is 1, whose block ends
-  // before its neighbour 4; another order of the corners would give a contact with 2.
+  // before its neighbour 4. Another order of the corners would give a contact with 2.
   Surface coinciding{
       {{4, 0, 0}, {0, 0, 0}, {0, 0, 0}, {-1, 0, 1}, {-1, 0, 2}, {-1, 1, 2}}, {{0, 1, 2}, {1, 4, 5}}, {}, {}};
   const auto tie = detect(coinciding, 2, 3);
@@ -323,7 +323,7 @@ TEST_CASE("detect_vertex_facet: a distance next to r is grey, and absence is acc
 
 TEST_CASE("detect_vertex_facet: moving every coordinate by a unit in the last place stays within the grey decisions",
           "[property]") {
-  // Coordinates and differences have one size, so a last place is less than 16 u of every difference.
+  // Coordinates and differences have the same size, so a last place is less than 16 u of every difference.
   std::mt19937 random(12);
   std::uniform_int_distribution<int> step(-1, 1);
   const Surface flat = together(mapped(grid(4), turned), mapped(grid(4, 0.5f), turned));

@@ -1,4 +1,4 @@
-// Tests filter counts: each question counts once, on every thread, and is undecided only if exact numbers were needed.
+// Tests filter counts: each predicate counts once, on every thread, and is undecided only if exact numbers were needed.
 #include "reference/geometry/filter_counts.hpp"
 
 #include <set>
@@ -14,7 +14,7 @@ using reference::Filtered;
 
 namespace {
 
-/// Returns 2⁸⁰ + 1 − 2⁸⁰, in which a double loses the 1.
+/// Returns a margin of 2⁸⁰ + 1 − 2⁸⁰, in which double loses the 1.
 reference::Margin drowned() { return reference::along({0, 0, 0}, {0x1p40f, 1, -0x1p40f}, {0x1p40f, 1, 0x1p40f}); }
 
 }  // namespace
@@ -49,7 +49,7 @@ TEST_CASE("filter_counts: threads that have ended and threads that run are all c
 TEST_CASE("filter_counts: distances are counted where they are rounded and where they are compared", "[unit]") {
   const auto before = reference::filter_counts();
   const auto gap = reference::gap_points({0, 0, 0}, {3, 4, 0});
-  CHECK(reference::distance_below(gap) == 5);  // the root's interval reaches below 5, but 25 − 5² is a point
+  CHECK(reference::distance_below(gap) == 5);  // the root's interval reaches below 5, but 25 − 5² has no rounding
   CHECK(reference::distance_below(reference::gap_line({0, 0, 0}, {0x1p30f, 1, 0}, {0x1p30f, 2, 0})) < 1);
   CHECK(reference::compare_distances(gap, reference::gap_points({1, 0, 0}, {7, 0, 0})) == -1);
   const auto counts = reference::filter_counts().since(before);

@@ -1,5 +1,5 @@
-// Tests the measure of the grey zone: compares the written derivatives of the margins with forward differentiation of
-// the formulas.
+// Tests the grey zone's measure: compares the written derivatives of the margins with forward differentiation of the
+// formulas.
 #include "reference/geometry/margin.hpp"
 
 #include "compare/judge/cases/random.hpp"
@@ -48,7 +48,7 @@ double differentiated(const Margin& m) {
   return sum;
 }
 
-/// Coordinates lie in the unit box, on a lattice, or in a plane, so that terms vanish too.
+/// Coordinates are random in the unit box, on a lattice, or in a plane, so that terms may vanish, too.
 Margin some_margin(MarginKind kind, compare::Random& random) {
   Margin margin{kind};
   const int family = random.below(3);
@@ -71,7 +71,7 @@ TEST_CASE("margin: the sum of derivatives times coordinates is that of the diffe
       const Margin margin = some_margin(static_cast<MarginKind>(kind), random);
       const double exact = differentiated(margin);
       INFO("kind " << kind << ", case " << i);
-      // Both are sums of products of coordinates up to 4, up to 10⁶ in size for `parallel`, rounded some twenty times.
+      // Both are sums of products of coordinates up to 4, up to 10⁶ for `parallel`, with about twenty roundings.
       REQUIRE(reference::sensitivity(margin) ==
               Approx(exact).epsilon(1e-12).margin(kind == static_cast<int>(MarginKind::parallel) ? 1e-7 : 1e-12));
     }

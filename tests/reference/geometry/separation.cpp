@@ -1,4 +1,4 @@
-// Tests what detections may leave out when only their exact answer is needed.
+// Tests which pairs detections leave out if only their exact answer is needed.
 #include "reference/geometry/separation.hpp"
 
 #include <random>
@@ -16,7 +16,7 @@ using namespace ogc::tests;
 
 namespace {
 
-/// Returns two wavy sheets `gap` apart, scattered by `noise` [m], above a fixed one.
+/// Returns two wavy sheets `gap` apart, scattered by `noise` [m], above a fixed sheet.
 compare::Scene waves(double gap, double noise) {
   compare::Scene scene;
   scene.name = "waves";
@@ -36,7 +36,7 @@ compare::Scene waves(double gap, double noise) {
 }  // namespace
 
 TEST_CASE("a slab shows that primitives are apart, up to about their distance, and never farther", "[property]") {
-  // One pair is (0.25, 0.25, 5) over a triangle in z = 0, the other two crossing edges 2 apart.
+  // The point (0.25, 0.25, 5) lies above a triangle in z = 0; the two edges cross 2 apart.
   const std::array<Vec3f, 4> point{Vec3f{0.25f, 0.25f, 5}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
       edges{Vec3f{-1, 0, 0}, {1, 0, 0}, {0, -1, 2}, {0, 3, 2}};
   CHECK(reference::surely_beyond_triangle(point, 4.9));

@@ -1,5 +1,4 @@
-// Tests truncate: the flag is exact, the truncated position lies on the sphere, and other positions come back
-// unchanged.
+// Tests truncate: the flag is exact, truncated positions lie on the sphere, and other positions stay unchanged.
 #include "reference/geometry/truncate.hpp"
 
 #include <array>
@@ -92,7 +91,7 @@ TEST_CASE("truncate: a prescribed vertex stops on its way", "[unit]") {
 }
 
 TEST_CASE("truncate: beside a half-space a prescribed vertex goes on to its end, between two it may stop", "[unit]") {
-  // The vertex starts at (0, 0, 1), on z ≤ 1, and moves along x to the surface of the ball.
+  // The vertex starts at (0, 0, 1), on the boundary of z ≤ 1, and moves along x to the surface of the ball.
   compare::TruncateIn in = below_a_ceiling(2, leaning, true);
   in.previous = in.half_spaces.current = {{0, 0, 1}};
   in.position = {{3, 0, 1}};
@@ -126,7 +125,7 @@ TEST_CASE("truncate: the half-space decides exactly, and within the slack of dou
   in.position = {{3, 0, std::nextafter(1.0f, 2.0f)}};
   CHECK(reference::truncate(in).cut[0] == 1);
   CHECK(reference::truncate(in).grey[0] == 0);
-  // 0.3f − 3 · 0.1f > 0 by 7·10⁻⁹; there is no grey zone of single precision.
+  // 0.3f − 3 · 0.1f = 7·10⁻⁹ > 0; single precision has no grey zone here.
   in.half_spaces.items = {{{0.1f, 0.2f, 0.3f}, 0}};
   in.position = {{-3, 0, 1}};
   CHECK(reference::truncate(in).cut[0] == 1);

@@ -1,4 +1,4 @@
-// Tests that pictures show the blocks that are decided exactly: points that the patches enclose are inside, points
+// Tests that pictures show the blocks that are decided exactly: points inside the patches are in the block, points
 // beyond them are not.
 #include "reference/illustrations/block_picture.hpp"
 
@@ -27,7 +27,7 @@ Point3 mean_of(const BlockPicture& picture) {
   return {sum[0] / n, sum[1] / n, sum[2] / n};
 }
 
-/// Returns the point at the part `part` of the way from `centre`, the middle of the convex block, to the middle of
+/// Returns the point at the share `part` of the way from `centre`, the middle of the convex block, to the middle of
 /// triangle t of its boundary.
 Vec3f on_ray(const BlockPicture& picture, const std::array<int, 3>& t, const Point3& centre, double part) {
   Point3 x{};
@@ -95,7 +95,7 @@ TEST_CASE(
   CHECK(reference::block_picture(mesh, reference::edge_face(2), 1).patches.size() == 5);
   const Surface flat = grid(3);
   const auto names = flat.topology();
-  // The block has a segment to either side.
+  // The block has one segment on either side.
   CHECK(reference::block_picture({names, flat.positions}, reference::vertex_face(4), 1).patches.size() == 2);
   const Surface star = saddle();
   const auto around = star.topology();

@@ -1,4 +1,4 @@
-// Tests that the drawings' data have the properties that the drawings are meant to show.
+// Tests that the drawings' data have the properties that the drawings show.
 #include "reference/illustrations/illustrations.hpp"
 
 #include <algorithm>

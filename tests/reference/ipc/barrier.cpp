@@ -24,7 +24,7 @@ Many exact_barrier(const Many& gap, const Many& support) {
   return -(gap - support) * (gap - support) * log(gap / support);
 }
 
-/// One mesh of loose pieces, with all arguments of the pairs' functions.
+/// A mesh of separate pieces, with all arguments of the pairs' functions.
 struct Pieces {
   State x;
   compare::Topology topology;
@@ -78,7 +78,7 @@ TEST_CASE("barrier: value, slope and curvature are those of -(g - H)^2 ln(g/H), 
       const Second<1> b = barrier_slopes(gap, support);
       const Many g(gap), h(support), step = g * Many("1e-25");
       const Many before = exact_barrier(g - step, h), here = exact_barrier(g, h), after = exact_barrier(g + step, h);
-      // Near its end the barrier is the cube of 1 − g/H, which carries a rounding of 2⁻⁵³.
+      // Near its end the barrier is the cube of 1 − g/H, which has a rounding error of 2⁻⁵³.
       const double loss = 1e-14 / (1 - share);
       CHECK(b.value == Approx(static_cast<double>(here)).epsilon(3 * loss));
       CHECK(b.slope[0] == Approx(static_cast<double>((after - before) / (2 * step))).epsilon(3 * loss));
@@ -96,8 +96,8 @@ TEST_CASE("barrier: a vertex over a triangle, its rim and its corner has one ter
     return barriers(pieces({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {x, y, 0.05}, {x, y, 5}}, triangle, {{3, 4}}), shape)
         .terms;
   };
-  // The edge {3, 4} points upwards, so its distance to the triangle's edges is that of vertex 3, which adds to the
-  // term.
+  // The edge {3, 4} points upwards, so vertex 3 gives its distance to the triangle's edges; it increases the term's
+  // weight.
   const auto inside = above(0.25, 0.25);
   REQUIRE(inside.size() == 1);
   CHECK(inside[0].count == 4);
@@ -249,7 +249,7 @@ TEST_CASE(
 
 TEST_CASE("barrier: the energy does not jump where closest features change, parallel edges included", "[property]") {
   const BarrierShape shape{0.2, 0};
-  // A vertex slides over a triangle and beyond it; a short edge turns over a long one.
+  // A vertex slides over a triangle and beyond it; a short edge turns above a long edge.
   const auto largest_jump = [&](auto pieces_at) {
     double largest = 0, before = total(pieces_at(0.0), shape), highest = before;
     for (int k = 1; k <= 4000; ++k) {

@@ -1,9 +1,8 @@
-// Decides without rounding whether two primitives meet on a straight motion. The four points lie in one plane where a
-// cubic of the time vanishes, and meet there if polynomials of degree four have the right signs. After scaling the
-// coordinates, all polynomials have integer coefficients. A polynomial in Bernstein form without a change of sign in
-// its coefficients has no root, and an interval is halved by additions alone. Halves without a root, or with wrong
-// signs, are discarded; an interval that survives all halvings holds a meeting, or a miss by less than 2⁻ᵈᵉᵖᵗʰ of the
-// motion.
+// Decides without rounding whether two primitives meet on a straight motion. The four points lie in one plane at a root
+// of a cubic of the time, and they meet there if polynomials of degree four have the right signs. After scaling, all
+// polynomials have integer coefficients. A polynomial in Bernstein form whose coefficients do not change sign has no
+// root, and additions alone halve an interval. Halves without a root, or with wrong signs, are discarded. An interval
+// that survives all halvings holds a meeting, or a miss by less than 2⁻ᵈᵉᵖᵗʰ of the motion.
 #pragma once
 
 #include <array>
@@ -31,7 +30,7 @@ inline Integer scaled(double value) {
   return shift >= 0 ? Integer(Integer(mantissa) << shift) : Integer(Integer(mantissa) >> -shift);
 }
 
-/// Holds Bernstein coefficients times binomials, which multiply as ordinary coefficients do.
+/// Bernstein coefficients times binomials, which multiply like ordinary coefficients.
 struct Scaled {
   std::vector<Integer> c;  ///< binomial(n, k) · Bernstein coefficient
   friend Scaled operator*(const Scaled& a, const Scaled& b) {
@@ -75,7 +74,7 @@ inline bool all_negative(const Bernstein& b) {
   return true;
 }
 
-/// Returns the polynomial on the two halves, times 2^degree.
+/// Returns the polynomial on both halves of the interval, times 2^degree.
 inline std::array<Bernstein, 2> halves(const Bernstein& b) {
   const std::size_t degree = b.size() - 1;
   Bernstein row = b, left{b[0] << degree}, right{b[degree] << degree};
@@ -87,20 +86,19 @@ inline std::array<Bernstein, 2> halves(const Bernstein& b) {
   return {left, {right.rbegin(), right.rend()}};
 }
 
-/// A vector that moves on a straight line: its coefficients at both ends of the interval.
+/// A vector that moves on a straight line, as its Bernstein coefficients at both ends of the interval.
 using Line = std::array<Bernstein, 3>;
 
 struct MeetingQuestion {
   Bernstein coplanar;             ///< must vanish
   std::vector<Bernstein> inside;  ///< must not be negative
-  /// The vectors from each vertex of the second primitive to each of the first. A direction along which all are
-  /// positive separates the primitives.
+  /// the vectors from each vertex of the second primitive to each vertex of the first; a direction whose products with
+  /// all of them are positive separates the primitives
   std::vector<Line> apart;
-  Line along;  ///< for two edges: the first one
+  Line along;  ///< the first of two edges
 };
 
-/// Returns whether all of `apart` have a positive product with an integer direction at all times, or all a negative
-/// one.
+/// Returns whether the products of an integer direction with all of `apart` have the same strict sign at all times.
 inline bool parted_by(const MeetingQuestion& q, const std::array<Integer, 3>& direction) {
   int positive = 0, negative = 0;
   for (const Line& line : q.apart)
@@ -112,8 +110,8 @@ inline bool parted_by(const MeetingQuestion& q, const std::array<Integer, 3>& di
   return positive == all || negative == all;
 }
 
-/// Returns whether the direction across the first edge, towards the second, separates the primitives. Any direction
-/// that does is a proof, so it may be rounded. For parallel edges no other direction can.
+/// Returns whether the direction perpendicular to the first edge, towards the second edge, separates the primitives.
+/// Every separating direction is a proof, so it may be rounded. For parallel edges no other direction can separate.
 inline bool parted_across_edge(const MeetingQuestion& q) {
   using reference::operator*, reference::operator-;
   reference::Triple<double> w, u;
@@ -160,7 +158,7 @@ inline bool meets(const MeetingQuestion& q, int depth) {
   return meets(parts[0], depth - 1) || meets(parts[1], depth - 1);
 }
 
-/// Returns whether 0 | 1 2 3 (vertex and triangle) or 0 1 | 2 3 (edges) meet on the way from x to x + `until` delta.
+/// Returns whether 0 | 1 2 3 (vertex and triangle) or 0 1 | 2 3 (edges) meet on the way from x to x + `until` · delta.
 inline bool exactly_meet(bool edges, const Points4& x, const Points4& delta, double until = 1, int depth = 120) {
   std::array<Vector, 4> p;
   const Integer share = scaled(until), one = Integer(1) << exact_bits;

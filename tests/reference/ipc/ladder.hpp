@@ -1,5 +1,5 @@
 // Makes motions of a vertex and a triangle, or of two edges, that approach difficult cases: vanishing gaps and angles,
-// needles, near misses, slides, speeds.
+// needles, near misses, slides, high speeds.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ class MotionLadder {
  public:
   explicit MotionLadder(unsigned seed) : engine_(seed) {}
 
-  /// Returns case i; kinds and rungs alternate.
+  /// Returns case i; kinds of cases and steps of the ladder alternate.
   PairMotion next(int i) {
     PairMotion m;
     m.edges = i % 2 == 1;
@@ -35,7 +35,7 @@ class MotionLadder {
   /// Returns 10⁰ … 10⁻ᵇᵒᵗᵗᵒᵐ in turn.
   static double rung(int i, int bottom) { return std::pow(10.0, -(i % (bottom + 1))); }
 
-  /// Places the primitives in the plane z = 0, touching: the vertex in, on the rim of or beside the triangle; edges
+  /// Places touching primitives in the plane z = 0: a vertex inside, on the rim of or next to the triangle, or edges
   /// that cross, meet at an end or miss.
   void shape(PairMotion& m, int i) {
     const double slender = i % 5 == 0 ? rung(i / 10, 12) : 1,
@@ -58,7 +58,7 @@ class MotionLadder {
     for (std::size_t k = 0; k < (m.edges ? 2u : 1u); ++k) m.x[k][2] += gap;
   }
 
-  /// Moves the first primitive down by 0.4 to 2.5 gaps and along the plane, and every vertex a little by itself.
+  /// Moves the first primitive down by 0.4 to 2.5 gaps and along the plane, and every vertex by a little more.
   void move(PairMotion& m, int i, double gap) {
     const double down = gap * std::pow(10.0, between(-0.4, 0.4)), slide = i % 4 == 3   ? between(0, 1)
                                                                           : i % 4 == 2 ? gap
@@ -73,7 +73,7 @@ class MotionLadder {
   }
 
   /// Turns the case, shrinks it to the size of a cloth's triangles, moves it away from the origin, adds a common
-  /// velocity, and rounds as the exact answer needs it.
+  /// velocity, and rounds it for the exact answer.
   void place(PairMotion& m) {
     std::array<std::array<double, 3>, 3> q{};
     const double a = between(0, 6.283), b = between(0, 6.283), size = std::pow(10.0, between(-3, 0));

@@ -1,4 +1,5 @@
-// Tests IPC with the frames of rods as unknowns: it reaches the minimiser of the sweeps, and its cords meet.
+// Tests IPC with the frames of rods as unknowns: it reaches the minimiser of the sweeps, and its cords come into
+// contact.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -49,8 +50,8 @@ compare::Scene crossing_cords() {
   return scene;
 }
 
-/// Returns the least height of the falling cord over the other at edges that cross seen from above, or infinity if none
-/// cross.
+/// Returns the least height of the falling cord above the other one at edges that cross in the view from above, or
+/// infinity if none cross.
 double lowest_above(const compare::Topology& topology, const State& x) {
   double least = std::numeric_limits<double>::infinity();
   const auto side = [&](Index a, Index b, Index c) {
@@ -73,8 +74,8 @@ double lowest_above(const compare::Topology& topology, const State& x) {
 
 }  // namespace
 
-// Sweeps round to single precision in each of five steps, at 1 cm from the origin: 2⁻²⁴ of it. IPC ends a step when
-// nothing would move faster than 1e-7 lengths of the rod a second, 1e-12 m in a step. A frame follows the ends of its
+// Sweeps round to single precision in each of five steps, at 1 cm from the origin, by 2⁻²⁴ of it. IPC ends a step if
+// nothing moves faster than 1e-7 lengths of the rod per second, 1e-12 m per step. A frame follows the ends of its
 // segment of 1 mm, so errors of 5e-9 m at each end turn it by at most 1e-5.
 TEST_CASE("rods: IPC and converged sweeps end at the same minimiser", "[property]") {
   std::vector<Vec3> points;

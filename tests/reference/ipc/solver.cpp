@@ -21,7 +21,7 @@ namespace {
 
 Run run(const compare::Scene& scene, std::int64_t steps) { return run_of(reference::start_ipc, scene, steps); }
 
-/// Makes steps and holds every state in double.
+/// Advances a scene by steps and keeps every state in double.
 struct Stepper {
   compare::Scene scene;
   compare::Topology topology;
@@ -67,18 +67,18 @@ TEST_CASE("IPC: a cloth far from everything falls as -g h^2 n(n+1)/2", "[propert
   const double h = 0.01, fallen = 9.81 * h * h * 10 * 11 / 2;
   for (const compare::Vec3f& x : result.end.positions) CHECK(double{x.y} == Approx(-fallen).epsilon(1e-6));
   for (const compare::StepMetrics& row : result.rows) {
-    // One step, and a solve that finds nothing left to do.
+    // One step, and an iteration that finds nothing left to do.
     CHECK(row.iterations == 2);
     CHECK(row.continuous_detections >= 1);
-    // Detections are made at the start, at the one trial state, and at one more if rounding leaves more than its last
-    // bit.
+    // Detections take place at the start, at the single trial state, and at another one if rounding leaves more than
+    // its last bit.
     CHECK(row.discrete_detections >= 2);
     CHECK(row.discrete_detections <= 3);
   }
 }
 
-/// The mean over three iterations continues a solve after the first one; the rest is then lost in the last bit of the
-/// positions.
+/// The mean over three iterations continues a solve after the first iteration; rounding of the positions hides the
+/// rest.
 TEST_CASE("IPC: a cloth that is not strained falls by either rule of stopping and either membrane", "[property]") {
   for (const auto model : {compare::MembraneModel::st_venant_kirchhoff, compare::MembraneModel::stable_neo_hookean})
     for (const auto rule : {reference::IpcStopping::displacement, reference::IpcStopping::velocity}) {
@@ -129,7 +129,7 @@ TEST_CASE("IPC: both stopping rules end a step where they say, and counts of ite
       for (const compare::IterationMetrics& iteration : row.iteration_rows)
         discrete += iteration.discrete_detections, continuous += iteration.continuous_detections,
             broad += iteration.broad_phases;
-      CHECK(discrete == row.discrete_detections - 1);  // one at the start of the step belongs to no iteration
+      CHECK(discrete == row.discrete_detections - 1);  // the detection at the start of the step belongs to no iteration
       CHECK(broad == row.broad_phases - 1);
       CHECK(continuous == row.continuous_detections);
     }
@@ -148,7 +148,7 @@ TEST_CASE("IPC: what lies on a plane rests where the barrier carries its weight"
   REQUIRE(clean(result));
   const double weight = material.density * 0.5 * 1e-4 / 3 * 9.81, support = 4e-6;
   const double y = double{result.end.positions[0].y};
-  // Each vertex meets the plane once; the triangle's edges are far from the plane's.
+  // Each vertex acts on the plane once; the triangle's edges are far from the plane's edges.
   CHECK(-1e10 * reference::barrier_slopes(y * y, support).slope[0] * 2 * y == Approx(weight).epsilon(1e-3));
 }
 
@@ -169,9 +169,9 @@ TEST_CASE("IPC: friction brakes what slides with its coefficient times gravity, 
   CHECK(std::abs(double{result.end.velocities[0].x}) < 1e-3);
 }
 
-// Gravity is inclined by 20 degrees over a level floor: g (sin θ − μ cos θ) along it. Implicit Euler adds half a step
-// to the distance, 0.5 % of it after 200 steps. While the sheet falls onto the barrier, a tenth of its distance,
-// nothing brakes it.
+// Gravity is inclined by 20 degrees to a level floor: g (sin θ − μ cos θ) along it. Implicit Euler adds half a step to
+// the distance, 0.5 % of it after 200 steps. Nothing brakes the sheet while it falls onto the barrier, on a tenth of
+// its distance.
 TEST_CASE("IPC: a sheet slides down a slope by the law, however large the floor is", "[property]") {
   compare::Material material;
   material.density = 1;
@@ -281,7 +281,7 @@ TEST_CASE("IPC: one iteration a step is one iteration a step", "[unit]") {
   CHECK_THAT(run(scene, 1).rows[0].notes.at(0), Contains("limit of 1 iterations"));
 }
 
-/// At speeds between d̂/(2h) and twice that, a fall is shortened although nothing is near.
+/// At speeds between d̂/(2h) and twice that, the CFL-like rule shortens a fall although nothing is near.
 TEST_CASE("IPC: in one iteration a step, CCD of all pairs leaves a free fall alone, and the CFL-like rule does not",
           "[property]") {
   compare::Scene scene;
@@ -298,8 +298,8 @@ TEST_CASE("IPC: in one iteration a step, CCD of all pairs leaves a free fall alo
   CHECK(double{run(scene, 2).end.positions[0].y} == Approx(-0.015).epsilon(1e-6));
 }
 
-/// Halvings of the line search need more discrete detections than there are iterations. The guard makes one broad phase
-/// for each trial state that lowers the energy.
+/// Halvings of the line search need more discrete detections than iterations. The guard makes one broad phase for each
+/// trial state with a lower energy.
 TEST_CASE(
     "IPC: with CCD of all pairs no accepted step intersects, the guard never shortens one, and the minimiser is that "
     "of partial CCD",
@@ -317,7 +317,8 @@ TEST_CASE(
     const compare::StepMetrics row = full.step();
     REQUIRE(row.status == compare::step_clean);
     REQUIRE_FALSE(full.intersects());
-    // One broad phase is at the start and one belongs to each bound. The others are guards, and each let its step pass.
+    // One broad phase belongs to the start and one to each bound. The others belong to guards, which let every step
+    // pass.
     const std::int64_t bounds = row.continuous_detections / 2, guards = row.broad_phases - 1 - bounds;
     CHECK(guards == accepted);
     REQUIRE(partial.step().status == compare::step_clean);

@@ -1,5 +1,5 @@
-// Tests the bound of a step by both rules of ipc_ccd: the bound by all pairs must cover the active pairs and all pairs
-// that come near.
+// Tests the bound of a step by both rules of ipc_ccd: the bound by all pairs must include the active pairs and all
+// pairs that come near.
 #include "reference/ipc/step_bound.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using compare::Index;
 
 namespace {
 
-/// Returns a number in [−1, 1) that depends on the case, the vertex and the axis alone.
+/// Returns a number in [−1, 1) that depends only on the case, the vertex and the axis.
 double draw(int number, std::size_t vertex, std::size_t axis) {
   const double x = std::sin(12.9898 * (number + 1) + 78.233 * static_cast<double>(vertex + 1) +
                             37.719 * static_cast<double>(axis + 1)) *
@@ -25,7 +25,7 @@ double draw(int number, std::size_t vertex, std::size_t axis) {
   return 2 * (x - std::floor(x)) - 1;
 }
 
-/// Returns all pairs that share no vertex, without boxes or distances.
+/// Returns all pairs without a common vertex, without using boxes or distances.
 std::vector<PrimitivePair> every_pair(const compare::Topology& topology, std::size_t vertex_count) {
   std::vector<PrimitivePair> pairs;
   const auto vertices = static_cast<Index>(vertex_count), edges = static_cast<Index>(topology.edges.size());

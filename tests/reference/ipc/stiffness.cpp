@@ -12,7 +12,7 @@ TEST_CASE("stiffness: at 1e-8 diagonals the barrier's curvature is 1e11 mean ine
     const StiffnessScale scale{1.5, 0.4};
     const StiffnessBounds bounds = stiffness_bounds(shape, scale, IpcAdaptation::gap);
     CHECK(bounds.upper == Approx(100 * bounds.lower));
-    // The official code counts b'' (2 d)², without the term of b'.
+    // The official code uses b'' (2 d)², without the term of b'.
     const double d = thickness + 1e-8 * 1.5, gap = shape.gap(d * d), step = 1e-4 * gap;
     const double curvature = (barrier_slopes(gap + step, shape.support()).slope[0] -
                               barrier_slopes(gap - step, shape.support()).slope[0]) /

@@ -1,4 +1,4 @@
-// Tests the length of which a step's tolerance is a share.
+// Tests the lengths in which a step's tolerance is measured.
 #include "reference/ipc/stopping.hpp"
 
 #include <cmath>

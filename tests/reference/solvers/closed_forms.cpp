@@ -1,5 +1,5 @@
-// Compares Newton's steps with states that are known on paper. Free fall, pressed contact, sliding block and momentum
-// are in newton/solver.cpp.
+// Compares Newton's steps with states in closed form. Free fall, pressed contact, sliding block and momentum are in
+// newton/solver.cpp.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ using namespace ogc::tests;
 
 namespace {
 
-/// Returns a motion that keeps these vertices in place.
+/// Returns a motion that fixes these vertices.
 compare::PrescribedMotion held(std::string name, std::vector<compare::Index> vertices) {
   compare::PrescribedMotion motion;
   motion.name = std::move(name);
@@ -20,7 +20,7 @@ compare::PrescribedMotion held(std::string name, std::vector<compare::Index> ver
   return motion;
 }
 
-/// Returns `count` cells of length a along x, two cells of width a/2 across.
+/// Returns `count` cells of length a along x, with two cells of width a/2 side by side.
 compare::Mesh strip(compare::Index count, double a) {
   compare::Mesh mesh;
   for (compare::Index i = 0; i <= count; ++i)
@@ -39,9 +39,9 @@ compare::Mesh strip(compare::Index count, double a) {
 }  // namespace
 
 TEST_CASE("Newton: a cantilever strip sags as the hinges' moments say", "[property]") {
-  // Bent about z, a cell's four corners lie on two parallel lines, so diagonals stay flat and the edges across carry
-  // the load. Their energy is k_b/2 · 3 w²/(w a) θ² over the width w, hence the moment is (3 k_b w/a) θ. The moment at
-  // row i is the weight beyond it times its arm.
+  // In a bend about z, a cell's four corners lie on two parallel lines, so diagonals stay flat and only the transverse
+  // edges resist. Their energy is k_b/2 · 3 w²/(w a) θ² over the width w, hence the moment is (3 k_b w/a) θ. The moment
+  // at row i is the weight beyond it times its arm.
   const compare::Index count = 10;
   const double a = 0.01, weight = 0.2 * 9.81 * 0.01 * a, stiffness = 2e-4;
   compare::Material material;
@@ -66,8 +66,8 @@ TEST_CASE("Newton: a cantilever strip sags as the hinges' moments say", "[proper
   }
   const compare::Snapshot end = simulation->snapshot();
   REQUIRE(sag > 1e-4);
-  // The sag is linear in the slope s of the tip. Terms of order s² are left out, at most (sag/arm)² times a number of
-  // order one.
+  // The sag is linear in the slope s of the tip. The neglected terms of order s² are at most (sag/arm)² times a number
+  // of order one.
   const double slope = sag / (a * (count - 1));
   for (std::size_t v = 3 * static_cast<std::size_t>(count); v < end.positions.size(); ++v)
     CHECK(-double{end.positions[v].y} == Approx(sag).epsilon(4 * slope * slope + 1e-5));

@@ -1,4 +1,4 @@
-// Tests regions of solvers in double, and steps that keep within them, with planes and without.
+// Tests the regions of solvers in double, and that steps stay inside them, with and without planes.
 #include "reference/solvers/feasible_regions.hpp"
 
 #include <cmath>
@@ -16,7 +16,7 @@ using namespace ogc::reference;
 
 namespace {
 
-/// Returns for each vertex v a ball about a random point in the cube [-1, 1]³ and v mod 5 planes.
+/// Returns for each vertex v a ball about a random point in [-1, 1]³, and v mod 5 planes.
 Detected random_regions(std::size_t count) {
   std::mt19937 engine(27);
   std::uniform_real_distribution<float> draw(-1, 1);
@@ -41,7 +41,7 @@ StartSolver start_reference_vbd = [](const compare::Scene& scene, const compare:
   return start_vbd(scene, options, {});
 };
 
-/// Runs the scene, checks the guarantee at each state and returns how many half-spaces all states had.
+/// Runs the scene, checks the guarantee at each state, and returns the number of half-spaces over all states.
 std::size_t half_spaces_of_held_run(StartSolver start, const compare::Scene& scene, int steps) {
   const compare::Topology topology = compare::build_topology(scene);
   const compare::Exclusions exclusions = compare::exclusions(scene);

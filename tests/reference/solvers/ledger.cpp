@@ -1,5 +1,5 @@
-// Tests the ledger on steps written by hand whose energy and momentum have a closed form: a triangle without elasticity
-// moves as one above a wall.
+// Tests the ledger on steps written by hand, whose energy and momentum have closed forms: a triangle without elasticity
+// moves rigidly above a wall.
 #include "reference/solvers/ledger.hpp"
 
 #include <cmath>
@@ -37,7 +37,7 @@ compare::Scene above_a_wall() {
 
 double mass(const compare::Scene& scene) { return scene.bodies[0].material.density * 0x1p-11; }  // of the triangle [kg]
 
-/// A step of that scene, built event by event.
+/// A step of this scene, written event by event.
 class Told {
  public:
   Told(const compare::Scene& scene, const Vec3f& velocity)
@@ -60,7 +60,7 @@ class Told {
     happens(StepEventKind::detection, 0).vertex_facet.contacts = std::move(contacts);
     return *this;
   }
-  /// Adds a round or a sweep that takes the first `count` vertices to y; the others stay and count as cut.
+  /// Adds a round or a sweep that moves the first `count` vertices to y; the others stay and count as cut.
   Told& moves(StepEventKind kind, std::size_t count) {
     for (std::size_t v = 0; v < count; ++v) now_[v] = step_.target[v];
     happens(kind, 3 - count);
@@ -100,7 +100,7 @@ void check_vector(const compare::Vec3& found, double x, double y, double z) {
 
 }  // namespace
 
-// Velocities are powers of two, so targets and velocities are exact; only rounding in double remains.
+// Velocities are powers of two, so targets and velocities are exact, and only rounding in double remains.
 TEST_CASE("where truncation takes a whole step, the ledger has what and which way it was", "[property]") {
   const auto [vx, vy] = GENERATE(
       table<float, float>({{0.25f, 0.0f}, {0.0f, 0.0625f}, {0.0f, -0.0625f}, {0.25f, 0.0625f}, {-0.25f, -0.0625f}}));

@@ -1,4 +1,4 @@
-// Tests Eq. 29 where every force has a closed form: a triangle moves as one, so only inertia acts.
+// Tests Eq. 29 where every force has a closed form: a triangle moves rigidly, so only inertia acts.
 #include "reference/solvers/residual.hpp"
 
 #include <algorithm>
@@ -14,11 +14,11 @@ using namespace ogc::tests;
 
 namespace {
 
-/// Returns a single triangle, 1 cm wide, far from everything.
+/// Returns one triangle, 1 cm wide, without neighbours.
 compare::Scene lone_triangle() {
   compare::Scene scene;
   scene.name = "lone_triangle";
-  compare::Material soft;  // rest data are rounded to single precision; the force of that strain must be negligible
+  compare::Material soft;  // rest data are rounded to single precision; the force of this strain must be negligible
   soft.lame_lambda = soft.lame_mu = 1e-3;
   append_body(scene, {.name = "triangle", .material = soft},
               {{{0, 0, 0}, {0, 0, 0.01}, {0.01, 0, 0}}, {{0, 1, 2}}, {}});
@@ -34,7 +34,7 @@ TEST_CASE("the residual is the mean force by that after the guess loop, to the r
   const compare::Settings& settings = scene.settings;
   const double speed = 2, h = settings.time_step, way = speed * h;
   const double mass = scene.bodies[0].material.density * 0.5e-4 / 3;  // a third of the triangle's mass, at each vertex
-  // By Eq. 21 with nothing near, each vertex is held within γ_p r_q of its start; r_q is capped (method.md §5.3).
+  // By Eq. 21, with nothing near, each vertex stays within γ_p r_q of its start; r_q is capped (method.md §5.3).
   const double query_radius = std::min(settings.contact_radius + way,
                                        settings.detection_radius_cap * settings.contact_radius);
   const double guessed = settings.bounds_relaxation * query_radius;

@@ -1,5 +1,5 @@
-// Tests rods in the reference's whole runs: forces against differences of the energy, sweeps that never raise it,
-// frames at rest, and the frame that a turn gives.
+// Tests rods in the reference's whole runs: forces against differences of the energy, sweeps that never raise the
+// energy, frames at rest, and frames after a turn.
 #include "reference/solvers/rods/rod_system.hpp"
 
 #include <cmath>
@@ -20,7 +20,7 @@ using compare::Index;
 using compare::Vec3;
 using Positions = std::vector<Triple<double>>;
 
-/// Returns a bent chain, and a ring with a branch; some edges run against the curve.
+/// Returns a bent chain, and a ring with a branch; some edges have the opposite direction.
 compare::Scene rods(double damping) {
   compare::Scene scene;
   scene.name = "rods";
@@ -93,7 +93,7 @@ TEST_CASE("rods: forces are slopes of the energy, with damping and without", "[p
         constexpr double step = 1e-6;
         Positions to = bent.x, from = bent.x;
         to[v][axis] += step, from[v][axis] -= step;
-        // The energy is quadratic in one vertex, so a central difference is exact but for rounding.
+        // The energy is quadratic in one vertex, so a central difference is exact up to rounding.
         CHECK(sum.force[axis] == Approx((bent.energy(from) - bent.energy(to)) / (2 * step)).margin(1e-9));
       }
     }
@@ -128,7 +128,7 @@ TEST_CASE("rods: the rest shape has no energy and no torque, and neighbours meet
   for (std::size_t e = 0; e < colour.size(); ++e)
     for (const Index f : bent.rest.segments[e].neighbour)
       if (f >= 0) CHECK(colour[e] != colour[static_cast<std::size_t>(f)]);
-  // The branch begins at vertex 0 of the ring, where its three segments are no neighbours of each other.
+  // The branch begins at vertex 0 of the ring; the three segments there are not neighbours of each other.
   CHECK(bent.rest.segments[13].neighbour == std::array<Index, 2>{-1, -1});
   CHECK(bent.rest.segments[8].neighbour[0] == -1);
 }

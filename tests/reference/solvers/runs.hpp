@@ -30,8 +30,8 @@ inline bool clean(const Run& run) {
                      [](const compare::StepMetrics& row) { return row.status == compare::step_clean; });
 }
 
-/// Returns a tilted sheet that falls onto a fixed one: contacts of all kinds, friction, damping, several detections a
-/// step.
+/// Returns a tilted sheet that falls onto a fixed one: contacts of all kinds, friction, damping, several detections in
+/// a step.
 inline compare::Scene drop_scene() {
   compare::Scene scene;
   scene.name = "drop";
@@ -48,7 +48,7 @@ inline compare::Scene drop_scene() {
   return scene;
 }
 
-/// Checks that each step from the snapshot before it gives the bits of an uninterrupted run. Both sheets are free, so
+/// Checks that each step from the previous snapshot has the bits of an uninterrupted run. Both sheets are free, so
 /// contacts couple vertices that no triangle couples, and the matrix' pattern grows and shrinks.
 inline void check_goes_on_from_any_snapshot(StartSolver start, compare::Scene scene) {
   scene.bodies[1].fixed = false;

@@ -46,8 +46,8 @@ inline compare::Scene two_sheets() {
   return scene;
 }
 
-/// Returns a single triangle, 1 cm wide, `height` above the interior of a fixed one, 3 m wide, so that exactly three
-/// contacts of a vertex with a plane arise.
+/// Returns a triangle, 1 cm wide, `height` above the interior of a fixed triangle, 3 m wide. It can have exactly three
+/// contacts, each of a vertex with a plane.
 inline compare::Scene triangle_on_plane(double height, const compare::Material& material) {
   compare::Scene scene;
   scene.name = "triangle_on_plane";

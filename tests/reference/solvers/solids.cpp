@@ -1,5 +1,5 @@
-// Compares solids in the reference's solvers with results on paper: free fall and a stretched bar. Compares the two
-// solvers of one potential with each other.
+// Compares solids in the reference's solvers with closed forms (free fall, a stretched bar), and the two solvers of one
+// potential with each other.
 #include <algorithm>
 #include <cmath>
 
@@ -21,11 +21,11 @@ std::unique_ptr<compare::Simulation> start_sweeps(const compare::Scene& scene,
 
 constexpr double stretch = 1.3, mu = 1e4, lambda = 3e4;
 
-/// Returns the width without a force across: J − 1 = μ (a − 1)/((λ + μ) a) for the stretch a
+/// Returns the width without a lateral force: J − 1 = μ (a − 1)/((λ + μ) a) for the stretch a
 /// (tests/fast/cpu/solids.cpp).
 double width() { return std::sqrt((1 + mu * (stretch - 1) / ((lambda + mu) * stretch)) / stretch); }
 
-/// Returns a bar whose ends are held at this stretch and at their final width; its inside starts at the width of the
+/// Returns a bar whose ends are held at this stretch and at their final width. Its inside starts at the width of the
 /// rest shape.
 compare::Scene stretched_bar() {
   compare::Scene scene;
@@ -60,7 +60,7 @@ TEST_CASE("solids: a block falls as -g h^2 n(n+1)/2 with every solver, and none 
     CHECK(run.rows.back().inverted_tetrahedra == 0);
     for (std::size_t v = 0; v < run.end.positions.size(); ++v) {
       const compare::Vec3& rest = scene.mesh.positions[v];
-      // Positions are below 1 m in single precision; solvers stop at residuals of at most 10⁻⁴ of gravity's force.
+      // Positions are below 1 m in single precision, and solvers stop at residuals of at most 10⁻⁴ of gravity's force.
       CHECK(double{run.end.positions[v].y} == Approx(rest.y - g * h * h * 15).margin(2e-6));
       CHECK(double{run.end.positions[v].x} == Approx(rest.x).margin(2e-6));
     }

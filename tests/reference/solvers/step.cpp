@@ -1,4 +1,4 @@
-// Tests the order of Algorithm 3 in scripted runs, and the query radius of a step.
+// Tests the order of Algorithm 3 for given numbers of cut vertices, and the query radius of a step.
 #include "reference/solvers/step.hpp"
 
 #include <algorithm>
@@ -59,7 +59,7 @@ compare::Scene scene_of(const compare::Mesh& mesh, const compare::Vec3& velocity
   return scene;
 }
 
-/// What follows from an answer that stays where it began.
+/// Returns the truth about an answer that stays at its start.
 compare::StepTruth truth_of(compare::Scene& scene) {
   compare::round_to_single(scene);
   const compare::Topology topology = compare::build_topology(scene);
@@ -105,7 +105,7 @@ TEST_CASE("the threshold is the fraction of K rounded up, at least one vertex", 
   CHECK(again(0, 8, 1));
   CHECK_FALSE(again(0, 8, 0));
   CHECK(again(0.01, 0, 1));
-  // In single precision a tenth is slightly more than a tenth.
+  // 0.1f is slightly more than a tenth.
   CHECK_FALSE(again(0.1f, 10, 1));
 }
 

@@ -1,4 +1,4 @@
-// Compares the reference's sweep with physics, and tests the rule by which positions are read.
+// Compares the reference's sweep with physics, and tests which positions an update reads.
 #include "reference/solvers/sweep.hpp"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ compare::Mesh sheet(int n, double height) {
   return mesh;
 }
 
-/// A sweep with all its inputs: at rest at the start, without contacts and bounds, each vertex of its own colour.
+/// A sweep with all its inputs: at rest at the start, without contacts and bounds, each vertex with its own colour.
 struct Question {
   compare::Scene scene;
   compare::Topology topology;
@@ -92,8 +92,8 @@ void shake(std::vector<Vec3f>& points, std::mt19937& random, float size) {
 
 double distance(const Vec3& a, const Vec3f& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
-/// Returns inertia and St. Venant–Kirchhoff energy of a sheet of unit right triangles, written for them alone: F's
-/// columns are edges.
+/// Returns inertia and St. Venant–Kirchhoff energy of a sheet of unit right triangles, whose edges are the columns of
+/// F.
 double energy(const Question& q, const std::vector<Vec3f>& x) {
   const compare::Material& m = q.scene.bodies[0].material;
   double sum = 0;
@@ -107,7 +107,7 @@ double energy(const Question& q, const std::vector<Vec3f>& x) {
       return std::array{double{b.x} - a.x, double{b.y} - a.y, double{b.z} - a.z};
     };
     const auto dot = [](const auto& a, const auto& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
-    // The right angles of a cell's triangles (a, b, d) and (a, d, c) are at b and c.
+    // A cell's triangles (a, b, d) and (a, d, c) have their right angles at b and c.
     const bool lower = t[1] == t[0] + 1;
     const auto first = lower ? edge(0, 1) : edge(2, 1), second = lower ? edge(1, 2) : edge(0, 2);
     const double xx = (dot(first, first) - 1) / 2, xy = dot(first, second) / 2, yy = (dot(second, second) - 1) / 2;
@@ -138,7 +138,7 @@ TEST_CASE("without energies a sweep takes every vertex to its target", "[unit]")
 TEST_CASE("a sheet at rest stays", "[unit]") {
   const Question q(scene_of({sheet(3, 0)}));
   const std::vector<Vec3f> x = q.swept().position;
-  // The rest gradients are rounded: strains of u, with stiffnesses that are at least inertia's.
+  // The rest gradients are rounded: strains of u. Stiffnesses are at least that of inertia.
   for (std::size_t v = 0; v < x.size(); ++v) CHECK(distance({x[v].x, x[v].y, x[v].z}, q.old[v]) <= 8 * 0x1p-24);
 }
 
@@ -217,7 +217,7 @@ TEST_CASE("forces of all stencils add up to nothing where all vertices are read 
     }
   }
   CHECK(moduli > 1);
-  // The gradients ∇N₀ of two corners are rounded to single precision: u of each force.
+  // The gradients ∇N₀ of two corners are rounded to single precision, by u of each force.
   CHECK(std::hypot(sum.x, sum.y, sum.z) <= 0x1p-24 * moduli);
 }
 
@@ -233,7 +233,7 @@ TEST_CASE("with inertia ahead of stiffness every sweep lowers the energy until n
   for (int sweep = 0; sweep < 60; ++sweep) {
     q.old = q.swept().position;
     const double after = energy(q, q.old);
-    // Positions are stored to u; the rest of the energy bounds its slope.
+    // Positions are stored to u; the remaining energy limits its slope.
     CHECK(after <= before + 1e-6 * start);
     before = after;
   }

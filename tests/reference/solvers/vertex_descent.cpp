@@ -1,5 +1,5 @@
-// Tests whether a vertex's update lowers its incremental potential (method.md §4.2, §7.1). Where normals and closest
-// points stay and no stage is logarithmic it never raises it; elsewhere it seldom does.
+// Tests whether a vertex's update lowers its incremental potential (method.md §4.2, §7.1). If normals and closest
+// points stay and no stage is logarithmic, it never raises the potential; otherwise it rarely does.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -25,12 +25,12 @@ struct Kind {
   std::string name;
   ContactActivation activation = ContactActivation::ogc;
   bool has_membrane = false, has_hinges = false, has_friction = false;
-  bool is_parallel = false;  ///< edges of both sheets are parallel but for 10⁻⁴ of their length
+  bool is_parallel = false;  ///< whether the edges of both sheets are parallel up to 10⁻⁴ of their length
 };
 
 double norm(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
 
-/// Two sheets, the upper one free, near the contact radius, and a state in the bounds of a detection.
+/// Two sheets near the contact radius, the upper one free, and a state in the bounds of a detection.
 struct Pile {
   compare::Scene scene;
   compare::Topology topology;
@@ -70,11 +70,11 @@ struct Pile {
   }
 };
 
-/// The effect of one vertex's update on its potential, with friction, normals and closest points of the state before.
+/// The effect of one vertex's update on its potential; friction, normals and closest points are those of the old state.
 struct Change {
-  double predicted = 0;  ///< by the quadratic model [J], negative
+  double predicted = 0;  ///< by the quadratic model, negative [J]
   double real = 0;       ///< [J]
-  double model = 0;      ///< of inertia, contact and friction alone, with fixed normals and closest points [J]
+  double model = 0;      ///< of inertia, contact and friction only, with fixed normals and closest points [J]
 };
 
 template <class Term, std::size_t N>
@@ -121,10 +121,10 @@ Change change_by(const reference::Potential& potential, compare::Index v, const 
   return change;
 }
 
-/// Counts over many updates.
+/// Counts over all updates.
 struct Count {
   int all = 0, rises = 0, large = 0;  ///< large: rises by more than a tenth of the model's decrease
-  int bent = 0;                       ///< truncated to where the model itself is higher
+  int bent = 0;                       ///< truncated to a point where the model itself is higher
   double worst = 0;                   ///< largest rise as a share of the model's decrease
   std::vector<double> shares{};
 
@@ -201,7 +201,7 @@ TEST_CASE("an update whose normals and closest points stay lowers inertia, quadr
     update_each(pile, false, [&](const Change& change) {
       ++moved;
       REQUIRE(change.predicted <= 0);
-      REQUIRE(change.model <= change.predicted + 1e-14);  // sums of some joules are rounded
+      REQUIRE(change.model <= change.predicted + 1e-14);  // energies of some joules are rounded
     });
   }
 }

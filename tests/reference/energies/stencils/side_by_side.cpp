@@ -35,7 +35,7 @@ MembraneTerm membrane(Draw& draw, bool damped, compare::MembraneModel model) {
   return term;
 }
 
-/// Returns the derivatives that stencil_derivatives.cpp beside this file compares with differences of energies.
+/// Returns the derivatives that stencil_derivatives.cpp in this folder compares with differences of energies.
 template <std::size_t Count>
 auto alone() {
   return [](const auto& term, const Corners<Count>& x, HessianProjection projection) {
@@ -58,7 +58,7 @@ Matrix<N> with_eigenvalues(Draw& draw, const std::array<double, N>& values) {
   return 0.5 * (h + h.transpose());
 }
 
-/// Returns matrices of many kinds: arbitrary, with equal eigenvalues, over many orders of magnitude, of low rank,
+/// Returns matrices of several kinds: arbitrary, with equal eigenvalues, over many orders of magnitude, of low rank,
 /// diagonal, coupled in parts.
 template <std::size_t N>
 Matrix<N> matrix_of_kind(Draw& draw, int kind) {
@@ -107,10 +107,10 @@ Matrix<N> lane_of(const LowerTriangle<N, Lanes<Packs>>& h, std::size_t lane) {
   return m;
 }
 
-/// Both solvers change the basis from both sides, by N − 2 reflections and about two rotations for each of the N(N −
-/// 1)/2 entries off the diagonal. Each has an error of at most 8 u ‖H‖ in the Frobenius norm. Clamping does not enlarge
-/// it; the modulus enlarges it by at most √2 (Araki and Yamagami 1981). Adding N terms of rank one adds a few u of the
-/// norm each.
+/// Error bound of a projection. Both solvers change the basis from both sides, by N − 2 reflections and about two
+/// rotations for each of the N(N − 1)/2 entries off the diagonal. Each has an error of at most 8 u ‖H‖ (Frobenius).
+/// Clamping does not enlarge the error; the modulus enlarges it by at most √2 (Araki and Yamagami 1981). Adding N terms
+/// of rank one adds a few u of the norm each.
 template <std::size_t N>
 constexpr double projection_bound = 0x1p-53 * 2 * 1.5 * (2 * 8.0 * (N - 2 + N * (N - 1)) + 4 * N);
 
@@ -147,7 +147,7 @@ TEST_CASE("stencils side by side have the derivatives of each alone, to the bit,
       std::vector<Corners<3>> triangles;
       std::vector<Corners<4>> folds;
       for (std::size_t i = 0; i < batch_width; ++i) {
-        // First all stencils take the same branch, then some at random take another.
+        // First all stencils take the same branch; later some take another at random.
         const auto other = [&] { return round % 3 == 2 && draw.between(0, 1) < 0.3; };
         const bool neo_hookean = (round % 2 == 0) != other();
         membranes.push_back(membrane(
@@ -210,9 +210,9 @@ TEST_CASE("contacts side by side have the derivatives of each alone, to the bit,
     }
 }
 
-/// Three variables replace nine; derivatives agree but for roundings. The eigenvalues of a projected sum of products of
-/// w by w are ‖w‖² times those by Σ w x, so projections agree too. The limit of 10⁻¹³ of the largest entry is some
-/// hundred roundings of 10⁻¹⁶.
+/// Three variables replace nine; derivatives agree up to roundings. The eigenvalues of a projected sum of products of w
+/// by w are ‖w‖² times those by Σ w x, so projections agree, too. The limit of 10⁻¹³ of the largest entry is about a
+/// thousand roundings of 10⁻¹⁶.
 TEST_CASE("what depends on one weighted sum has the derivatives of the energy over all vertices, side by side or alone",
           "[property]") {
   Draw draw(13);

@@ -29,8 +29,8 @@ std::vector<reference::StencilDerivatives> differentiated(
   return result;
 }
 
-/// Returns whether two derivatives have the same bits; zeros of either sign count as equal. Only the lower triangle of
-/// the Hessian is compared: the upper one is its mirror image in batches and differs by roundings for single stencils.
+/// Returns whether two derivatives have the same bits; zeros of either sign are equal. Compares only the lower triangle
+/// of the Hessian: the upper one is its mirror image in batches, and differs by roundings for single stencils.
 inline bool same_bits(const reference::StencilDerivatives& a, const reference::StencilDerivatives& b) {
   bool same = a.energy == b.energy && a.gradient == b.gradient;
   for (std::size_t i = 0; i < 12; ++i)

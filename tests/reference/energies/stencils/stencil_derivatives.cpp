@@ -37,8 +37,8 @@ Matrix hessian_of(const StencilDerivatives& d) {
 }
 
 /// Compares the gradient with differences of the energy, and the Hessian with differences of the gradient. The energy
-/// changes by its own size over `length`. With steps of 10⁻⁵ of it truncation is some 10⁻¹⁰ of the third derivative,
-/// and rounding 10⁻¹⁶/10⁻⁵ of the value.
+/// changes by its own size over `length`. With steps of 10⁻⁵ `length`, truncation gives about 10⁻¹⁰ of the third
+/// derivative, and rounding 10⁻¹⁶/10⁻⁵ of the value.
 template <std::size_t N, class Energy>
 void check_against_differences(const Corners<N>& x, double length, Energy energy) {
   const StencilDerivatives at = stencil_derivatives<N>(x, HessianProjection::none, energy);
@@ -64,8 +64,8 @@ void check_against_differences(const Corners<N>& x, double length, Energy energy
   }
 }
 
-/// Checks that there is no net force and no net torque, that the Hessian is symmetric, and that `clamp` and `absolute`
-/// give the projections of its eigenvalues.
+/// Checks that net force and net torque are zero, that the Hessian is symmetric, and that `clamp` and `absolute`
+/// project its eigenvalues.
 template <std::size_t N, class Energy>
 void check_structure(const Corners<N>& x, bool turns_freely, Energy energy) {
   const StencilDerivatives at = stencil_derivatives<N>(x, HessianProjection::none, energy);
@@ -77,7 +77,7 @@ void check_structure(const Corners<N>& x, bool turns_freely, Energy energy) {
     moduli += tests::norm(g);
   }
   CHECK(tests::norm(force) <= 1e-13 * moduli);
-  // Gradients contain roundings of the coordinates' differences, amplified in slender stencils.
+  // Gradients contain roundings of coordinate differences, amplified in slender stencils.
   if (turns_freely) CHECK(tests::norm(torque) <= 1e-9 * moduli * tests::norm(x[0] - x[N - 1]));
   const Matrix h = hessian_of<N>(at);
   CHECK((h - h.transpose()).cwiseAbs().maxCoeff() <= 1e-14 * h.cwiseAbs().maxCoeff());
@@ -184,7 +184,7 @@ TEST_CASE(
     const Corners<4> x{
         {{0, 0, 0.4 * r}, {side, 0, 0.4 * r}, {0.2 * side, -0.5 * sine * side, 0}, {1.2 * side, 0.5 * sine * side, 0}}};
     const ContactTerm term{ContactSides::edge_edge, {}, r, 10, 1, 0, compare::ContactActivation::ipc_log};
-    // At parallel edges the weights belong to the middle of the overlap.
+    // For parallel edges the weights belong to the middle of the overlap.
     const ClosestForm form = closest_form(term.sides, x);
     const auto energy = [&](const auto& at) {
       using T = std::decay_t<decltype(at[0][0])>;
@@ -193,7 +193,7 @@ TEST_CASE(
     };
     const Mollifier<double> mollifier(x[1] - x[0], x[3] - x[2], side * side, side * side);
     acted += mollifier.acts();
-    // The mollifier changes by its own size when the sine changes by its own size, or by its limit, 0.03.
+    // The mollifier changes by its own size if the sine changes by its own size, or by its limit, 0.03.
     check_all<4>(x, 1e-3 * side, form.kind != FormKind::fixed_weights, energy);
   }
   CHECK(acted > 20);
@@ -238,7 +238,7 @@ TEST_CASE(
     for (std::size_t k = static_cast<std::size_t>(vertex_count(sides)); k < 4; ++k) x[k] = {};
     const ClosestForm form = closest_form(sides, x);
     const double d = form_distance(form, x);
-    // Differences must not step over the ends of the stages or come near the pole.
+    // Differences must not cross the ends of the stages or come near the pole.
     if (d > 0.95 * r || d < 0.1 * r || std::abs(d - r / 2) < 1e-3 * r || form.kind == FormKind::fixed_weights) continue;
     ++forms[static_cast<std::size_t>(form.kind)];
     check_all<4>(x, 0.1 * r, true, [&](const auto& at) { return term.energy(form, at); });
@@ -307,7 +307,7 @@ TEST_CASE(
   }
 }
 
-/// As a difference of terms of the size of μ, as printed, the energy would be lost below strains of 10⁻⁸.
+/// If the energy were a difference of terms of size μ, as printed, it would be lost below strains of 10⁻⁸.
 TEST_CASE("a stable Neo-Hookean triangle next to rest has the energy of small strains, not the rounding of its terms",
           "[property]") {
   MembraneTerm term;

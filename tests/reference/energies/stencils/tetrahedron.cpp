@@ -1,4 +1,4 @@
-// Compares the stage's truth with differences of the energy that Newton's method uses, which has another formula.
+// Compares the stage's truth with differences of the energy in Newton's method, which has another formula.
 #include "reference/energies/tetrahedron.hpp"
 
 #include <cmath>
@@ -15,7 +15,7 @@ using namespace ogc::tests;
 
 namespace {
 
-/// Returns the unit tetrahedron, whose rest data single precision holds exactly except 1/6.
+/// Returns the unit tetrahedron; single precision holds all its rest data exactly except 1/6.
 TetrahedronTerm unit_term(double damping) {
   TetrahedronTerm term;
   term.gradient = {{{-1, -1, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
@@ -43,7 +43,7 @@ compare::TetrahedronCase question_of(const TetrahedronTerm& term, const Corners<
   return question;
 }
 
-/// Returns shapes in numbers of single precision: near rest, sheared, flat, inverted, a needle.
+/// Returns shapes in single-precision numbers: near rest, sheared, flat, inverted, a needle.
 Corners<4> shape(Draw& draw, int kind) {
   Corners<4> x{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   for (auto& p : x)
@@ -68,7 +68,7 @@ TEST_CASE("tetrahedron: the stage's force and block are the derivatives of Newto
       const StencilDerivatives all = stencil_derivatives<4>(x, HessianProjection::none,
                                                             [&](const auto& at) { return term.energy(at); });
       const compare::ForceAnswer answer = tetrahedron(question_of(term, x, start));
-      // 1/6 is rounded to single precision, an error of 2⁻²⁵ of its product.
+      // 1/6 is rounded to single precision, which changes a product by 2⁻²⁵ of it.
       const double margin = 1e-7 * answer.force_scale;
       CHECK(answer.force.x == Approx(-all.gradient[0]).margin(margin));
       CHECK(answer.force.y == Approx(-all.gradient[1]).margin(margin));

@@ -1,5 +1,5 @@
-// Tests what contacts leave of a move, worked out by hand, and compares the judge's errors with moves evaluated in
-// single precision.
+// Tests the moves that contacts leave, on cases derived by hand, and compares the judge's errors with moves in single
+// precision.
 #include "reference/solvers/guess/held_moves.hpp"
 
 #include <cmath>
@@ -28,7 +28,7 @@ Hold above(const Move& others, double friction = 0, double weight = 1) {
   return {.weight = weight, .normal = {0, 0, 1}, .others = others, .friction = friction};
 }
 
-/// A sheet above another one, with all contacts at the start.
+/// A sheet above another sheet, with all contacts at the start.
 struct Sheets {
   compare::Scene scene = two_sheets();
   compare::Topology topology;
@@ -54,18 +54,18 @@ struct Sheets {
 TEST_CASE("what closes a contact is taken, and what opens it or goes along it is left", "[unit]") {
   CHECK(held_by(above({}), {1, 2, -3}) == Move{1, 2, 0});
   CHECK(held_by(above({}), {1, 2, 3}) == Move{1, 2, 3});
-  // Seen from below, the weight is negative.
+  // From below, the weight is negative.
   CHECK(held_by(above({}, 0, -1), {1, 2, 3}) == Move{1, 2, 0});
   CHECK(held_by(above({}, 0, -0.5), {1, 2, -3}) == Move{1, 2, -3});
 }
 
 TEST_CASE("a partner that makes room is followed, and one that comes is not fled from", "[unit]") {
-  // The first argument is minus the partner's move, since its weights add up to −1.
+  // The first argument is minus the partner's move, because its weights are −1 in sum.
   CHECK(held_by(above({0, 0, 1}), {0, 0, -3}) == Move{0, 0, -1});
   CHECK(held_by(above({0, 0, 4}), {0, 0, -3}) == Move{0, 0, -3});
   CHECK(held_by(above({0, 0, -1}), {0, 0, -3}) == Move{0, 0, 0});
   CHECK(held_by(above({0, 0, -1}), {0, 0, 0}) == Move{0, 0, 0});
-  // A corner with half of the weight moves twice as far for the same room.
+  // A corner with half the weight moves twice as far in the same room.
   CHECK(held_by(above({0, 0, 1}, 0, 0.5), {0, 0, -3}) == Move{0, 0, -2});
 }
 
@@ -126,8 +126,7 @@ TEST_CASE("what contacts took in a round is not expected of the others in the ne
   reference::HeldMoves twice = sheets.moves();
   const reference::State first = twice.round(sheets.contacts, previous, target),
                          second = twice.round(sheets.contacts, previous, target);
-  // Both sheets stop in the first round. In the second one neither expects the other to come, but both stop all the
-  // same.
+  // Both sheets stop in the first round. In the second round neither expects the other to move, but both stop again.
   CHECK(first != target);
   for (std::size_t v = 0; v < first.size(); ++v) CHECK(between(first[v], second[v]) < 1e-3);
 }

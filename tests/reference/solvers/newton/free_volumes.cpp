@@ -1,5 +1,5 @@
-// Tests free volumes (§3.9) in the reference: forces on the corners of triangles, and the minimiser that Newton's
-// method and converged sweeps both reach.
+// Tests free volumes (§3.9) in the reference: forces on the corners of triangles, and the common minimiser of Newton's
+// method and converged sweeps.
 #include <cmath>
 
 #include "compare/oracle/volume_audit.hpp"
@@ -16,10 +16,10 @@ namespace {
 
 using compare::Vec3;
 
-constexpr std::size_t in_block = 27;     ///< vertices of a block of 3³
+constexpr std::size_t in_block = 27;     ///< number of vertices of a block of 3³
 constexpr double contact_radius = 5e-3;  ///< [m]
 
-/// Returns two free blocks, of which one begins 4 mm inside the other.
+/// Returns two free blocks; one begins 4 mm inside the other.
 compare::Scene two_blocks() {
   compare::Scene scene;
   scene.name = "two_blocks";
@@ -42,7 +42,7 @@ compare::Scene two_blocks() {
   return scene;
 }
 
-/// Returns Σ m v of a block over its mass.
+/// Returns Σ m v of a block, divided by its mass.
 Vec3 mean_velocity(const compare::Snapshot& state, const std::vector<double>& mass, std::size_t block) {
   Vec3 sum;
   double all = 0;
@@ -77,7 +77,7 @@ TEST_CASE("Newton: a free block comes out of another and both fly apart with equ
   CHECK(auditor.audit(compare::to_double(newton->snapshot().positions)).vertices_inside == 0);
   const Vec3 low = mean_velocity(newton->snapshot(), mass, 0), high = mean_velocity(newton->snapshot(), mass, 1);
   CHECK(high.y > 0.1);
-  // Positions are rounded to single precision at 0.1 m, by 2⁻²⁸ m a coordinate in each of ten steps of h: 2⁻²⁸/h each.
+  // Positions near 0.1 m are rounded to single precision, by 2⁻²⁸ m per coordinate in each of ten steps h: 2⁻²⁸/h each.
   const double rounded = 10 * 0x1p-28 / scene.settings.time_step;
   CHECK(low.x == Approx(-high.x).margin(rounded));
   CHECK(low.y == Approx(-high.y).margin(rounded));
@@ -88,7 +88,7 @@ TEST_CASE("free volumes: Newton's method and converged sweeps end at the same mi
           "[property]") {
   compare::Scene scene = two_blocks();
   scene.settings.iterations = 3000;
-  scene.settings.detection_every = 300;  // Newton's method also detects where it ends
+  scene.settings.detection_every = 300;  // Newton's method also detects at its end
   const auto newton = reference::start_newton(scene, {}), vbd = reference::start_vbd(scene, {});
   for (int step = 1; step <= 3; ++step) {
     const compare::StepMetrics row = newton->advance(1).back(), swept = vbd->advance(1).back();
@@ -96,9 +96,10 @@ TEST_CASE("free volumes: Newton's method and converged sweeps end at the same mi
     CHECK(swept.status == compare::step_clean);
     CHECK(swept.volume_contacts > 0);
     const compare::Snapshot a = newton->snapshot(), b = vbd->snapshot();
-    // volumes.cpp beside this file derives this limit.
+    // volumes.cpp in this folder derives this limit.
     for (std::size_t v = 0; v < a.positions.size(); ++v)
       CHECK(distance(a.positions[v], b.positions[v]) < std::pow(3, step) * std::sqrt(3) * 0x1p-25 * 0.12);
-    vbd->restore(a);  // compares single steps, not what contacts that only one of both has make of their difference
+    // Only single steps are compared: a contact in only one of both runs would enlarge their difference.
+    vbd->restore(a);
   }
 }

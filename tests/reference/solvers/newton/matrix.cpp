@@ -17,7 +17,7 @@ using reference::HessianProjection;
 
 namespace {
 
-/// Two sheets in contact, with one corner prescribed.
+/// Two sheets in contact, one corner prescribed.
 struct Pressed {
   compare::Scene scene;
   compare::Topology topology;
@@ -81,7 +81,7 @@ TEST_CASE("the sparse matrix is the sum of the stencils; its solve and condition
   BlockMatrix matrix(potential.mobility());
   CHECK(matrix.rows() == 45);
   CHECK(matrix.set_stencils(potential.vertices()));
-  CHECK(!matrix.set_stencils(potential.vertices()));  // the pattern stays the same
+  CHECK(!matrix.set_stencils(potential.vertices()));
   const PotentialDerivatives derivatives = potential.derivatives(pressed.x, HessianProjection::clamp);
   matrix.assemble(potential.inertias(), derivatives.stencil);
   const Eigen::MatrixXd dense = dense_sum(potential, derivatives, matrix);

@@ -1,4 +1,4 @@
-// Tests steps that are cut pair by pair: nothing meets on the way, and sheets that travel together are not cut.
+// Tests steps that are cut pair by pair: nothing intersects on the way, and sheets that travel together are not cut.
 #include "reference/solvers/newton/moving_planes.hpp"
 
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr float relaxation = 0.45f;
 
-/// The planes of a scene's first state, with the data from which they are made.
+/// The planes of a scene's first state, and the data from which they are made.
 struct Held {
   compare::Scene scene;
   compare::Topology topology;
@@ -47,8 +47,7 @@ State shifted(const State& x, double share, const State& step) {
   return to;
 }
 
-/// Returns two free sheets `gap` apart; the upper one is tilted, and its vertices do not lie above those of the lower
-/// one.
+/// Returns two free sheets `gap` apart. The upper one is tilted, and no vertex lies above one of the lower sheet.
 compare::Scene facing(double gap) {
   compare::Scene scene;
   scene.name = "facing";
@@ -86,7 +85,7 @@ TEST_CASE("pair by pair: whatever a step wants, nothing meets on its way, and wh
     for (const double share : {0.1, 0.35, 0.7, 1.0}) CHECK(held.intersections(shifted(x, share, step)) == 0);
     meetings_uncut += held.intersections(shifted(x, 1, wanted));
     cut += step != wanted;
-    // A second step begins at the end of the first one.
+    // A second step begins at the end of the first step.
     const State next = shifted(x, 1, step);
     CHECK(held.intersections(shifted(next, 1, held.planes.truncated(next, wanted))) == 0);
   }
@@ -112,7 +111,7 @@ TEST_CASE("pair by pair: sheets leave one another as far as the balls let them, 
   const State step = held.planes.truncated(x, uniform(held, {0, 2e-3, 0}, {0, -1e-3, 0})), end = shifted(x, 1, step);
   const auto distances = compare::smallest_distances(held.topology, compare::to_double(rounded(end)), held.exclusions);
   const double least = std::min(distances.vertex_triangle, distances.edge_edge);
-  // At least 1 − 2γ_p of the gap is left; sweeps, which are no projection, may leave more.
+  // At least 1 − 2γ_p of the gap is left. Sweeps may leave more, because they are no projection.
   CHECK(least > 0.0999e-4);
 }
 
@@ -122,7 +121,7 @@ TEST_CASE("pair by pair: what is nearer than rounding stays where it is", "[unit
   for (Triple<double>& p : x) p[0] += 1e-10;
   held.planes.enter(x);
   const State step = held.planes.truncated(x, uniform(held, {0, 1e-3, 0}, {0, 1e-3, 0}));
-  // Checked are vertices that face the other sheet, away from its rim.
+  // Only vertices that face the other sheet, away from its rim, are checked.
   std::size_t facing_others = 0;
   for (std::size_t v = 0; v < x.size(); ++v) {
     if (std::abs(x[v][0]) > 0.016 || std::abs(x[v][2]) > 0.016) continue;
@@ -146,7 +145,7 @@ TEST_CASE("pair by pair: what is stored beyond a plane or a ball is found", "[un
 
 TEST_CASE("Newton pair by pair: sheets that are close and travel far in one step converge in a few iterations",
           "[property]") {
-  // Two sheets 0.1 mm apart travel 2 cm together and slide 1 cm along each other. Balls of γ_p 0.1 mm would need 400
+  // Two sheets 0.1 mm apart travel 2 cm together and slide 1 cm along each other. Balls of γ_p · 0.1 mm would need 400
   // iterations.
   compare::Scene scene = facing(1e-4);
   scene.gravity = {};

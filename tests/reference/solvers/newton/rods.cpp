@@ -18,7 +18,7 @@ namespace {
 using compare::Index;
 using compare::Vec3;
 
-/// Returns a rod along these points whose first segment is held.
+/// Returns a rod along these points with its first segment fixed.
 compare::Scene held_rod(const std::vector<Vec3>& points, const compare::RodMaterial& rod) {
   compare::Scene scene;
   scene.name = "rod";
@@ -72,7 +72,7 @@ TEST_CASE("rods: gradients and Hessians of segments and joints are those of thei
     };
     const std::size_t count = unknown[2] < 0 ? 6 : 9;
     for (std::size_t a = 0; a < count; ++a) {
-      // Positions are in metres, turns in radians; steps in each lose half of the digits.
+      // Positions are in metres, turns in radians; a step in each loses half of the digits.
       const auto step = [&](std::size_t k) { return unknown[k / 3] < 4 ? 1e-6 : 1e-3; };
       const double slope = (moved(a, step(a), a, 0) - moved(a, -step(a), a, 0)) / (2 * step(a));
       CHECK(at.gradient[a] == Approx(slope).epsilon(1e-5).margin(1e-9));
@@ -101,15 +101,15 @@ TEST_CASE("rods: Newton's method and converged sweeps end at the same minimiser"
     vbd->advance(1);
   }
   const compare::Snapshot a = newton->snapshot(), b = vbd->snapshot();
-  // Both are rounded to single precision in each of five steps, at 1 cm from the origin: 2⁻²⁴ of it.
+  // Both results are rounded to single precision in each of five steps, at 1 cm from the origin, by 2⁻²⁴ of it.
   for (std::size_t v = 0; v < points.size(); ++v) CHECK(distance(a.positions[v], b.positions[v]) < 5e-9);
   for (std::size_t e = 0; e < a.orientations.size(); ++e)
     for (std::size_t k = 0; k < 4; ++k)
       CHECK(double{a.orientations[e][k]} == Approx(double{b.orientations[e][k]}).margin(1e-5));
 }
 
-// A straight rod in free fall has neither forces nor torques after its guess but for rounding. Implicit Euler falls by
-// g h² n (n + 1)/2; the floor acts from 2.8 mm down, which the sixth step reaches.
+// After its guess, a freely falling straight rod has no forces and torques except rounding. Implicit Euler falls by g
+// h² n (n + 1)/2. The floor acts below −2.8 mm, which the sixth step reaches.
 TEST_CASE("rods: Newton's steps of a straight cord converge in free fall, and when it meets the walls of a channel",
           "[property]") {
   compare::Scene scene;
@@ -153,7 +153,7 @@ TEST_CASE("rods: a cantilever under its weight sinks as a beam does, in proporti
     return -double{newton->snapshot().positions.back().y};
   };
   const double density = 4e-4, bend = 1e-4, load = density * 9.81;
-  // The frame of the held segment is clamped at its middle, half a segment before the free part.
+  // The fixed segment's frame is clamped at its middle, half a segment before the free part.
   const double length = 100.5e-3, sunk = deflection(density, bend);
   CHECK(sunk == Approx(load * std::pow(length, 4) / (8 * bend)).epsilon(0.01));
   CHECK(deflection(density, 2 * bend) == Approx(sunk / 2).epsilon(2e-3));
@@ -162,8 +162,8 @@ TEST_CASE("rods: a cantilever under its weight sinks as a beam does, in proporti
 
 TEST_CASE("rods: a ring of a straight rod with k_b = GJ leaves its plane at a twist of 2 pi sqrt 3 (Michell)",
           "[property]") {
-  // The ring is all but one side of a polygon, with its first and last side held. Returns the growth of a ripple in
-  // half a second.
+  // Returns the growth of a ripple in half a second. The ring is a polygon without one side; its first and last sides
+  // are fixed.
   const auto growth = [](double share_of_critical) {
     constexpr Index n = 60;
     const double radius = 0.02, angle = 2 * std::numbers::pi / (n + 1), side = 2 * radius * std::sin(angle / 2);
@@ -177,12 +177,12 @@ TEST_CASE("rods: a ring of a straight rod with k_b = GJ leaves its plane at a tw
       scene.mesh.positions[static_cast<std::size_t>(k)] = {radius * std::sin(angle * k), radius * std::cos(angle * k),
                                                            is_held ? 0 : ripple * radius * std::sin(2 * angle * k)};
     }
-    // Frames follow the polygon, each turned about its director by the ring's twist up to there. The director of a side
-    // is x turned by -angle (e + 1/2) about z.
+    // Frames follow the polygon; each is turned about its director by the ring's twist up to there. The director of a
+    // side is x turned by -angle (e + 1/2) about z.
     const double twist = share_of_critical * std::sqrt(3.0) * angle;
     for (Index e = 0; e < n; ++e) {
       const double way = -angle * (e + 0.5) / 2, turn = twist * e / 2, half = std::sqrt(0.5);
-      // The twist about z comes first, then z turns to x about y: (0, 0, sin way, cos way) (0, s, 0, c) (0, 0, sin,
+      // First the twist about z, then a turn about y from z to x: (0, 0, sin way, cos way) (0, s, 0, c) (0, 0, sin,
       // cos).
       const double x = half * std::sin(turn), y = half * std::cos(turn), z = half * std::sin(turn),
                    w = half * std::cos(turn);
@@ -207,7 +207,7 @@ TEST_CASE("rods: a ring of a straight rod with k_b = GJ leaves its plane at a tw
     for (const compare::Vec3f& x : newton->snapshot().positions) largest = std::max(largest, std::abs(double{x.z}));
     return largest / (ripple * radius);
   };
-  // The held sides and the missing one, 3 of 61, do not bend, which makes the ring stiffer by as much.
+  // The fixed sides and the missing one, 3 of 61, do not bend and make the ring stiffer by this share.
   CHECK(growth(1) < 1);
   CHECK(growth(1.08) > 10);
 }

@@ -30,7 +30,7 @@ compare::Vec3 momentum(const compare::Scene& scene, const std::vector<Vec3f>& ve
   return sum;
 }
 
-/// Counts iterations near the end whose residual is of the order of the square of the one before.
+/// Counts iterations near the end whose residual is of the order of the previous residual squared.
 int quadratic_steps(const compare::StepMetrics& step) {
   int count = 0;
   for (std::size_t i = 1; i < step.iteration_rows.size(); ++i) {
@@ -48,7 +48,7 @@ compare::Material heavy() {
   return material;
 }
 
-/// Returns the mass of one vertex of `triangle_on_plane` [kg].
+/// Returns the mass of each vertex of `triangle_on_plane` [kg].
 double corner_mass(const compare::Material& material) { return material.density * 0.5 * 1e-4 / 3; }
 
 }  // namespace
@@ -60,7 +60,7 @@ TEST_CASE("Newton: a cloth far from everything falls as -g h^2 n(n+1)/2, in one 
   const Run result = run(scene, 10);
   REQUIRE(clean(result));
   const double h = 0.01, fallen = 9.81 * h * h * 10 * 11 / 2;
-  // Positions below 1 m are stored to 2⁻²⁵ m, and the velocity carries each rounding on: at most n(n+1)/2 times.
+  // Positions below 1 m are stored to 2⁻²⁵ m, and the velocity keeps each rounding: at most n(n+1)/2 times.
   for (const Vec3f& x : result.end.positions) CHECK(std::abs(double{x.y} + fallen) <= 55 * 0x1p-25);
   for (const compare::StepMetrics& row : result.rows) {
     CHECK(row.iterations <= 1);
@@ -70,8 +70,8 @@ TEST_CASE("Newton: a cloth far from everything falls as -g h^2 n(n+1)/2, in one 
 
 TEST_CASE("Newton: sheets in contact that fly together stay as they are, however many balls they cross in a step",
           "[property]") {
-  // Sheets fly 3 cm a step, with a few millimetres between two detections. A guess loop that leaves vertices in contact
-  // behind pulls the sheets apart and folds them.
+  // Sheets fly 3 cm per step, and a few millimetres between two detections. If the guess loop left vertices in contact
+  // behind, the sheets would be pulled apart and folded.
   compare::Scene scene;
   scene.name = "flight";
   compare::Material material;
@@ -97,8 +97,8 @@ TEST_CASE("Newton: sheets in contact that fly together stay as they are, however
 }
 
 TEST_CASE("Newton: a stiff sheet that one close vertex holds back leaves as fast as its balls grow", "[property]") {
-  // The sheet flies 1 cm a step away from a patch 10 µm below its middle. The distance grows by γ_p of itself in an
-  // iteration, as long as all vertices move alike. Along δ' the middle stays behind, and the sheet bends instead.
+  // The sheet flies 1 cm per step away from a patch 10 µm below its middle. The distance grows by γ_p of itself in an
+  // iteration if all vertices move alike. Along δ' the middle would stay behind, and the sheet would bend.
   compare::Scene scene;
   scene.name = "held";
   compare::Material stiff = heavy();
@@ -113,15 +113,15 @@ TEST_CASE("Newton: a stiff sheet that one close vertex holds back leaves as fast
   const Run result = run(scene, 1);
   REQUIRE(clean(result));
   CHECK(double{result.end.positions[24].y} > 0.0099);
-  // 10⁻⁵ m · 1.45ᵏ reaches 1 cm at k = 18.6; with full balls a smooth solve takes a few more. With δ' first it takes
-  // 36.
+  // 10⁻⁵ m · 1.45ᵏ reaches 1 cm at k = 18.6; with full balls a smooth solve takes a few more iterations. With δ' first
+  // it takes 36.
   CHECK(result.rows[0].iterations <= 19 + 8);
 }
 
 TEST_CASE("Newton: sheets that are nearly closed and travel far together converge quadratically", "[property]") {
   // The middle of two sheets 10 µm apart lands on a patch, and their rims fly on for 3 mm. Truncation alone leaves each
-  // of two facing vertices a thousandth of its way, and as little of the way in which they separate. Springs on cut
-  // vertices (method.md §7.6) leave all of it.
+  // of two facing vertices a thousandth of its way, and as little of their relative motion. Springs on cut vertices
+  // (method.md §7.6) leave all of it.
   compare::Scene scene;
   scene.name = "closed";
   compare::Material material;
@@ -165,7 +165,8 @@ TEST_CASE("Newton: each accepted iteration lowers the energy between two detecti
 }
 
 TEST_CASE("Newton converges quadratically on a smooth problem", "[property]") {
-  // A sheet far from itself is pulled apart at both ends; as it is stretched, its own Hessian is positive definite.
+  // A sheet far from itself is pulled apart at both ends. Because it is stretched, its own Hessian is positive
+  // definite.
   compare::Scene scene;
   scene.name = "stretch";
   add_sheet(scene, 6, 0.05, 0, false);
@@ -187,9 +188,9 @@ TEST_CASE("Newton converges quadratically on a smooth problem", "[property]") {
 }
 
 TEST_CASE("Newton converges quadratically where stencils are indefinite and the whole is not", "[property]") {
-  // A sheet under compression folds up, held by its inertia. With projection stencil by stencil it converges linearly.
+  // A compressed sheet folds, and only its inertia resists. With projection stencil by stencil it converges linearly.
   compare::Material material;
-  // the factor of 100 allows for its third derivatives
+  // The limit 100 in quadratic_steps includes the third derivatives of this model.
   material.membrane = compare::MembraneModel::st_venant_kirchhoff;
   compare::Scene scene;
   scene.name = "pressed";
@@ -233,7 +234,7 @@ TEST_CASE(
     REQUIRE(clean(result));
     const double time = 0.3, velocity = double{result.end.velocities[0].x},
                  threshold = scene.settings.friction_velocity;
-    // f₁(y)/1 = tan/μ has the solution y = ε_v (1 − √(1 − tan/μ)), the velocity of the creep.
+    // f₁(y) = tan/μ has the solution y = ε_v (1 − √(1 − tan/μ)), the velocity of the creep.
     if (std::tan(slope) < friction)
       CHECK(velocity == Approx(threshold * (1 - std::sqrt(1 - std::tan(slope) / friction))).epsilon(0.02));
     else
@@ -265,7 +266,7 @@ TEST_CASE("Newton at convergence conserves momentum in a collision, friction inc
                lost = std::hypot(after.x - before.x, after.y - before.y, after.z - before.z);
   double mass = 0;
   for (const double m : potential.mass()) mass += m;
-  // Each step rounds positions of a few centimetres to 2⁻²⁹ m, and a velocity is made of two of them.
+  // Each step rounds positions of a few centimetres to 2⁻²⁹ m, and each velocity comes from two of them.
   const double rounding = mass * 3 * 2 * 0x1p-29 / 0.01;
   CHECK(lost <= 1e-6 * whole + rounding);
   CHECK(std::abs(double{result.end.velocities[14].y} + 0.4) > 0.05);  // they did collide
@@ -285,7 +286,7 @@ TEST_CASE("Newton: a step that can't converge says so, keeps the state before it
 
 TEST_CASE("Newton: a number that is not finite ends the step and keeps the state before it", "[unit]") {
   compare::Scene scene = drop_scene();
-  // validate refuses this scene, but a solver must end with it too.
+  // validate refuses this scene, but a solver must also end with it.
   scene.bodies[0].material.lame_mu = std::numeric_limits<double>::quiet_NaN();
   const auto simulation = reference::start_newton(scene, {});
   const auto rows = simulation->advance(3);
@@ -330,8 +331,8 @@ TEST_CASE("Newton: friction solves go on until one changes nothing, and end with
   once->restore(before.end);
   once->advance(1);
   const double lagged = meter.at(once->snapshot().positions).share;
-  // The settled state has only the error of storing positions. After one solve, friction is still lagged to the
-  // previous step, so its force differs.
+  // The settled state has only the error of stored positions. After one solve, friction is lagged to the previous step,
+  // so its force differs.
   CHECK(settled < 1e-4);
   CHECK(lagged > 10 * settled);
 }
@@ -408,7 +409,7 @@ TEST_CASE("Newton takes every model, and refuses damping by vertex with what to 
   CHECK(clean(result));
   CHECK(result.rows.size() == 5);
   // The second step finds a third, fourth and fifth set of contacts, each nearer to the solution. It must not end as if
-  // it alternated between two.
+  // it alternated between two sets.
   for (const compare::StepMetrics& row : result.rows) CHECK(row.residual < 1e-2);
   CHECK(result.end.positions != plain.end.positions);
   scene.settings.damping = compare::DampingForm::per_vertex;

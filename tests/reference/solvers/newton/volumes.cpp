@@ -1,5 +1,5 @@
-// Tests Newton's method with driven volumes (§3.9): derivatives of their contacts, and the minimiser that converged
-// sweeps reach.
+// Tests Newton's method with driven volumes (§3.9): derivatives of their contacts, and the minimiser of converged
+// sweeps.
 #include <cmath>
 
 #include "compare/oracle/volume_audit.hpp"
@@ -32,12 +32,12 @@ reference::VolumeTerm term() {
   return term;
 }
 
-/// Returns the positions with the contact's point at height φ.
+/// Returns the positions; the contact's point has the height φ.
 std::array<Triple<double>, 4> at_height(double height) {
   return {{{0.1, height, 0.2}, {0, 0, 0}, {1, 0, 0}, {0, 0, 1}}};
 }
 
-/// Returns a sheet at `height` above a driven block that moves at this velocity [m/s].
+/// Returns a sheet at `height` above a driven block with this velocity [m/s].
 compare::Scene sheet_on_block(double height, const Vec3& velocity) {
   compare::Scene scene;
   scene.name = "sheet_on_block";
@@ -69,8 +69,7 @@ double distance(const compare::Vec3f& a, const compare::Vec3f& b) {
 
 }  // namespace
 
-TEST_CASE("a contact with a volume: k r from both sides of the surface, no sum of forces, an exact Hessian",
-          "[unit]") {
+TEST_CASE("a contact with a volume: k r from both sides of the surface, no sum of forces, an exact Hessian", "[unit]") {
   const auto derivatives = [](double height) {
     return reference::stencil_derivatives<4>(at_height(height), reference::HessianProjection::none,
                                              [](const auto& corners) { return term().energy(corners); });
@@ -111,8 +110,8 @@ TEST_CASE("volumes: Newton's method and converged sweeps end at the same minimis
     CHECK(row.volume_contacts >= static_cast<std::int64_t>(cloth));
     CHECK(row.volume_contacts == swept.volume_contacts);
     const compare::Snapshot a = newton->snapshot(), b = vbd->snapshot();
-    // Both are rounded to single precision in each step, within 0.1 m of the origin: 2⁻²⁵ of it in each coordinate.
-    // Through h² a = h v each step adds less than twice the difference so far.
+    // Both results are rounded to single precision in each step, within 0.1 m of the origin, by 2⁻²⁵ of it in each
+    // coordinate. Through h² a = h v each step adds less than twice the previous difference.
     for (std::size_t v = 0; v < cloth; ++v)
       CHECK(distance(a.positions[v], b.positions[v]) < std::pow(3, step) * std::sqrt(3) * 0x1p-25 * 0.1);
   }
@@ -126,7 +125,7 @@ TEST_CASE("Newton: who begins inside a volume comes out on the nearest side, and
   const auto newton = reference::start_newton(scene, {});
   for (const compare::StepMetrics& row : newton->advance(60)) {
     CHECK(row.status == compare::step_clean);
-    // checked at the step's last detection; a converged step has pushed all vertices out
+    // measured at the step's last detection; a converged step has pushed all vertices out
     CHECK(row.vertices_inside == 0);
   }
   const compare::Snapshot end = newton->snapshot();

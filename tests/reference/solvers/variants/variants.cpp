@@ -1,4 +1,4 @@
-// Tests that each ablation of the method's choices does what its name tells, and changes nothing at its default.
+// Tests that each ablation has the effect of its name, and that its default changes nothing.
 #include "reference/solvers/variants/settings.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using reference::operator-;
 
 namespace {
 
-/// Returns a level sheet 2 mm above a larger one, with no two vertices above each other.
+/// Returns a level sheet 2 mm above a larger one; no vertex lies above another.
 compare::Scene level_sheets() {
   compare::Scene scene;
   scene.name = "level_sheets";
@@ -36,7 +36,7 @@ compare::Scene level_sheets() {
   return scene;
 }
 
-/// A scene at its start, with the data that contact sets need.
+/// A scene at its start, and the data for contact sets.
 struct Asked {
   compare::Scene scene;
   compare::Topology topology;
@@ -71,8 +71,8 @@ Asked askew_sheets() {
   return Asked(std::move(scene));
 }
 
-/// Returns Σ‖f_t‖ / Σ‖f‖ of the contact forces on the level sheet's inner vertices. At its rim, contacts beside it
-/// rightly push outwards.
+/// Returns Σ‖f_t‖ / Σ‖f‖ of the contact forces on the inner vertices of the level sheet. At its rim, contacts next to
+/// it rightly push outwards.
 double tangential_share(const Asked& asked, reference::ContactSet set) {
   const reference::State x = reference::widened(asked.positions);
   reference::Potential potential(asked.scene, asked.topology);
@@ -100,7 +100,7 @@ TEST_CASE(
     "field, and sideways by one contact of each pair of primitives",
     "[property]") {
   const Asked asked(level_sheets());
-  // Directions are differences of double closest points, of coordinates below 0.1 m, over a distance of 2 mm.
+  // Directions are differences of closest points in double, with coordinates below 0.1 m, over a distance of 2 mm.
   const double rounding = 64 * 0x1p-53 * 0.1 / 2e-3;
   CHECK(tangential_share(asked, reference::ContactSet::ogc) < rounding);
   CHECK(tangential_share(asked, reference::ContactSet::distance) < rounding);
