@@ -41,7 +41,7 @@ struct PlaneListsView {
   int* pair_offsets = nullptr;             ///< vertices + 1
   float* pair_rows = nullptr;              ///< distances of vertex v's pairs [m] from pair_offsets[v] on, in any order
   float* threshold = nullptr;              ///< δ_v [m]
-  float* nearest = nullptr;           ///< by vertex: lower bound of the distance of its nearest pair, at most r_q [m]
+  float* nearest = nullptr;  ///< by vertex: lower bound of the distance of its nearest pair, at most r_q [m]
   /// by vertex: lower bound of the distance of its nearest pair without a plane, at most r_q [m]
   float* unplaned = nullptr;
   HalfSpace* placed = nullptr;        ///< half-spaces of vertex v from v · most_planes on, in any order

@@ -107,8 +107,8 @@ struct VolumeIncidence;
 struct VolumeStream {
   /// row of a slot from slot · capacity on: contacts in which its vertex is the point
   const VolumeIncidence* contacts = nullptr;
-  const int* counts = nullptr;                ///< by slot: number of contacts in its row
-  int capacity = 0;                           ///< contacts that fit in a row
+  const int* counts = nullptr;  ///< by slot: number of contacts in its row
+  int capacity = 0;             ///< contacts that fit in a row
   // The members below are null or 0 if all volumes are driven.
   const int* colour = nullptr;  ///< by vertex; −1: not free
   /// row of a slot from slot · corner_capacity on: contacts in which its vertex is a corner, ascending, each as (index
