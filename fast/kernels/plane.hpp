@@ -193,7 +193,8 @@ OGC_HD inline Vec stored(const Point& a) {
 }
 
 /// Returns how far y can move across the plane when it is stored in single precision and then nudged `steps` times.
-/// Storing moves each coordinate by up to 2⁻²⁴ of itself, a nudge one coordinate by up to 2⁻²³ of itself.
+/// Storing moves each coordinate by up to 2⁻²⁴ of itself. A nudge moves one coordinate to the next float, by up to 2⁻²³
+/// of itself.
 OGC_HD inline double room_to_store(const HalfSpace& plane, const Point& y, int steps) {
   const Point n = wide(plane.normal);
   return (1 + 2 * steps) * 0x1p-24 * (modulus(n.x * y.x) + modulus(n.y * y.y) + modulus(n.z * y.z));

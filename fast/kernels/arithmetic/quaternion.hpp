@@ -51,7 +51,7 @@ OGC_HD QuatOf<T> pure(const Vector<T>& v) {
   return {v.x, v.y, v.z, T(0.0f)};
 }
 
-/// Returns R(q) v = v + 2 w (u × v) + 2 u × (u × v).
+/// Returns R(q) v = v + 2 w (u × v) + 2 u × (u × v), where u is the vector part of q and w its real part.
 OGC_HD inline Vec turned(const Quat& q, const Vec& v) {
   const Vec u{q.x, q.y, q.z}, twice = 2.0f * cross(u, v);
   return v + q.w * twice + cross(u, twice);
