@@ -1,6 +1,6 @@
-// Decides membership in the blocks of Eq. 8, 9 and 15, except for the distance. The polynomials are those that decide
-// the closest face, so neighbouring faces agree. Also rejects pairs of edges that single precision proves to be in no
-// block.
+// Decides whether a point lies in a block of Eq. 8, 9 or 15, apart from the condition on its distance. The polynomials
+// are the same that decide the closest face, so neighbouring faces agree. The file also rejects pairs of edges for
+// which single precision proves that they are no contact.
 #pragma once
 
 #include "fast/kernels/predicates.hpp"
@@ -9,8 +9,8 @@
 
 namespace ogc::fast {
 
-/// Returns whether x is in U_v except for its distance: beyond v along every edge at v (Eq. 8; Eq. 15 if the point is a
-/// vertex).
+/// Returns whether x lies in U_v, apart from its distance: it lies beyond v along every edge at v (Eq. 8; Eq. 15 if x
+/// is a vertex).
 OGC_HD inline bool in_vertex_block(const Vec& x, int v, const SurfaceView& surface, PaddedVecs positions) {
   const Rows& rows = surface.neighbours;
   for (int k = rows.offsets[v]; k < rows.offsets[v + 1]; ++k) {
@@ -19,8 +19,8 @@ OGC_HD inline bool in_vertex_block(const Vec& x, int v, const SurfaceView& surfa
   return true;
 }
 
-/// Returns whether x is in U_e except for its distance: on the far side of every triangle at e (Eq. 9). x must lie
-/// between the two end planes.
+/// Returns whether x lies in U_e, apart from its distance: on the far side of every triangle at e (Eq. 9). x must lie
+/// between the planes that end e.
 OGC_HD inline bool in_edge_block(const Vec& x, int e, const SurfaceView& surface, PaddedVecs positions) {
   const EdgeEnds& ends = surface.edges[e];
   const Rows& rows = surface.opposites;
@@ -30,8 +30,8 @@ OGC_HD inline bool in_edge_block(const Vec& x, int e, const SurfaceView& surface
   return true;
 }
 
-/// Returns whether the point of edge `other` nearest to v lies in U_v (Eq. 15) except for its distance. This point must
-/// be inside the edge.
+/// Returns whether the point of edge `other` nearest to v lies in U_v, apart from its distance (Eq. 15). This point
+/// must be in the interior of the edge.
 OGC_HD inline bool in_vertex_block(const EdgeEnds& other, int v, const SurfaceView& surface, PaddedVecs positions) {
   const Rows& rows = surface.neighbours;
   for (int k = rows.offsets[v]; k < rows.offsets[v + 1]; ++k) {
@@ -41,22 +41,22 @@ OGC_HD inline bool in_vertex_block(const EdgeEnds& other, int v, const SurfaceVi
   return true;
 }
 
-// Pairs of edges that single precision proves to be no contact, however near they are. If edges are shorter than r,
-// this is nearly every pair within r: within a rod all next-but-one edges, between two crossing rods all pairs but the
-// nearest.
+// The functions below reject pairs of edges for which single precision proves that they are no contact, however near
+// they are. If edges are shorter than r, this is nearly every pair within r: in a rod all edges with their next but
+// one, between two crossing rods all pairs but the nearest.
 //
 // Let v be an end of an edge, v + g its other end, c the point of the other edge nearest to v, and d = c − v. The
 // distance between a point of one edge and a point of the other is convex. At (v, c) no move of c reduces it. If d·g <
-// 0, every move of v increases it, so v is the only closest point of its edge. A contact of the two edges would then be
-// one of v, with c in the block of v. But c is not in this block if d·(w − v) > 0 for a neighbour w of v: Receding < 0
-// if c is inside its edge, End > 0 if c is its end (predicates.hpp), and in_vertex_block returns false. Nearly parallel
-// edges that overlap may have contacts elsewhere (method.md §1.4), so they are never rejected.
+// 0, every move of v increases it, so v is the only closest point of its edge. A contact of the two edges is then a
+// contact of v, with c in the block of v. But c is not in this block if d·(w − v) > 0 for a neighbour w of v: if c is
+// inside its edge, Receding is < 0, and if c is an end, End is > 0 (predicates.hpp), so in_vertex_block returns false.
+// Nearly parallel edges that overlap may have contacts elsewhere (method.md §1.4), so they are never rejected.
 //
 // Rounding: let u = 2⁻²⁴, F the edge of c, and S the sum of the 1-norms of F and of the vector from v to the start of
 // F. A difference errs by u of itself, a dot product by 6 u of the product of the lengths. So the parameter of c times
 // ‖F‖ errs by 16 u S, d by 24 u S, d·g by 32 u S ‖g‖₁. The code uses 64 u S ‖g‖₁, plus more than underflow can take.
 
-/// Exceeds what underflow can take from a sum of products of two lengths, if squared edges are above 2⁻¹⁰⁰ [m²].
+/// Exceeds the error that underflow causes in a sum of products of two lengths, if squared edges are above 2⁻¹⁰⁰ [m²].
 inline constexpr float lost_to_underflow = 0x1p-120F;
 
 /// Returns whether `product`, which is d·g or −d·g, is certainly positive; d errs by at most `error` [m].
@@ -64,8 +64,8 @@ OGC_HD inline bool is_surely_above_0(float product, const Vec& g, float error) {
   return product > error * norm_1(g) + lost_to_underflow;
 }
 
-/// Returns whether v certainly has no contact with the edge `other`: v is nearer to it than all other points of the
-/// edge from v to `inner`, but towards some neighbour of v the distance falls.
+/// Returns whether v certainly has no contact with the edge `other`. Two conditions must hold: the distance to `other`
+/// grows from v towards the edge's other end `inner`, and it falls from v towards some neighbour of v.
 OGC_HD inline bool is_passed_over(int v, int inner, const EdgeEnds& other, const SurfaceView& surface, PaddedVecs x) {
   const Vec at = x[v], f = x[other.b] - x[other.a], from = x[other.a] - at;
   const float ff = dot(f, f);
@@ -82,19 +82,20 @@ OGC_HD inline bool is_passed_over(int v, int inner, const EdgeEnds& other, const
   return false;
 }
 
-/// Returns whether two edges without a common vertex are certainly no contact; p is the lower-numbered one. False
-/// decides nothing.
+/// Returns whether two edges without a common vertex certainly have no contact; p is the lower-numbered one. If it
+/// returns false, they may have one or not.
 OGC_HD inline bool is_surely_no_contact(const EdgeEnds& p, const EdgeEnds& q, const SurfaceView& surface,
                                         PaddedVecs x) {
   const Vec a = x[p.a], e = x[p.b] - a, f = x[q.b] - x[q.a], w = x[q.a] - a;
   const float ee = dot(e, e), ff = dot(f, f), ef = dot(e, f), we = dot(w, e), wf = dot(w, f);
-  // The error of ‖e × f‖² is below 2⁻¹⁸ ‖e‖² ‖f‖². Above 2⁻¹³ of it edges are not nearly parallel.
+  // The error of ‖e × f‖² is below 2⁻¹⁸ ‖e‖² ‖f‖². If ‖e × f‖² is above 2⁻¹³ ‖e‖² ‖f‖², the edges are not nearly
+  // parallel.
   const float nn = ee * ff - ef * ef;
   const bool is_skew = nn > larger(0x1p-13F * (ee * ff), 0x1p-100F);
   const float error = 0x1p-18F * (norm_1(w) + norm_1(e) + norm_1(f)) * norm_1(e) + lost_to_underflow;
   const bool is_beside = larger(we, we + ef) < -error || smaller(we, we + ef) > ee + error;
   if (!is_skew && !is_beside) return false;
-  // A rough guess of the closest points suffices: is_passed_over returns false for a wrong end.
+  // Approximates the closest points. This suffices, because is_passed_over returns false for a wrong end.
   float s = clamped(is_skew ? rough_quotient(we * ff - ef * wf, nn) : rough_quotient(we, ee));
   const float t = clamped(rough_quotient(s * ef - wf, ff));
   s = clamped(rough_quotient(we + t * ef, ee));

@@ -6,10 +6,10 @@
 
 namespace ogc::fast {
 
-/// b_v of an unbounded vertex: off the surface.
+/// b_v of a vertex that is not on the surface, and so has no bound.
 inline constexpr float largest_float = 0x1.fffffep127f;
 
-/// Sets the smallest distances to r_q before a query, which finds nothing beyond it. Index up to the largest count.
+/// Sets all smallest distances to r_q before a query, which finds no larger ones. Index up to the largest count.
 struct ResetDistances {
   const float* query_radius;  ///< r_q [m], on the backend
   const int* overflow;        ///< on the backend; if it is not 0 a list was too small, and nothing is written
@@ -24,17 +24,16 @@ struct ResetDistances {
   }
 };
 
-/// Computes b_v, γ_p times the smallest distance of v, its edges and its triangles. Index over vertices.
+/// Computes b_v: γ_p times the smallest of the distances of v, its edges and its triangles. Index over vertices.
 struct ConservativeBound {
   SurfaceView surface;
-  /// by vertex, edge and triangle [m]: Eq. 22, 24, 26, at most r_q
+  /// smallest distances by vertex, edge and triangle, at most r_q (Eq. 22, 24, 26) [m]
   const float *d_min_vertex, *d_min_edge, *d_min_triangle;
   float bounds_relaxation;  ///< γ_p of Eq. 21 [1]
   const int* overflow;      ///< as in ResetDistances
   float* bound;             ///< b_v by vertex [m], at most γ_p r_q; largest_float off the surface
 
-  /// Writes the bound. The product of two floats is exact in double, so the bound is the largest float that is not
-  /// above it.
+  /// Writes the bound. The product of the two floats is exact in double and is then rounded down.
   OGC_HD void operator()(int v) const {
     if (*overflow != 0) return;
     if (surface.is_off_surface(v)) {

@@ -1,12 +1,12 @@
-// Builds a tree of boxes over primitives in the order of a Hilbert curve, four children to a node. The children of
-// level 0 are the primitives; the children of each level above are the nodes of the level below. Node j of level l has
-// the children 4j … 4j + 3 of level l − 1, so only the start of each level is stored. A traversal stores the children
-// that it still has to visit in one integer, four bits a level. Boxes enclose primitives at their current positions and
-// are not inflated: a query adds its own radius.
+// Builds a tree of boxes over primitives (facets or edges) in the order of a Hilbert curve, four children to a node.
+// The children of level 0 are the primitives; the children of each level above are the nodes of the level below. Node j
+// of level l has the children 4j … 4j + 3 of level l − 1, so only the start of each level is stored. A traversal keeps
+// the children that it still has to visit in one integer, four bits a level. Boxes enclose primitives at their current
+// positions and are not inflated: a query adds its own radius.
 //
-// Each child also has a `reach`: how far its primitives still have to search. A pair matters only if it is nearer than
-// r or could lower the smallest distance of a partner. For most primitives a neighbour in the mesh bounds that distance
-// far below r_q before any search.
+// Each child also has a `reach`, the distance up to which pairs of its primitives matter. A pair matters only if it is
+// nearer than r or could lower the smallest distance of a partner. For most primitives a neighbour in the mesh bounds
+// this smallest distance far below r_q before any search.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@
 
 namespace ogc::fast {
 
-/// Larger than every distance: corner of an empty box, distance to a missing neighbour.
+/// Larger than every distance: used for corners of empty boxes, and for distances to missing neighbours.
 inline constexpr float infinity = __builtin_huge_valf();
 
 /// A closed box; empty at first.
 struct Box {
   Vec lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};  ///< corners [m]
 
-  /// Grows the box just enough to hold a point or another box.
+  /// Grows the box to the smallest one that also holds a point or another box.
   OGC_HD void include(const Vec& p) { include(Box{p, p}); }
   OGC_HD void include(const Box& b) {
     lower = {smaller(lower.x, b.lower.x), smaller(lower.y, b.lower.y), smaller(lower.z, b.lower.z)};
@@ -35,30 +35,30 @@ struct Box {
 /// Returns the gap between two intervals; 0 if they meet.
 OGC_HD inline float gap(float lower, float upper, float other_lower, float other_upper) {
 #if defined(__CUDA_ARCH__)
-  // Each call is one instruction. A zero may have the other sign, but its square is the same.
+  // On a device each call is one instruction. A zero may have the other sign, but only its square is used.
   return fmaxf(fmaxf(sub(lower, other_upper), sub(other_lower, upper)), 0.0F);
 #else
   return larger(larger(sub(lower, other_upper), sub(other_lower, upper)), 0.0F);
 #endif
 }
 
-/// Returns the squared distance between two boxes, at most (1 + u)⁵ times the exact one: one difference (counted
-/// twice), one product, two sums. Boxes inside `a` and `b` never give less.
+/// Returns the squared distance between two boxes. It is at most (1 + u)⁵ times the exact one, u = 2⁻²⁴: rounding of
+/// one difference (squared, so twice), one product and two sums. Boxes inside `a` and `b` never give less.
 OGC_HD inline float squared_gap(const Box& a, const Box& b) {
   const float x = gap(a.lower.x, a.upper.x, b.lower.x, b.upper.x), y = gap(a.lower.y, a.upper.y, b.lower.y, b.upper.y);
   const float z = gap(a.lower.z, a.upper.z, b.lower.z, b.upper.z);
   return add(add(mul(x, x), mul(y, y)), mul(z, z));
 }
 
-/// Returns a lower bound of the exact distance between boxes with this squared_gap. The factor covers the errors of the
-/// gap (2.5 u), of the root (u) and of the product (u).
+/// Returns a lower bound of the exact distance between two boxes whose squared_gap is `squared`. The factor 1 − 8 u
+/// covers the rounding errors of the gap (2.5 u), the root (u) and this product (u), u = 2⁻²⁴.
 OGC_HD inline float gap_below(float squared) { return mul(square_root(squared), 1 - 0x1p-21F); }
 
-/// Returns the limit for a reach: boxes with a larger squared gap have gap_below ≥ reach. The factor 1 + 64 u covers
-/// the 20 u of gap_below and the two roundings here.
+/// Returns the limit for squared gaps that belongs to a reach: boxes with a larger squared gap have gap_below ≥ reach.
+/// With u = 2⁻²⁴ the factor is 1 + 64 u; 20 u for gap_below and 2 u for the two products here would suffice.
 OGC_HD inline float gap_limit(float reach) { return mul(mul(reach, reach), 1 + 0x1p-18F); }
 
-/// Holds a box, the gap limit of its reach and, in level 0, its primitive. A thread reads it in two loads of 16 B.
+/// Holds a box, the gap limit of its reach and, in level 0, its primitive. A device reads it in two loads of 16 B.
 struct alignas(16) Child {
   Vec lower{infinity, infinity, infinity};     ///< lower corner of the box [m]
   float reach = 0;                             ///< gap limit of the largest reach of its primitives [m²]
@@ -68,9 +68,10 @@ struct alignas(16) Child {
   OGC_HD Box box() const { return {lower, upper}; }
 };
 
-/// Holds the four children of a node; missing ones are empty. A node fills one cache line of a device.
+/// Holds the four children of a node; missing children are empty. A node fills one cache line of a device.
 struct alignas(128) Quad {
-  Child child[4];  ///< child k of node j: node 4 j + k of the level below, in level 0 the primitive at place 4 j + k
+  /// child k of node j is node 4 j + k of the level below, or in level 0 the primitive at place 4 j + k
+  Child child[4];
 
   /// Returns the box of all children.
   OGC_HD Box whole() const {
@@ -84,7 +85,7 @@ struct alignas(128) Quad {
   }
 };
 
-inline constexpr int max_levels = 16;  ///< a traversal has 64 bits, 4 a level; enough for 4¹⁶ primitives
+inline constexpr int max_levels = 16;  ///< a traversal has 64 bits, 4 a level, so a tree may have 4¹⁶ primitives
 
 /// Holds a tree on the backend.
 struct TreeView {
@@ -107,8 +108,8 @@ OGC_HD inline int lowest_bit(std::uint64_t n) {
 #endif
 }
 
-/// Holds the squared gaps of a box to four children, and a bit for each child whose gap is within the limit or the
-/// child's own reach.
+/// Holds the squared gaps between a box and the four children of a node. `near` has a bit for each child whose gap is
+/// within the limit or the child's own reach.
 struct QuadGaps {
   float child[4];  ///< squared gaps [m²]
   unsigned near;   ///< bit k: child k
@@ -137,15 +138,15 @@ inline QuadGaps squared_gaps(const Quad& quad, const Box& box, float limit);
 
 #endif
 
-/// One primitive that a traversal finds near the box of the query.
+/// A primitive that a traversal finds near the box of the query.
 struct Offer {
   int primitive;     ///< number of the facet or edge
   float gap, reach;  ///< squared gap and gap limit [m²]
 };
 
-/// Calls visit(offer) for every primitive at a place ≥ `from` whose box lies within `limit` of `box` or within the
-/// primitive's own reach. The visitor may lower `limit` during the traversal. `Tree` is a TreeView, or a type that
-/// counts opened nodes (fast/work.cpp).
+/// Calls visit(offer) for every primitive, at place `from` or later, whose squared gap to `box` is at most `limit` or
+/// the gap limit of the primitive's own reach. The visitor may lower `limit` during the traversal. `Tree` is a
+/// TreeView, or a type that counts opened nodes (fast/work.cpp).
 template <class Tree, class Visit>
 OGC_HD void for_each_near(const Tree& tree, const Box& box, int from, const float& limit, Visit visit) {
   QuadGaps gaps;
@@ -153,7 +154,7 @@ OGC_HD void for_each_near(const Tree& tree, const Box& box, int from, const floa
   const auto near_children = [&](int level, int j) {
     quad = &tree.node(level, j);
     gaps = squared_gaps(*quad, box, limit);
-    const int passed = (from >> (2 * level)) - 4 * j;  // children whose places all lie before `from`
+    const int passed = (from >> (2 * level)) - 4 * j;  // number of children whose primitives all lie before `from`
     return passed > 0 ? gaps.near & 15U << (passed < 4 ? passed : 4) : gaps.near;
   };
   int level = tree.levels - 1, j = 0;
@@ -179,9 +180,9 @@ OGC_HD void for_each_near(const Tree& tree, const Box& box, int from, const floa
   }
 }
 
-/// Computes the reach of primitives: the smaller of r_q and an upper bound of the distance to a neighbour in the mesh
-/// (SurfaceView's seeds). The bound is the distance between a vertex and an edge whose faces form a pair that the query
-/// must find. So the smallest distance is at most the bound.
+/// Computes the reach of primitives: the smaller of r_q and an upper bound of the primitive's smallest distance. The
+/// bound is the distance between a vertex and an edge nearby in the mesh (SurfaceView's seeds). These belong to a pair
+/// that the query must find, so the smallest distance is at most this bound.
 struct Reach {
   SurfaceView surface;
   const Vec* positions;       ///< by vertex [m]
@@ -220,29 +221,30 @@ struct Reach {
     nearest.squared = smaller(nearest.squared, squared_to_segment(u, e));
     nearest.size = larger(nearest.size, add(norm_1(u), norm_1(e)));
   }
-  /// Returns the reach, rounded up. The root of squared_to_segment errs by 2⁻⁴⁸ of norm_1(u) + norm_1(e).
+  /// Returns the reach, rounded up. It adds four times 2⁻⁴⁸ (norm_1(u) + norm_1(e)), the error of the root of
+  /// squared_to_segment.
   OGC_HD float above(const Nearest& nearest) const {
     return smaller(*query_radius, round_up(add(square_root(nearest.squared), mul(0x1p-46, nearest.size))));
   }
 };
 
-/// Returns the number of nodes of a level, or of primitives for level −1. A tree without primitives has one node of
-/// empty children, so the result is 1.
+/// Returns the number of nodes of a level; for level −1 the number of primitives. A tree without primitives has one
+/// node of empty children, so the result is at least 1.
 OGC_HD inline int level_size(int count, int level) { return count > 0 ? ((count - 1) >> (2 * level + 2)) + 1 : 1; }
 
 /// Computes the boxes and gap limits of all primitives and nodes, and the gap limits of vertices. Index: places of
-/// facets, then places of edges, each padded to a multiple of 32, then vertices. The last thread that completes one of
-/// a node's 16 grandchildren continues with the node, so one launch refits the whole tree. No bit depends on which
-/// thread continues. The 32 neighbouring threads of a warp must call this together: the lowest two levels stay in their
-/// registers.
+/// facets, then places of edges, each padded to a multiple of 32, then vertices. A thread climbs from its primitive to
+/// the root. At each node only the last thread that completes one of its 16 grandchildren continues, so one launch
+/// refits the whole tree. No bit depends on which thread continues. The 32 threads of a warp must call this together,
+/// because they exchange the lowest two levels in registers.
 struct RefitTrees {
   Reach reach;
-  TreeView facets, edges;               ///< in the order of the last rebuild; their boxes and reaches are written
+  TreeView facets, edges;               ///< in the order of the last sort; boxes and gap limits are written
   int *facet_arrivals, *edge_arrivals;  ///< a counter for each node, 0 between two launches
   float* vertex_limit;                  ///< by vertex: gap limit of its reach [m²], written
   int vertex_count;
 
-  /// Returns `count` rounded up to whole warps; count() returns the items of the launch.
+  /// Return `count` rounded up to whole warps, and the number of items of the launch.
   OGC_HD static int filled_up(int count) { return (count + 31) / 32 * 32; }
   OGC_HD int count() const { return filled_up(facets.count) + filled_up(edges.count) + filled_up(vertex_count); }
 
@@ -283,7 +285,8 @@ struct RefitTrees {
 
   static constexpr unsigned everyone = 0xffffffffU;
 
-  /// Returns the union of four threads' children to all four threads; their lanes are `apart` from each other.
+  /// Returns the union of four threads' children to all four threads. The lanes of these threads are `apart` from each
+  /// other.
   OGC_HD static Child of_four(Child child, int apart) {
     for (int step = apart; step <= 2 * apart; step *= 2) {
       const auto other = [step](float number) { return __shfl_xor_sync(everyone, number, step); };
@@ -295,8 +298,8 @@ struct RefitTrees {
     return child;
   }
 
-  /// Writes the child at a place and refits the nodes above it. 16 neighbouring threads continue together while they
-  /// complete a node's grandchildren; each then reads one grandchild.
+  /// Writes the child at a place and refits the nodes above it. 16 neighbouring threads continue together as long as
+  /// they are the last to complete a node's grandchildren; then each reads one grandchild.
   OGC_HD static void climb(const TreeView& tree, int* arrivals, int j, Child own) {
     const int lane = static_cast<int>(threadIdx.x % 16);
     int node = j / 16;  // node of `level`
@@ -323,7 +326,7 @@ struct RefitTrees {
 
 #else
 
-  /// Writes the child at a place and refits the nodes above it, up to the first that still waits for another thread.
+  /// Writes the child at a place and refits the nodes above it, up to the first node that waits for another thread.
   OGC_HD static void climb(const TreeView& tree, int* arrivals, int j, const Child& own) {
     if (j >= tree.count) return;
     tree.node(0, j / 4).child[j % 4] = own;
@@ -335,7 +338,7 @@ struct RefitTrees {
     }
   }
 
-  /// Returns a node as a child of the node above it.
+  /// Returns a node in the form of a child of the node above it.
   OGC_HD static Child whole(const Quad& quad) {
     const Box box = quad.whole();
     return {box.lower, quad.whole_reach(), box.upper, -1};
@@ -354,7 +357,7 @@ struct RefitTrees {
 #endif
 };
 
-/// Returns the 20 low bits of n with two zeros between neighbouring bits.
+/// Returns the 20 low bits of n, with two zero bits between neighbouring bits.
 OGC_HD inline std::uint64_t spread_bits(std::uint64_t n) {
   n = (n | n << 32) & 0x001f00000000ffffULL;
   n = (n | n << 16) & 0x001f0000ff0000ffULL;
@@ -363,14 +366,14 @@ OGC_HD inline std::uint64_t spread_bits(std::uint64_t n) {
   return (n | n << 2) & 0x1249249249249249ULL;
 }
 
-/// A cell of a grid of 2²⁰ in each direction.
+/// A cell of a grid that has 2²⁰ cells along each axis.
 struct Cell {
   std::uint32_t axis[3];  ///< along x, y and z, below 2²⁰
 };
 
 /// Returns the place of a cell on the Hilbert curve (Skilling 2004, "Programming the Hilbert curve"). Consecutive cells
-/// touch, so four consecutive primitives lie close together; Morton's order jumps, and its nodes overlap more
-/// (fast/PERFORMANCE.md).
+/// on the curve touch, so four consecutive primitives lie close together. In Morton's order they may be far apart, and
+/// nodes overlap more (fast/PERFORMANCE.md).
 OGC_HD inline std::uint64_t hilbert_key(Cell cell) {
   constexpr std::uint32_t top = 1U << 19;
   std::uint32_t* x = cell.axis;
@@ -389,19 +392,19 @@ OGC_HD inline std::uint64_t hilbert_key(Cell cell) {
   return spread_bits(x[0] ^ flips) << 2 | spread_bits(x[1] ^ flips) << 1 | spread_bits(x[2] ^ flips);
 }
 
-/// Writes the Hilbert keys of all searched vertices, edges and facets, so that one sort orders all of them. The two
-/// bits above a key are its kind.
+/// Writes the Hilbert keys of all vertices, edges and facets that take part in searches. The two bits above each key
+/// tell vertices, edges and facets apart, so that one sort orders all of them.
 struct HilbertKeys {
   static constexpr int kind_bit = 60;
-  /// Lowest bit that the sort compares: the bits above it tell cells of a 1024th of the extent apart. Few primitives
-  /// share such a cell; they keep the order of their numbers.
+  /// Lowest bit that the sort compares. The bits above it distinguish cells of a 1024th of the extent. Few primitives
+  /// share such a cell; these remain in the order of their numbers.
   static constexpr int lowest_sorted_bit = 30;
 
   SurfaceView surface;
   const Vec* positions;    ///< by vertex [m]
   TreeView facets, edges;  ///< refitted; their roots give the extent
-  std::uint64_t* keys;     ///< kind from bit kind_bit on, place on the curve below it
-  int* values;             ///< number within its kind; the sort moves it with its key
+  std::uint64_t* keys;     ///< 0, 1 or 2 for vertex, edge, facet from bit kind_bit on; place on the curve below it
+  int* values;             ///< number of the vertex, edge or facet; the sort moves it with its key
 
   OGC_HD void operator()(int i) const {
     const int e = i - surface.searched_vertices, t = e - surface.searched_edges, place = e < 0 ? i : (t < 0 ? e : t);

@@ -7,8 +7,8 @@
 
 namespace ogc::fast {
 
-/// Returns whether ‖x − X_prev‖ > b_v. Differences of single-precision numbers of similar size are exact in double; the
-/// squares leave an error of 2⁻⁵² b².
+/// Returns whether ‖x − X_prev‖ > b_v. Differences of floats of similar size are exact in double; the squares have a
+/// relative error of 2⁻⁵².
 OGC_HD inline bool is_outside(const Ball& ball, const Vec& position) {
   const Vec& previous = ball.centre;
   const double x = static_cast<double>(position.x) - previous.x, y = static_cast<double>(position.y) - previous.y,
@@ -16,8 +16,7 @@ OGC_HD inline bool is_outside(const Ball& ball, const Vec& position) {
   return x * x + y * y + z * z > static_cast<double>(ball.radius) * ball.radius;
 }
 
-/// Returns whether a position is not proved to be in the region: it is beyond the ball, or the test of a half-space
-/// fails.
+/// Returns whether x is not certainly in the region: it is outside the ball, or fails the test of a half-space.
 OGC_HD inline bool is_outside(const FeasibleRegion& region, const Vec& position) {
   for (int k = 0; k < region.count; ++k)
     if (!is_behind(region.planes[k], position)) return true;

@@ -1,6 +1,6 @@
-// Computes the distance of a point and a triangle in rounded double, with a derived slack, and the face that holds the
-// closest point, by exact signs. The distance does not jump between faces, so it needs no exact decision. Only pairs
-// nearer than r need one.
+// Computes the distance of a point and a triangle in rounded double, with a bound of its error, the slack. Exact signs
+// find the face that holds the closest point. The distance is continuous across faces, so it does not need this face.
+// Only pairs nearer than r do.
 #pragma once
 
 #include "compare/stages/closest_face.hpp"
@@ -20,20 +20,14 @@ struct CornersOf {
 };
 using Corners = CornersOf<float>;
 
-/// Returns whether x is certainly on the inner side of the edge e: Side exceeds its 16 roundings. u = x − first end, w
-/// = third corner − first end.
+/// Returns whether x is certainly on the inner side of the edge e of a triangle: the value of Side (predicates.hpp)
+/// exceeds its rounding error. u is x minus the edge's first end, w the third corner minus this end.
 OGC_HD inline bool is_inside(const Real& u, const Real& w, const Real& e) {
   return perpendicular_product(u, w, e).value > mul(mul(mul(0x1p-48, norm_1(u)), norm_1(w)), squared(e));
 }
 
-/// Returns the distance of x and the closed triangle.
-///
-/// Slack, with L the longest edge, n the normal, S = ‖u‖₁ + ‖e‖₁ + ‖w‖₁: if the side of an edge is in doubt, the
-/// distance to the outline is returned. If the foot is inside, it is nearer to that edge's line, and so to the outline,
-/// than 2⁻⁴⁸ ‖u‖₁‖w‖₁‖e‖/‖n‖ ≤ √3 2⁻⁴⁸ S L²/‖n‖. If the foot is outside, the outline is exact: at a sharp corner a foot
-/// that lies beyond two edges by one rounding can be far from the triangle. The normal's 4 roundings tilt the plane by
-/// less than 2⁻⁵¹ S L²/‖n‖. Together this is under 2⁻⁴⁷ S L²/‖n‖. A triangle lower than 2⁻²⁴ L counts as its outline;
-/// no point of the triangle is farther from it. Both limits are under 2 u S.
+/// Returns the distance of x and the closed triangle, with its slack.
+/// that. In both cases the slack is under 2⁻²³ S.
 OGC_HD inline Distance point_triangle_distance(const Vec& x, const Corners& t) {
   const Real u = difference<Rounded>(x, t.a), v = difference<Rounded>(x, t.b), e = difference<Rounded>(t.b, t.a),
              w = difference<Rounded>(t.c, t.a);
@@ -56,14 +50,14 @@ OGC_HD inline Distance point_triangle_distance(const Vec& x, const Corners& t) {
   return {square_root(nearest), slack};
 }
 
-/// Facet::descending of a triangle with ascending corners.
+/// Value of Facet::descending for a triangle with ascending corners.
 inline constexpr unsigned corners_in_order = 4;
 
-/// Returns the face of the triangle that holds the point closest to x; where two faces meet, the one of lower
-/// dimension. The signs partition space. A triangle without area can offer several faces: then the first. `descending`:
-/// see Facet.
+/// Returns the face of the triangle that holds the point closest to x. Where two faces meet, it is the one of lower
+/// dimension. The signs assign each x to one face; for a triangle without area several faces may fit, and the first is
+/// taken. `descending` is explained at Facet.
 OGC_HD inline TriangleFeature closest_feature(const Vec& x, const Corners& t, unsigned descending = corners_in_order) {
-  // [k][0]: x lies before the first end of edge k, which goes from corner k to k + 1; [k][1]: before the second end
+  // [k][0]: x projects before the first end of edge k, which goes from corner k to k + 1; [k][1]: before the second end
   bool before[3][2];
   for (int k = 0; k < 3; ++k) {
     const Vec &a = t[k], &b = t[(k + 1) % 3];
@@ -106,8 +100,8 @@ OGC_HD inline Vec closest_weights(const Vec& x, const Corners& t, TriangleFeatur
   return stored(larger(0.0, sub(sub(1.0, at_b), at_c)), larger(0.0, at_b), larger(0.0, at_c));
 }
 
-/// Returns whether x is nearer than r to the triangle, whose closest face is `feature` and whose distance is `d`;
-/// decides exactly if the slack does not.
+/// Returns whether x is nearer than r to the triangle. `feature` is its closest face, `d` its distance. If d is within
+/// its slack of r, an exact predicate decides.
 OGC_HD inline bool is_within(const Vec& x, const Corners& t, TriangleFeature feature, const Distance& d, float r) {
   if (modulus(sub(d.value, static_cast<double>(r))) > d.slack) return d.value < static_cast<double>(r);
   switch (feature) {

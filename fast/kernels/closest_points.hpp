@@ -1,6 +1,7 @@
-// Computes the distance of two edges in rounded double, with a derived slack, and the faces that hold the closest
-// points, by exact signs. Nearly parallel edges follow method.md §1.4. The distance is convex in both parameters, so a
-// pair of faces is right if and only if its own first-order conditions hold: no system is solved.
+// Computes the distance of two edges in rounded double, with a bound of its error, the slack. Exact signs find the
+// faces that hold the closest points. Nearly parallel edges follow method.md §1.4. The distance is convex in both
+// parameters, so the first-order conditions of each pair of faces decide whether the pair is right, and no system is
+// solved.
 #pragma once
 
 #include "compare/stages/closest_points.hpp"
@@ -20,26 +21,20 @@ struct EndsOf {
 };
 using Ends = EndsOf<float>;
 
-/// The faces of two edges that hold their closest points.
+/// Names the faces of two edges that hold their closest points.
 struct EdgePairFeatures {
   EdgeFeature first = EdgeFeature::interior, second = EdgeFeature::interior;
   bool nearly_parallel = false;  ///< set by is_overlapping_parallel; closest_edge_features leaves it false
 };
 
-/// Returns the smallest distance of an end of one edge from the other edge [m]. e and f are the edges; w goes from the
-/// start of e to the start of f.
+/// Returns the smallest distance between an end of one edge and the other edge [m]. e and f are the edges, w is the
+/// start of f minus the start of e.
 OGC_HD inline double smallest_end_distance(const Real& w, const Real& e, const Real& f) {
   const double of_first = smaller(squared_to_segment(-w, f), squared_to_segment(e - w, f));
   return square_root(smaller(of_first, smaller(squared_to_segment(w, e), squared_to_segment(w + f, e))));
 }
 
-/// Returns the distance of the two closed edges.
-///
-/// Slack, with θ the angle and S = ‖w‖₁ + ‖e‖₁ + ‖f‖₁ ≥ ‖w‖: the normal's direction errs by 32 roundings of 1/θ, the
-/// place of the foot by 32 roundings of S/θ². The foot's error changes the distance by θ times as much: under 2⁻⁴⁷ S/θ.
-/// At θ < 2⁻²³ no points of two edges are nearer than an end by more than θ ‖shorter‖. Below θ = 2⁻⁸ the distance is
-/// computed from a point of one edge to the other, never between the lines, because lines can meet beyond the ends of
-/// the edges.
+/// Returns the distance of the two closed edges, with its slack.
 OGC_HD inline Distance edge_edge_distance(const Ends& p, const Ends& q) {
   const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), w = difference<Rounded>(q.a, p.a),
              n = cross(e, f);
@@ -58,10 +53,10 @@ OGC_HD inline Distance edge_edge_distance(const Ends& p, const Ends& q) {
   return {smaller(of_point, smallest_end_distance(w, e, f)), slack};
 }
 
-/// Returns the faces that hold the closest points, at any angle. Parallel or zero-length edges may have several equally
-/// near pairs of faces: then the first in order.
+/// Returns the faces that hold the closest points, at any angle. If several pairs of faces are equally near (parallel
+/// edges, or edges of zero length), returns the first of them.
 OGC_HD inline EdgePairFeatures closest_edge_features(const Ends& p, const Ends& q) {
-  // p_before[i][j]: end i of p lies before end j of q, seen along q; q_before: the same with p and q exchanged
+  // p_before[i][j]: along q, end i of p projects before end j of q, so not beyond it; q_before: with p and q exchanged
   bool p_before[2][2], q_before[2][2];
   for (int i = 0; i < 2; ++i) {
     for (int j = 0; j < 2; ++j) {
@@ -85,16 +80,16 @@ OGC_HD inline EdgePairFeatures closest_edge_features(const Ends& p, const Ends& 
   return {};
 }
 
-/// Returns whether nearly parallel edges have projections that overlap in more than a point. They are projected onto
-/// the line of p, the lower-numbered edge.
+/// Returns whether two edges are nearly parallel and overlap in more than a point, when projected onto the line of p. p
+/// must be the lower-numbered edge.
 OGC_HD inline bool is_overlapping_parallel(const Ends& p, const Ends& q) {
   if (exact_sign(NearlyParallel{p.a, p.b, q.a, q.b}) <= 0) return false;
   const bool reaches_a = exact_sign(End{q.a, p.a, p.b}) > 0 || exact_sign(End{q.b, p.a, p.b}) > 0;
   return reaches_a && (exact_sign(End{q.a, p.b, p.a}) > 0 || exact_sign(End{q.b, p.b, p.a}) > 0);
 }
 
-/// Returns whether the edges are nearer than r, given the faces `on` of closest_edge_features; decides exactly if the
-/// slack does not.
+/// Returns whether the edges are nearer than r. `on` is the result of closest_edge_features, `d` the distance. If d is
+/// within its slack of r, an exact predicate decides.
 OGC_HD inline bool is_within(const Ends& p, const Ends& q, EdgePairFeatures on, const Distance& d, float r) {
   if (modulus(sub(d.value, static_cast<double>(r))) > d.slack) return d.value < static_cast<double>(r);
   const bool first_inside = on.first == EdgeFeature::interior, second_inside = on.second == EdgeFeature::interior;
@@ -104,14 +99,15 @@ OGC_HD inline bool is_within(const Ends& p, const Ends& q, EdgePairFeatures on, 
   return exact_sign(PointReach{p[static_cast<int>(on.first)], q[static_cast<int>(on.second)], r}) < 0;
 }
 
-/// Parameters of the contact points on the two edges, from 0 at the first end to 1 at the second.
+/// Holds the parameters of two points on two edges, from 0 at the first end to 1 at the second.
 struct EdgeParameters {
   double first = 0, second = 0;
 };
 
-/// Returns one end of the overlap of two nearly parallel edges, on p and projected on the line of q: q's end or, if
-/// that lies beyond p, p's. At q's end the parameter of q is measured from that end. Measured from p's end, a
-/// difference would be rounded at the size of p: 10⁷ roundings of an edge that is 10⁻⁷ as long.
+/// Returns one end of the overlap of two nearly parallel edges, as parameters on p and on the line of q. It is the end
+/// `end` of q or, if this lies beyond p, an end of p. At an end of q the parameter of q is computed relative to this
+/// end: relative to p's end, it would be a difference rounded at the size of p, 10⁷ roundings if q is 10⁻⁷ times as
+/// long.
 OGC_HD inline EdgeParameters overlap_end(const Ends& p, const Ends& q, int end) {
   const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), u = difference<Rounded>(q[end], p.a);
   const double along = dot(u, e).value, ee = squared(e), ff = squared(f);
@@ -123,14 +119,14 @@ OGC_HD inline EdgeParameters overlap_end(const Ends& p, const Ends& q, int end) 
 /// Clamps s to [0, 1].
 OGC_HD inline double clamped_parameter(double s) { return smaller(larger(s, 0.0), 1.0); }
 
-/// Returns the middle of the overlap on the first edge, and its projection on the closed second edge.
+/// Returns the middle of the overlap on the first edge, and the middle's projection on the closed second edge.
 OGC_HD inline EdgeParameters overlap_parameters(const Ends& p, const Ends& q) {
   const EdgeParameters from = overlap_end(p, q, 0), to = overlap_end(p, q, 1);
   return {mul(0.5, add(from.first, to.first)), clamped_parameter(mul(0.5, add(from.second, to.second)))};
 }
 
-/// Returns the points between which the force acts, given the faces that hold them. For nearly parallel edges these are
-/// the middle of the overlap and its projection (method.md §1.4), not the closest points.
+/// Returns the points between which the force acts; `on` are the faces that hold them. For nearly parallel edges these
+/// points are the middle of the overlap and its projection (method.md §1.4), not the closest points.
 OGC_HD inline EdgeParameters contact_parameters(const Ends& p, const Ends& q, EdgePairFeatures on) {
   if (on.nearly_parallel) return overlap_parameters(p, q);
   const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), w = difference<Rounded>(q.a, p.a);

@@ -1,4 +1,4 @@
-// Decides which of the noted pairs are contacts, one thread a pair. This is the second half of both detections.
+// Decides which of the noted pairs are contacts, one thread for each pair, after the searches have ended.
 #pragma once
 
 #include "fast/kernels/detect_edge_edge.hpp"
@@ -6,20 +6,21 @@
 
 namespace ogc::fast {
 
-/// Enters the contacts among the noted pairs. Index over these pairs.
+/// Enters in the lists the contacts that noted pairs generate. Index over these pairs.
 struct CollectContacts {
-  /// allows 128 registers; with 6 blocks, spills would cost more than the added warps gain (fast/PERFORMANCE.md)
+  /// limits a thread to 128 registers; 6 blocks would spill more than the added warps gain (fast/PERFORMANCE.md)
   static constexpr int resident_blocks = 4;
-  CollectVertexFacet vertex_facet;  ///< decides pairs whose first number is negative, ~vertex
-  /// decides pairs of edges; pairs beyond its radius were noted only for their planes
+  CollectVertexFacet vertex_facet;  ///< decides pairs whose first number is ~vertex, and so negative
+  /// decides pairs of edges
   CollectEdgeEdge edge_edge;
-  ListsView lists;                   ///< contacts are entered here; the overflow flag ends the launch
-  const float* distances = nullptr;  ///< of the noted pairs, rounded down [m]; set if pairs beyond r are noted, too
+  ListsView lists;  ///< contacts are entered here; nothing is done if the overflow flag is set
+  /// by noted pair, rounded down [m]; set if pairs beyond r are noted, too, for their planes
+  const float* distances = nullptr;
 
   OGC_HD void operator()(int i) const {
     if (*lists.overflow != 0) return;
     const RawContact found = contact(i);
-    // one call for both kinds of pairs, so that threads that diverged meet here
+    // one call for both kinds of pairs, so that threads of a warp execute it together
     if (found.bucket >= 0) lists.enter(found, {edge_edge.surface});
   }
 

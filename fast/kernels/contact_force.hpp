@@ -1,15 +1,16 @@
-// Contact between two sides, the closed faces of a record (fast/contact_view.hpp), at the positions that a vertex
-// update reads. Closest points are computed in single precision from relative coordinates; they give weights, normal
-// and distance. One vertex has the force −g' w n and the block g'' w² n nᵀ (method.md §4.2; §7.4 for w²).
+// Computes a contact between two sides, the closed faces of a record (fast/contact_view.hpp), at the positions that a
+// vertex update reads. Closest points are computed in single precision from relative coordinates; they give weights,
+// normal and distance. A vertex has the force −g' w n and the block g'' w² n nᵀ (method.md §4.2; §7.4 for w²).
 //
 //   kind              slots of the first | second side
 //   point_point       0 | 2
 //   point_segment     0 | 2 3
-//   segment_segment   0 1 | 2 3   (a segment is never before a point: first < second as faces)
+//   segment_segment   0 1 | 2 3   (no segment_point: a record's first face is never of higher dimension)
 //   point_triangle    0 | 1 2 3   (compare/stages/detect_edge_edge.hpp)
 //
-// Σ w_i = 0, so action equals reaction for any weights. Σ w_i x_i is the vector d n from the second side's closest
-// point to the first's. Slots that a kind lacks repeat slot 0 with weight 0, so they need no branch.
+// The weights add up to 0, so action equals reaction. Σ w_i x_i is the vector d n from the closest point of the second
+// side to the closest point of the first. Slots that a kind does not have repeat slot 0 with weight 0, so that formulas
+// need no branch.
 #pragma once
 
 #include <cmath>
@@ -23,7 +24,7 @@
 
 namespace ogc::fast {
 
-/// Which faces meet; the head of this file lists the slots of each kind.
+/// Names the faces that meet; the head of this file lists the slots of each kind.
 enum class ContactKind : std::uint8_t { point_point, point_segment, segment_segment, point_triangle };
 
 /// Holds the constants of contacts between two bodies (method.md §4.5).
@@ -31,8 +32,8 @@ struct ContactMaterial {
   float stiffness = 0, friction = 0;  ///< k_c [N/m], μ [1]
 };
 
-/// Returns the parameter in [0, 1] of the point of a segment that is closest to a given point; 0 for a segment of
-/// length zero. `from_start` = point − start.
+/// Returns the parameter in [0, 1] of the point of a segment that is closest to a given point; 0 if the segment has no
+/// length. `along` is the segment, `from_start` the point minus the segment's start.
 OGC_HD inline float closest_on_segment(const Vec& along, const Vec& from_start) {
   const float length_squared = dot(along, along), t = dot(along, from_start);
   if (!(t > 0)) return 0.0f;
@@ -52,7 +53,7 @@ struct TriangleWeightsOf {
 };
 using TriangleWeights = TriangleWeightsOf<float>;
 
-/// Holds the position of the point x[0] relative to the triangle (x[1], x[2], x[3]).
+/// Holds the point x[0] relative to the triangle (x[1], x[2], x[3]): vectors and the weights of its projection.
 template <class T>
 struct PointAndTriangle {
   Vector<T> ab, ac, ap;
@@ -63,14 +64,14 @@ struct PointAndTriangle {
     area = dot(normal, normal);
     b = dot(cross(ap, ac), normal), c = dot(cross(ab, ap), normal), a = area - b - c;
   }
-  /// Returns whether the point lies over the interior; only then weights() are valid.
+  /// Returns whether the point projects into the interior; weights() is only valid then.
   OGC_HD Mask<T> is_inside() const { return a > T(0.0f) && b > T(0.0f) && c > T(0.0f); }
   OGC_HD TriangleWeightsOf<T> weights() const { return {a / area, b / area, c / area}; }
 };
 
 namespace detail {
 
-/// Weights of the point at parameter t of an edge.
+/// Return the weights of the point at parameter t of an edge.
 OGC_HD inline TriangleWeights on_bc(float t) { return {0.0f, 1.0f - t, t}; }
 OGC_HD inline TriangleWeights on_ac(float t) { return {1.0f - t, 0.0f, t}; }
 OGC_HD inline TriangleWeights on_ab(float t) { return {1.0f - t, t, 0.0f}; }
@@ -78,12 +79,12 @@ OGC_HD inline TriangleWeights on_ab(float t) { return {1.0f - t, t, 0.0f}; }
 }  // namespace detail
 
 /// Returns the weights of the point of the triangle (x[1], x[2], x[3]) closest to x[0]. They are never NaN. If the sine
-/// at a is below 2⁻²⁰ (16 roundings), the signs of weights are unreliable and the triangle is replaced by its longest
-/// edge.
+/// of the angle at x[1] is below 2⁻²⁰, which is 16 roundings, the signs of weights are unreliable. Then the longest
+/// edge replaces the triangle.
 ///
-/// A point that is not over the interior lies beyond one edge or two. Beyond one edge, it is closest to this edge.
-/// Beyond two, it is closest to the edge whose foot is not the common corner. Signs decide this, not distances: far
-/// above a corner, distances agree in all digits although the feet differ.
+/// A point that does not project into the interior lies beyond one edge or two. Beyond one edge, the closest point is
+/// on this edge. Beyond two, it is on the edge on which the point's foot is not their common corner. Signs decide this,
+/// not distances: far above a corner the distances to both edges agree in all digits, although the feet differ.
 OGC_HD inline TriangleWeights closest_on_triangle(const Vec* x) {
   const PointAndTriangle<float> at(x);
   if (at.is_inside()) return at.weights();
@@ -116,7 +117,7 @@ struct SegmentParametersOf {
 };
 using SegmentParameters = SegmentParametersOf<float>;
 
-/// Two segments start + s·first and start + between + t·second.
+/// Holds two segments, start + s·first and start + between + t·second, and their products.
 template <class T>
 struct TwoSegments {
   Vector<T> first, second, between;
@@ -132,15 +133,15 @@ struct TwoSegments {
     const Vector<T> normal = cross(first, second);
     sine = dot(normal, normal), to_start = dot(first, between);
   }
-  /// Returns whether they are nearly parallel: ‖e × e'‖² < 10⁻⁶ ‖e‖² ‖e'‖².
+  /// Returns whether the segments are nearly parallel: ‖e × e'‖² < 10⁻⁶ ‖e‖² ‖e'‖².
   OGC_HD Mask<T> is_parallel() const { return sine < 1e-6f * aa * bb; }
-  /// Returns whether `parameters` is valid: no length is zero, and they are not nearly parallel.
+  /// Returns whether `parameters` is valid: both segments have a length, and they are not nearly parallel.
   OGC_HD Mask<T> is_usual() const { return aa > T(0.0f) && bb > T(0.0f) && !is_parallel(); }
   OGC_HD SegmentParametersOf<T> parameters() const { return beside(on_first()); }
-  /// Returns the parameter of the closest point of the first line, clamped to the segment.
+  /// Returns the parameter of the point of the first line closest to the second line, clamped to the first segment.
   OGC_HD T on_first() const { return clamp_unit(dot(cross(between, second), cross(first, second)) / sine); }
-  /// Returns the parameters of two points: s on the first segment, and the closest point of the second segment. If the
-  /// latter is an end, s is replaced by the point of the first segment closest to this end.
+  /// Returns the parameter s on the first segment, and the parameter of the closest point of the second segment. If
+  /// this point is an end, s is replaced by the parameter of the point of the first segment closest to this end.
   OGC_HD SegmentParametersOf<T> beside(const T& s) const {
     const T t = (s * ab - dot(second, between)) / bb;
     const Mask<T> is_inside = t > T(0.0f) && t < T(1.0f);
@@ -151,9 +152,9 @@ struct TwoSegments {
   }
 };
 
-/// Returns the closest points of two segments, which may have length zero. If they are nearly parallel and overlap in
-/// more than a point, returns the middle of the overlap on the first and its projection on the second (method.md §1.4).
-/// So the first must be the lower-numbered edge.
+/// Returns the parameters of the closest points of two segments, which may have length zero. If the segments are nearly
+/// parallel and overlap in more than a point, returns the middle of the overlap on the first segment and its projection
+/// on the second (method.md §1.4). For this the first segment must be the lower-numbered edge.
 OGC_HD inline SegmentParameters closest_on_segments(const TwoSegments<float>& at) {
   if (!(at.aa > 0)) return {0.0f, closest_on_segment(at.second, Vec{} - at.between)};
   if (!(at.bb > 0)) return {closest_on_segment(at.first, at.between), 0.0f};
@@ -169,12 +170,12 @@ OGC_HD inline SegmentParameters closest_on_segments(const TwoSegments<float>& at
   return at.beside(s);
 }
 
-/// Weights w of the closest points by slot [1]; 0 for a slot that the kind lacks.
+/// Holds the weights w of the closest points by slot [1]; 0 for a slot that the kind does not have.
 template <class T>
 struct ContactWeightsOf {
   T slot[4] = {};  ///< w; their sum is 0 up to rounding
 
-  /// Returns w of slot k by selection: an index would move the array from registers to memory.
+  /// Returns w of slot k. It selects, because an index would move the array from registers to memory.
   OGC_HD T of(int k) const {
     const T low = k == 0 ? slot[0] : slot[1], high = k == 2 ? slot[2] : slot[3];
     return k < 2 ? low : high;
@@ -182,7 +183,7 @@ struct ContactWeightsOf {
 };
 using ContactWeights = ContactWeightsOf<float>;
 
-/// Return the weights of two segments, and of a point and a triangle.
+/// Return the weights by slot for two segments, and for a point and a triangle.
 template <class T>
 OGC_HD ContactWeightsOf<T> weights_of(const SegmentParametersOf<T>& at) {
   return {{1.0f - at.first, at.first, at.second - 1.0f, -at.second}};
@@ -192,10 +193,11 @@ OGC_HD ContactWeightsOf<T> weights_of(const TriangleWeightsOf<T>& at) {
   return {{T(1.0f), -at.a, -at.b, -at.c}};
 }
 
-/// Pairs that a contact may have. If they are known when a kernel is compiled, it omits the formulas of other kinds.
+/// Names the kinds of pairs that may generate a contact. If a kernel is compiled for one kind, formulas of the other
+/// are omitted.
 enum class PairKind { any, vertex_facet, edge_edge };
 
-/// Returns the weights of the closest points of a contact whose slots are at x.
+/// Returns the weights of the closest points of a contact; `x` are the positions of its vertices by slot.
 template <PairKind pairs = PairKind::any>
 OGC_HD ContactWeights contact_weights(ContactKind kind, const Vec* x) {
   if (kind == ContactKind::point_point) return {{1, 0, -1, 0}};
@@ -215,9 +217,9 @@ OGC_HD Vector<T> weighted_sum(const ContactWeightsOf<T>& weights, const Vector<T
   return weights.slot[1] * (x[1] - x[0]) + weights.slot[2] * (x[2] - x[0]) + weights.slot[3] * (x[3] - x[0]);
 }
 
-/// Holds normal and distance of the closest points; `acts`: 0 < d < r. If the squared distance is not a normal number,
-/// the points coincide in single precision. Then there is no normal and no force, and the bound, which is 0, keeps the
-/// points apart.
+/// Holds the normal and the distance of the closest points; `acts`: 0 < d < r. If the squared distance is not a normal
+/// number, the points coincide in single precision. Then there is no normal and no force. The bound of the vertices,
+/// which is 0, keeps the points apart.
 template <class T>
 struct ContactShapeOf {
   Vector<T> normal;  ///< n, a unit vector from the second side's closest point to the first side's
@@ -226,7 +228,7 @@ struct ContactShapeOf {
 };
 using ContactShape = ContactShapeOf<float>;
 
-/// Returns normal and distance for `separation` = Σ w_i x_i.
+/// Returns the normal and the distance, given Σ w_i x_i.
 template <class T>
 OGC_HD ContactShapeOf<T> contact_shape(const Vector<T>& separation, float contact_radius) {
   const T squared = dot(separation, separation);
@@ -237,16 +239,16 @@ OGC_HD ContactShapeOf<T> contact_shape(const Vector<T>& separation, float contac
 }
 
 /// Returns the distance at which slope and curvature are evaluated: d, clamped to 2⁻²³ r … r. At 2⁻²³ r the logarithmic
-/// stage has g'' = k_c r²/(4 d²) = 2⁴⁴ k_c (IPC 2⁴⁶ k_c), far above every other block and far below overflow. Beyond r
-/// there is no force, but the curvature at r remains: without it, an update that begins beyond r ends far too deep, and
-/// sweeps cycle (method.md §4.2).
+/// stage has g'' = k_c r²/(4 d²) = 2⁴⁴ k_c (ipc_log 2⁴⁶ k_c), far above every other block and far below overflow.
+/// Beyond r there is no force, but the block keeps the curvature at r: without it, an update that begins beyond r ends
+/// far too deep, and sweeps cycle (method.md §4.2).
 template <class T>
 OGC_HD T activation_distance(const T& distance, float contact_radius) {
   const float least = 0x1p-23f * contact_radius;
   return select(distance < contact_radius, select(distance > least, distance, T{least}), T{contact_radius});
 }
 
-/// Adds the force and block of a vertex with weight w to `sum`; `majorant` replaces w² in the block (method.md §7.4).
+/// Adds to `sum` the force and block of a vertex with weight w; `majorant` replaces w² in the block (method.md §7.4).
 /// Returns the normal force λ = −g' ≥ 0 [N].
 template <class Activation, class T>
 OGC_HD T add_contact(const Activation& activation, const ContactShapeOf<T>& shape, const T& weight, const T& majorant,
@@ -258,8 +260,8 @@ OGC_HD T add_contact(const Activation& activation, const ContactShapeOf<T>& shap
   return -at.slope;
 }
 
-/// Returns e_k of two edges with rest lengths ē, ē' (method.md §4.3): q(2 − q), q = ‖e × e'‖²/ε for ‖e × e'‖² < ε =
-/// 10⁻³ ‖ē‖²‖ē'‖², else 1.
+/// Returns the mollifier e_k of two edges (method.md §4.3). With ε = 10⁻³ ‖ē‖²‖ē'‖² from the rest lengths and q = ‖e ×
+/// e'‖²/ε, it is q(2 − q) for q < 1, else 1.
 OGC_HD inline float mollifier(const Vec& first, const Vec& second, float rest_squared_first,
                               float rest_squared_second) {
   const Vec normal = cross(first, second);
@@ -269,8 +271,8 @@ OGC_HD inline float mollifier(const Vec& first, const Vec& second, float rest_sq
   return q * (2.0f - q);
 }
 
-/// Returns, for nearly parallel edges, the length of their overlap along the first over the length of the shorter one.
-/// `to_start` and `to_end` go from the first edge's start to the second edge's ends.
+/// Returns, for nearly parallel edges, the length of their overlap along the first edge divided by the length of the
+/// shorter edge. `to_start` and `to_end` are the ends of the second edge minus the start of the first.
 OGC_HD inline float overlap_share(const Vec& first, const Vec& second, const Vec& to_start, const Vec& to_end) {
   const float aa = dot(first, first), bb = dot(second, second);
   const float start = clamp_unit(dot(first, to_start) / aa), end = clamp_unit(dot(first, to_end) / aa);

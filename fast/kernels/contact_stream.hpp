@@ -1,6 +1,6 @@
-// Converts the records of a detection into the stream that the sweep reads: slots, stiffness with this detection's
-// mollifier, friction, and the buffer from which each neighbour is read. This happens once a detection, so that the
-// sweep has nothing to look up.
+// Converts the records of a detection into the stream that the sweep reads. Each incidence gets slots, stiffness with
+// the mollifier of this detection, friction, and the buffer from which each neighbour is read. This happens once for
+// each detection, so that the sweep needs no tables.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +13,16 @@
 
 namespace ogc::fast {
 
-/// Data of contacts that their records lack.
+/// Holds the data of contacts that are not in their records.
 struct ContactTables {
   const int* body = nullptr;                   ///< by vertex
-  const ContactMaterial* materials = nullptr;  ///< of bodies a and b, at a · body_count + b
-  int body_count = 0;                          ///< 0 in probes: then materials are by body b alone
+  const ContactMaterial* materials = nullptr;  ///< for bodies a and b at a · body_count + b
+  int body_count = 0;                          ///< 0 in probes: then materials are indexed by body b alone
   const float* rest_squared = nullptr;  ///< ‖ē‖² by edge [m²]; 0 for an edge without triangles, which has no mollifier
-  const Vec* previous = nullptr;        ///< X_prev, positions of the detection, for e_k
+  const Vec* previous = nullptr;        ///< X_prev by vertex, for e_k [m]
 };
 
-/// Returns a contact with only k_c [N/m] and μ set, from the bodies of two vertices (method.md §4.5).
+/// Returns a contact of which only k_c [N/m] and μ are set, from the bodies of two vertices (method.md §4.5).
 OGC_HD inline ContactIncidence meeting(const ContactTables& tables, int first, int second) {
   const ContactMaterial material = tables.materials[tables.body[first] * tables.body_count + tables.body[second]];
   ContactIncidence contact;
@@ -31,7 +31,7 @@ OGC_HD inline ContactIncidence meeting(const ContactTables& tables, int first, i
   return contact;
 }
 
-/// Sets kind and vertices of a contact.
+/// Sets the kind of a contact, and its vertices a, b, c, d by slot.
 OGC_HD inline void set_slots(ContactIncidence& contact, ContactKind kind, int a, int b, int c, int d) {
   contact.kind = kind;
   contact.index[0] = a;
@@ -40,7 +40,7 @@ OGC_HD inline void set_slots(ContactIncidence& contact, ContactKind kind, int a,
   contact.index[3] = d;
 }
 
-/// Sets kind and vertices from a vertex–facet record: plain vertex numbers as indices, `own` 0.
+/// Sets kind and vertices from a vertex–facet record; indices are plain vertex numbers.
 OGC_HD inline void set_slots(ContactIncidence& contact, const VertexFacetRecord& record) {
   const int v = record.vertex;
   const int* corner = record.corner;
@@ -52,15 +52,15 @@ OGC_HD inline void set_slots(ContactIncidence& contact, const VertexFacetRecord&
     set_slots(contact, ContactKind::point_triangle, v, corner[0], corner[1], corner[2]);
 }
 
-/// Returns the vertex–facet contact of a record: plain vertex numbers as indices, `own` 0.
+/// Returns the contact of a vertex–facet record; indices are plain vertex numbers, and `own` is 0.
 OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const VertexFacetRecord& record) {
   ContactIncidence contact = meeting(tables, record.vertex, record.corner[0]);
   set_slots(contact, record);
   return contact;
 }
 
-/// Returns e_k of two edge interiors: the mollifier if both have triangles, 1 if one has. For two nearly parallel edges
-/// without triangles it is their overlap_share, otherwise 1.
+/// Returns the factor e_k of the stiffness of two edge interiors. If both edges have triangles it is the mollifier; if
+/// one has, 1. If neither has, it is overlap_share for nearly parallel edges that overlap, otherwise 1.
 OGC_HD inline float energy_share(const ContactTables& tables, const EdgeEdgeRecord& record) {
   const Vec* x = tables.previous;
   const Ends p{x[record.first[0]], x[record.first[1]]}, q{x[record.second[0]], x[record.second[1]]};
@@ -73,7 +73,7 @@ OGC_HD inline float energy_share(const ContactTables& tables, const EdgeEdgeReco
   return called(is_shared) ? overlap_share(first, second, q.a - p.a, q.b - p.a) : 1.0f;
 }
 
-/// Sets kind and vertices from an edge–edge record: plain vertex numbers as indices, `own` 0.
+/// Sets kind and vertices from an edge–edge record; indices are plain vertex numbers.
 OGC_HD inline void set_slots(ContactIncidence& contact, const EdgeEdgeRecord& record) {
   const int* p = record.first;
   const int* q = record.second;
@@ -85,8 +85,8 @@ OGC_HD inline void set_slots(ContactIncidence& contact, const EdgeEdgeRecord& re
     set_slots(contact, ContactKind::segment_segment, p[0], p[1], q[0], q[1]);
 }
 
-/// Returns the edge–edge contact of a record: plain vertex numbers as indices, `own` 0. The stiffness of two interiors
-/// includes e_k.
+/// Returns the contact of an edge–edge record; indices are plain vertex numbers, and `own` is 0. The stiffness of two
+/// edge interiors includes e_k.
 OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const EdgeEdgeRecord& record) {
   ContactIncidence contact = meeting(tables, record.first[0], record.second[0]);
   set_slots(contact, record);
@@ -94,26 +94,26 @@ OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const Edg
   return contact;
 }
 
-/// Returns the slots of a kind as bits: bit k is set if it has slot k.
+/// Returns the slots that a kind has, as bits: bit k for slot k.
 OGC_HD inline int slots_of(ContactKind kind) {
   return kind == ContactKind::point_point ? 0b0101 : kind == ContactKind::point_segment ? 0b1101 : 0b1111;
 }
 
-/// Returns the slot of a role (contact_view.hpp). A triangle's corners have slots 1, 2, 3. A smaller facet is the
-/// second side, and its vertices begin at slot 2.
+/// Returns the slot of a vertex, given its role in the record (contact_view.hpp). The corners of a triangle have the
+/// slots 1, 2, 3. The vertices of a smaller facet begin at slot 2.
 OGC_HD inline std::uint8_t slot_of_role(bool edge_edge, ContactKind kind, int role) {
   const bool shifted = !edge_edge && role > 0 && kind != ContactKind::point_triangle;
   return static_cast<std::uint8_t>(shifted ? role + 1 : role);
 }
 
-/// Writes each vertex's row of the stream. Index over slots. `Item` is a type of incidence; a row may have any order.
+/// Writes each vertex's row of the stream. Index over slots. `Item` is a type of incidence; a row may be in any order.
 template <class Item>
 struct CopyContactRows {
   const int* incidence_offsets;  ///< by vertex, vertices + 1
   const Item* incidences;        ///< row of vertex v: from incidence_offsets[v]
-  const int* overflow;           ///< not 0: rows are not written; null: they always are
+  const int* overflow;           ///< not 0: nothing is written; null: rows are always written
   const SweepVertex* vertices;   ///< by slot
-  ContactRow* rows;              ///< by slot, written; begins where the vertex's row of incidences begins
+  ContactRow* rows;              ///< by slot, written; a row begins where the vertex's row of incidences begins
 
   OGC_HD void operator()(int slot) const {
     if (overflow != nullptr && *overflow != 0) return;
@@ -124,8 +124,8 @@ struct CopyContactRows {
   }
 };
 
-/// Writes an incidence at its place in the stream. step_detection.hpp gives place and incidence; otherwise the index
-/// runs over incidences that are already in order.
+/// Writes the contact of an incidence to its place in the stream. The index is this place. step_detection.hpp passes
+/// the incidence, too; otherwise it is read from view.incidences.
 struct ResolveContact {
   ContactView view;  ///< records of the detection
   ContactTables tables;
@@ -151,7 +151,7 @@ struct ResolveContact {
   }
 };
 
-/// Returns the energy of a contact with plain indices [J]; its stiffness includes e_k.
+/// Returns the energy [J] of a contact whose indices are plain vertex numbers; its stiffness includes e_k.
 OGC_HD inline double contact_energy(const ContactIncidence& contact, const Vec* position,
                                     const AnyActivation& activation, float contact_radius) {
   Vec x[4];

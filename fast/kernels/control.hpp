@@ -1,4 +1,4 @@
-// Control of a step on the device: counters, flags that the host never reads inside a step, and kernels of one item
+// Controls a step on the device: counters, flags that the host does not read inside a step, and kernels of one thread
 // that turn counters into flags.
 //
 //   BeginStep ─► detect, guess ─► EndRound ─► … ─► sweep ─► EndIteration ─► … ─► EndCheck ─► FinishStep
@@ -16,11 +16,12 @@
 
 namespace ogc::fast {
 
-/// Returns false for NaN and for infinities.
+/// Returns whether a number is neither NaN nor infinite.
 OGC_HD inline bool is_finite(float a) { return fabsf(a) <= 3.40282347e38f; }
 OGC_HD inline bool is_finite(const Vec& a) { return is_finite(a.x) && is_finite(a.y) && is_finite(a.z); }
 
-/// Returns the bits of a non-negative float. They have the order of the floats, so atomic_max finds maxima.
+/// Returns the bits of a non-negative float as an integer. They have the order of the floats, so atomic_max finds
+/// maxima.
 OGC_HD inline int float_bits(float a) {
   int bits = 0;
   memcpy(&bits, &a, sizeof bits);
@@ -33,58 +34,59 @@ OGC_HD inline float float_from_bits(int bits) {
   return a;
 }
 
-/// Holds the settings of the control, the same in each step.
+/// Holds the settings of the control; they are the same in each step.
 struct ControlSettings {
   double redetect_vertices = 1;    ///< γ_e K
-  int detection_every = 0;         ///< iterations between two detections, at most; 0: no limit
+  int detection_every = 0;         ///< at most this number of iterations between two detections; 0: no limit
   int iterations = 1 << 30;        ///< iterations of a step; no detection follows the last one
-  int guess_rounds = 16;           ///< rounds of a step's guess loop, at most
+  int guess_rounds = 16;           ///< largest number of rounds of a step's guess loop
   int sort_every = 1;              ///< steps between two sorts of the trees
   float contact_radius = 0;        ///< r [m]
   float largest_query_radius = 0;  ///< cap of r_q [m]
 
-  /// Returns the least number of cut vertices that requests a detection. `times` is 1 after an iteration, and the
-  /// number of the round after a round of the guess loop.
+  /// Returns the least number of cut vertices that causes a detection. `times` is 1 after an iteration, and the number
+  /// of the round in the guess loop.
   OGC_HD int least_cut(int times = 1) const {
     const double least = ceil(times * redetect_vertices);
     return least > 1 ? static_cast<int>(least) : 1;
   }
 };
 
-/// Holds the state of a frame and of its current step on the device.
+/// Holds the state of a frame, and of its current step, on the device.
 struct StepControl {
-  // Values of the frame:
-  int active = 0;      ///< 1: steps take place; 0: they are no-ops
-  int status = 0;      ///< compare::StepStatus bits that stopped the frame
+  // State of the frame:
+  int active = 0;      ///< 1: steps are computed; 0: they do nothing
+  int status = 0;      ///< compare::StepStatus bits of the failure that stopped the frame
   int steps_done = 0;  ///< steps committed since the frame began; indexes the row of metrics and the row of targets
   int since_sort = 1 << 30;  ///< steps begun since the last sort of the trees; kept from frame to frame
-  // Values of the step. Flags that Backend::when reads are 0 unless the frame is active.
-  int attempted = 0;                      ///< 1: the step began active
-  int sort = 0;                           ///< 1: the trees are sorted anew
+  // State of the step. The flags that Backend::when reads are 0 if the frame is not active.
+  int attempted = 0;                      ///< 1: the frame was active when the step began
+  int sort = 0;                           ///< 1: the trees are sorted in this step
   int guess = 0;                          ///< 1: the guess loop has another round
   int detect = 0;                         ///< 1: a detection is due before the next iteration
   int turn = 0;                           ///< next iteration, from 0; −1 while a detection is due
   float query_radius = 0;                 ///< r_q [m]
   int largest_move = 0, largest_lag = 0;  ///< bits of floats [m]
-  float smallest_bound = 0;               ///< smallest b_v; with planes, smallest distance [m]
-  /// vertices cut in this round or iteration; cut_last: those of the previous one, plus lagging ones
+  float smallest_bound = 0;               ///< smallest b_v; with planes, smallest distance of any pair [m]
+  /// vertices cut in this round or iteration; cut_last: in the previous one, with lagging vertices
   int cut = 0, cut_last = 0;
-  int deep_inside = 0;  ///< with volumes: vertices that this iteration left deep inside one
-  /// With planes: number of prescribed vertices behind their targets, whether one has moved since the last detection,
-  /// and whether one has requested a detection in this step.
+  int deep_inside = 0;  ///< with volumes: vertices that are deep inside a volume after this iteration
+  /// With planes: number of prescribed vertices that lag behind their targets; whether one of them has moved since the
+  /// last detection; whether one has already caused a detection in this step.
   int lagging = 0, advanced = 0, lag_asked = 0;
   int not_finite = 0, violations = 0;
-  /// with volumes: 1 if a row of contacts was full; lists of a detection have their own flag
+  /// with volumes: 1 if a row of contacts was full; the lists of a detection have a flag of their own (ListStatus)
   int short_rows = 0;
-  /// With volumes, at the end: contacts, vertices inside, bits of the largest depth at the last detection [m], sheets
-  /// without any way out.
+  /// With volumes, at the end of the step: number of contacts, vertices inside, bits of the largest depth at the last
+  /// detection [m], sheets without a way out.
   int volume_contacts = 0, vertices_inside = 0, deepest = 0, depth_unresolved = 0;
-  /// With rods, at the end: bits of the largest ‖D‖/l [1]; smallest distance of contacts that act [m].
+  /// With rods, at the end of the step: bits of the largest ‖D‖/l [1]; smallest distance of contacts that exert a force
+  /// [m].
   int longest_segment = 0;
   float nearest_contact = 0;
   int rounds = 0, detections = 0, since_detection = 0, iterations = 0;
 
-  /// Count atomically; sums and maxima do not depend on the order of threads.
+  /// Count atomically: sums and maxima do not depend on the order of threads.
   OGC_HD void count_cut() { atomic_add(&cut, 1); }
   OGC_HD void count_deep_inside() { atomic_add(&deep_inside, 1); }
   OGC_HD void count_lag(bool has_advanced) {
@@ -95,9 +97,9 @@ struct StepControl {
   OGC_HD void count_violation() { atomic_add(&violations, 1); }
 };
 
-/// Returns whether a detection is requested, and resets the counts. Cut vertices request it if there are at least
-/// `least_cut`, or one while a vertex is deep inside a volume. Lagging prescribed vertices request it if the last
-/// detection let one advance, otherwise once a step.
+/// Returns whether a detection is due because of cuts, and resets the counts. It is due if at least `least_cut`
+/// vertices were cut, or one while a vertex is deep inside a volume. It is also due if prescribed vertices lag and one
+/// of them has moved since the last detection; if none has moved, only once a step.
 OGC_HD inline bool take_request(StepControl& c, int least_cut) {
   const bool lag_asks = c.lagging > 0 && (c.advanced > 0 || c.lag_asked == 0),
              asks = c.cut >= least_cut || (c.cut > 0 && c.deep_inside > 0);
@@ -107,7 +109,7 @@ OGC_HD inline bool take_request(StepControl& c, int least_cut) {
   return asks || lag_asks;
 }
 
-/// Stops the frame if something went wrong; the step is not committed then.
+/// Stops the frame if the step failed; then the step is not committed.
 OGC_HD inline void stop_if_failed(StepControl& c) {
   if (c.not_finite > 0) c.status |= compare::step_not_finite;
   if (c.violations > 0) c.status |= compare::step_bound_violated;
@@ -115,7 +117,7 @@ OGC_HD inline void stop_if_failed(StepControl& c) {
   if (c.status != 0) c.active = c.guess = c.detect = 0;
 }
 
-/// Resets the values of the step; the first kernel of each step.
+/// Resets the state of the step. This is the first kernel of each step.
 struct BeginStep {
   StepControl* control;  ///< on the backend
   ControlSettings settings;
@@ -138,7 +140,7 @@ struct BeginStep {
   }
 };
 
-/// Chooses r_q = min(r + largest move, cap) (method.md §5.3).
+/// Sets r_q = min(r + largest move, cap) (method.md §5.3).
 struct ChooseQueryRadius {
   StepControl* control;  ///< on the backend
   ControlSettings settings;
@@ -168,7 +170,7 @@ struct EndDetection {
   }
 };
 
-/// Ends a round of the guess loop. Another one follows if enough vertices were cut and rounds are left.
+/// Ends a round of the guess loop. Another round follows if enough vertices were cut and rounds are left.
 struct EndRound {
   StepControl* control;  ///< on the backend
   ControlSettings settings;
@@ -182,8 +184,8 @@ struct EndRound {
 };
 
 /// Ends an iteration. A detection follows if enough vertices were cut (Alg. 3 line 29) or `detection_every` iterations
-/// have passed. `number` is the number of this iteration: nothing happens if it is another iteration's turn. −1: no
-/// such check.
+/// have passed. `number` is the number of this iteration: nothing happens if another iteration is next. With −1 this is
+/// not checked.
 struct EndIteration {
   StepControl* control;  ///< on the backend
   ControlSettings settings;

@@ -1,6 +1,6 @@
-// Runs Algorithm 2, each pair once: the edge at place i of the tree order only searches the places behind i, and the
-// distance counts for both partners. As in detect_vertex_facet.hpp, pairs may be skipped, and pairs nearer than r are
-// decided afterwards. Pairs that block.hpp proves to be no contact are not noted.
+// Runs Algorithm 2 once for each pair: the edge at place i of the tree order only searches later places, and the
+// distance counts for both edges. As in detect_vertex_facet.hpp, pairs may be skipped, and contacts are decided after
+// the searches. Pairs that block.hpp proves to be no contact are not noted.
 #pragma once
 
 #include "fast/kernels/arithmetic/atomic.hpp"
@@ -11,19 +11,19 @@
 
 namespace ogc::fast {
 
-/// Searches the tree of edges for all edges; a Query of search.hpp.
+/// Searches the tree of edges for all edges. It is a Query of search.hpp.
 struct DetectEdgeEdge {
   SurfaceView surface;
   PaddedVecs positions;  ///< of the detection, by vertex [m]
   TreeView tree;         ///< of all edges, refitted at these positions
   ListsView lists;       ///< pairs are noted here; nothing is searched if its overflow flag is set
   float contact_radius;  ///< r, with the contact margin [m]
-  float* d_min_edge;     ///< at most r_q before the launch
+  float* d_min_edge;     ///< by edge: smallest distance [m], at most r_q before the launch; lowered
 
   /// Returns whether a list has overflowed.
   OGC_HD bool is_off() const { return *lists.overflow != 0; }
 
-  /// Returns the search of the edge at place i of the tree; it covers the places behind i.
+  /// Returns the search of the edge at place i of the tree. It covers the places behind i.
   OGC_HD Search begin(int i) const {
     const Child child = tree.node(0, i / 4).child[i % 4];
     return {.box = child.box(),
@@ -33,8 +33,8 @@ struct DetectEdgeEdge {
             .reach = child.reach};
   }
 
-  /// Returns the squared distance up to which a pair matters. Negative if the boxes are farther apart, or if the edges
-  /// form no pair (method.md §2.3).
+  /// Returns the squared distance up to which the pair matters. The result is negative if the boxes are farther apart,
+  /// or if the edges form no pair (method.md §2.3).
   OGC_HD float candidate_limit(const Search& search, const Offer& offer) const {
     const EdgeEnds p = surface.edges[search.owner], q = surface.edges[offer.primitive];
     if (p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b || surface.left_out(p, q)) return -1.0F;
@@ -42,7 +42,7 @@ struct DetectEdgeEdge {
     return offer.gap > within ? -1.0F : within;
   }
 
-  /// Returns whether the distance of the candidate must be computed.
+  /// Returns whether the distance of the pair must be computed.
   OGC_HD bool is_pair(const Search& search, const Offer& offer) const {
     const float within = candidate_limit(search, offer);
     if (within < 0) return false;
@@ -51,8 +51,8 @@ struct DetectEdgeEdge {
     return !is_beyond(apart, within) && !is_idle(search, offer, apart);
   }
 
-  /// Returns whether a pair within r needs no distance: it lowers no smallest distance and is no contact. `apart` is a
-  /// lower bound of its distance [m].
+  /// Returns whether the distance of a pair is not needed: it lowers no smallest distance, and the pair is no contact.
+  /// `apart` is a lower bound of it [m].
   OGC_HD bool is_idle(const Search& search, const Offer& offer, float apart) const {
     const float own = atomic_load(&d_min_edge[search.owner]), theirs = atomic_load(&d_min_edge[offer.primitive]);
     const float lowering = larger(smaller(search.reach, gap_limit(own)), smaller(offer.reach, gap_limit(theirs)));
@@ -61,7 +61,7 @@ struct DetectEdgeEdge {
                                           : is_none(offer.primitive, search.owner);
   }
 
-  /// Computes the distance for both partners; returns the search's new limit.
+  /// Computes the distance for both edges, and returns the new limit of the search.
   OGC_HD float meet(const Search& search, int other, float gap) const {
     const int e = search.owner, low = e < other ? e : other, high = e < other ? other : e;
     return gap_limit(larger(contact_radius, measure(low, high, gap)));
@@ -74,8 +74,8 @@ struct DetectEdgeEdge {
     return larger(smaller(search.limit, gap_limit(own)), smaller(offer.reach, gap_limit(theirs)));
   }
 
-  /// Lowers the smallest distances of both partners to the pair's, and notes the pair if it may be a contact; low <
-  /// high.
+  /// Lowers the smallest distances of both edges to the pair's, and notes the pair if it may be a contact. Returns a
+  /// lower bound of the distance; low < high.
   OGC_HD float measure(int low, int high, float gap) const {
     const Distance d = edge_edge_distance(ends(surface.edges[low]), ends(surface.edges[high]));
     const float below = larger(d.below(), gap_below(gap));
@@ -94,7 +94,7 @@ struct DetectEdgeEdge {
   OGC_HD Ends ends(const EdgeEnds& e) const { return {positions[e.a], positions[e.b]}; }
 };
 
-/// Returns the contact of two edges, low < high; its bucket is −1 if there is none. `certain`: they are certainly
+/// Returns the contact of two edges, low < high; its bucket is −1 if they have none. `certain`: they are certainly
 /// nearer than r.
 struct CollectEdgeEdge {
   SurfaceView surface;
@@ -130,16 +130,17 @@ struct CollectEdgeEdge {
     return feature == EdgeFeature::interior ? -1 : feature == EdgeFeature::end_0 ? e.a : e.b;
   }
 
-  /// Returns whether the block of each side holds the other side's closest point (Eq. 14, 15). `on` are the faces that
-  /// hold these points. The block of an interior always does.
+  /// Returns whether the block of each side holds the closest point of the other side (Eq. 14, 15). `on` are the faces
+  /// that hold these points. The block of an edge's interior always holds the other side's point.
   OGC_HD bool is_hit(const EdgeEnds& p, const EdgeEnds& q, EdgePairFeatures on) const {
     const int v = end_of(p, on.first), w = end_of(q, on.second);
     return (v < 0 || is_end_hit(v, w < 0, w, q)) && (w < 0 || is_end_hit(w, v < 0, v, p));
   }
 
-  /// Applies the same test to every pair of ends, and to every end that lies beside the other edge. For exactly
-  /// parallel edges these include both ends of the overlap. If both blocks hold the other side's point, no points of
-  /// the edges are nearer, because each block has a condition for its own edge.
+  /// Returns whether is_hit is true at another place of two nearly parallel edges: for a pair of ends, or for an end
+  /// that projects into the other edge. If edges are exactly parallel, these places include both ends of the overlap.
+  /// If is_hit is true there, no points of the edges are nearer, because each block also has a condition for its own
+  /// edge.
   OGC_HD bool is_hit_beside(const EdgeEnds& p, const EdgeEnds& q) const {
     for (int i = 0; i < 2; ++i) {
       const auto end = static_cast<EdgeFeature>(i);
@@ -150,14 +151,14 @@ struct CollectEdgeEdge {
     return false;
   }
 
-  /// Returns whether the vertex projects between the ends of the edge.
+  /// Returns whether the vertex projects into the interior of the edge.
   OGC_HD bool is_beside(int v, const EdgeEnds& e) const {
     const Vec x = positions[v], a = positions[e.a], b = positions[e.b];
     return exact_sign(End{x, a, b}) > 0 && exact_sign(End{x, b, a}) > 0;
   }
 
-  /// Returns whether the closest point of the other edge lies in the block of v (Eq. 15). It is inside the edge or its
-  /// end w.
+  /// Returns whether the closest point of the other edge lies in the block of v (Eq. 15). This point is in the edge's
+  /// interior or is its end w.
   OGC_HD bool is_end_hit(int v, bool is_other_inside, int w, const EdgeEnds& other) const {
     return is_other_inside ? in_vertex_block(other, v, surface, positions)
                            : in_vertex_block(positions[w], v, surface, positions);

@@ -1,10 +1,10 @@
-// Runs Algorithm 1. The gap of a pair's boxes never exceeds the pair's exact distance, so the larger of this gap and
-// the computed lower bound counts as the distance. Then a pair whose gap reaches the minima found so far cannot lower
-// them by one bit. It may be skipped, in whatever order searches find each other's minima.
+// Runs Algorithm 1. A pair's distance is taken as the larger of its computed lower bound and the gap of its boxes,
+// which never exceeds the exact distance. If this gap reaches the smallest distances found so far, the pair cannot
+// lower them by one bit. So it may be skipped, whatever the order in which searches find smallest distances.
 //
-// A search computes the smallest distances and notes each pair that may be nearer than r. Afterwards one thread a pair
-// decides which of these pairs are contacts, and with which face (collect_contacts.hpp). Few pairs need this decision,
-// and its exact predicates are most of the code.
+// A search computes the smallest distances and notes each pair that may be nearer than r. Afterwards, one thread for
+// each noted pair decides whether it is a contact, and with which face (collect_contacts.hpp). Few pairs need this
+// decision, but its exact predicates are most of the code.
 #pragma once
 
 #include "fast/kernels/arithmetic/atomic.hpp"
@@ -15,23 +15,23 @@
 
 namespace ogc::fast {
 
-/// Searches the tree of facets for all vertices; a Query of search.hpp.
+/// Searches the tree of facets for all vertices. It is a Query of search.hpp.
 struct DetectVertexFacet {
   SurfaceView surface;
   PaddedVecs positions;       ///< of the detection, by vertex [m]
   TreeView tree;              ///< of all facets, refitted at these positions
-  const int* vertex_order;    ///< vertex of each search, along a Hilbert curve
-  const float* vertex_limit;  ///< by vertex: gap limit of its reach
+  const int* vertex_order;    ///< numbers of the vertices, along a Hilbert curve
+  const float* vertex_limit;  ///< by vertex: gap limit of its reach [m²]
   ListsView lists;            ///< pairs are noted here; nothing is searched if its overflow flag is set
   float contact_radius;       ///< r, with the contact margin [m]
-  float* d_min_vertex;        ///< at most r_q before the launch
-  float* d_min_triangle;      ///< at most r_q before the launch
+  float* d_min_vertex;        ///< by vertex: smallest distance [m], at most r_q before the launch; lowered
+  float* d_min_triangle;      ///< by triangle: smallest distance [m], at most r_q before the launch; lowered
 
   /// Returns whether a list has overflowed.
   OGC_HD bool is_off() const { return *lists.overflow != 0; }
 
-  /// Returns the position to search from. A vertex that is off the surface searches far from everything: its squared
-  /// gap to any box is finite and beyond any limit.
+  /// Returns the position from which v searches. If v is not on the surface, this is a point so far away that no box is
+  /// within any limit, and its squared gaps are finite.
   OGC_HD Vec searched_from(int v) const {
     return surface.is_off_surface(v) ? Vec{0x1p60f, 0x1p60f, 0x1p60f} : positions[v];
   }
@@ -43,8 +43,8 @@ struct DetectVertexFacet {
     return {{x, x}, v, 0, larger(gap_limit(contact_radius), vertex_limit[v])};
   }
 
-  /// Returns the squared distance up to which a pair matters. Negative if the boxes are farther apart, or if vertex and
-  /// facet form no pair (method.md §2.3).
+  /// Returns the squared distance up to which the pair matters. The result is negative if the boxes are farther apart,
+  /// or if vertex and facet form no pair (method.md §2.3).
   OGC_HD float candidate_limit(const Search& search, const Offer& offer) const {
     const int v = search.owner;
     const Facet& facet = surface.facets[offer.primitive];
@@ -54,7 +54,7 @@ struct DetectVertexFacet {
     return offer.gap > within ? -1.0F : within;
   }
 
-  /// Returns whether the distance of the candidate must be computed.
+  /// Returns whether the distance of the pair must be computed.
   OGC_HD bool is_pair(const Search& search, const Offer& offer) const {
     const float within = candidate_limit(search, offer);
     if (within < 0) return false;
@@ -62,10 +62,10 @@ struct DetectVertexFacet {
     return !is_beyond(separation(search.box.lower, corners(surface.facets[t])), within);
   }
 
-  /// Returns false: a pair within r always needs its distance.
+  /// Returns false, because the distance of each pair is needed.
   OGC_HD bool is_idle(const Search&, const Offer&, float) const { return false; }
 
-  /// Computes the distance for both partners; returns the search's new limit.
+  /// Computes the distance for vertex and facet, and returns the new limit of the search.
   OGC_HD float meet(const Search& search, int t, float gap) const {
     return gap_limit(larger(contact_radius, measure(search.owner, t, gap)));
   }
@@ -77,7 +77,8 @@ struct DetectVertexFacet {
     return larger(smaller(search.limit, gap_limit(own)), smaller(offer.reach, gap_limit(theirs)));
   }
 
-  /// Lowers the smallest distances of both partners to the pair's, and notes the pair if it may be a contact.
+  /// Lowers the smallest distances of vertex and facet to the pair's, and notes the pair if it may be a contact.
+  /// Returns a lower bound of the distance.
   OGC_HD float measure(int v, int t, float gap) const {
     const Distance d = point_triangle_distance(positions[v], corners(surface.facets[t]));
     const float below = larger(d.below(), gap_below(gap));
@@ -92,8 +93,9 @@ struct DetectVertexFacet {
   }
 };
 
-/// Returns the contact of a vertex and a facet; its bucket is −1 if there is none. `certain`: they are certainly nearer
-/// than r. Each triangle at a shared face reports the contact, and the lists keep one.
+/// Returns the contact of a vertex and a facet; its bucket is −1 if they have none. `certain`: they are certainly
+/// nearer than r. If several facets share the closest face, each of them generates this contact, and the lists keep
+/// one.
 struct CollectVertexFacet {
   SurfaceView surface;
   PaddedVecs positions;  ///< of the detection, by vertex [m]

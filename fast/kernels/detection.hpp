@@ -1,4 +1,4 @@
-// First launch of a detection: prepares everything that its searches read.
+// Prepares the data that the searches of a detection read; this is its first launch.
 #pragma once
 
 #include "fast/kernels/bound.hpp"
@@ -9,8 +9,8 @@
 
 namespace ogc::fast {
 
-/// Copies positions into aligned vectors, clears the lists, sets smallest distances to r_q and refits the trees. These
-/// parts are independent of each other. Index over count(), in whole warps.
+/// Copies positions into aligned vectors, clears the lists, sets smallest distances to r_q, and refits the trees. The
+/// four operations are independent of each other. Index over count(), in whole warps.
 struct BeginDetection {
   const Vec* positions;  ///< by vertex [m]
   PaddedVec* padded;     ///< the same positions in aligned vectors, written
@@ -18,7 +18,7 @@ struct BeginDetection {
   ResetDistances distances;
   RefitTrees refit;
 
-  /// Returns the largest number of buckets, vertices, primitives and places of the trees, in whole warps.
+  /// Returns the largest of the numbers of buckets, triangles and places of the trees, in whole warps.
   OGC_HD int count() const {
     const int buckets = lists.lists.buckets, triangles = distances.triangle_count;
     const int items = buckets > triangles ? buckets : triangles, places = refit.count();

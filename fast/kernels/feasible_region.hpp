@@ -1,6 +1,6 @@
 // Defines the region in which a vertex may move until the next detection (Eq. 21, 27; method.md §5.6). All kernels that
-// truncate or certify a position take this type: truncate.hpp, plane.hpp, certificate.hpp. stages/planes.hpp fills the
-// regions for each kind of bounds.
+// truncate or certify a position take this type (truncate.hpp, plane.hpp, certificate.hpp). stages/planes.hpp fills the
+// regions for each choice of `bounds`.
 #pragma once
 
 #include <cstddef>
@@ -16,18 +16,18 @@ struct Ball {
   float radius = 0;  ///< b_v [m]
 };
 
-/// The half-space n·x ≤ o that a plane leaves to one of its vertices.
+/// The half-space n·x ≤ o in which a vertex may move on its side of a plane.
 struct alignas(8) HalfSpace {
   Vec normal;         ///< n in single precision: a unit vector up to rounding
   double offset = 0;  ///< o [m]
 };
 
-/// Holds n·x − o, and `size`, the sum of the moduli of its terms.
+/// Holds the value of n·x − o, and the sum of the moduli of its terms (`size`).
 struct Excess {
   double value = 0, size = 0;  ///< [m]
 };
 
-/// Returns n·x − o; sums are rounded to double.
+/// Returns n·x − o; sums are rounded in double.
 OGC_HD inline Excess excess(const Vec& n, double offset, const Vec& x) {
   const double a = mul(static_cast<double>(n.x), static_cast<double>(x.x)),
                b = mul(static_cast<double>(n.y), static_cast<double>(x.y)),
@@ -35,9 +35,10 @@ OGC_HD inline Excess excess(const Vec& n, double offset, const Vec& x) {
   return {sub(add(add(a, b), c), offset), add(add(add(modulus(a), modulus(b)), modulus(c)), modulus(offset))};
 }
 
-/// Returns whether n·x ≤ o is certain. The three products of floats are exact in double. Two sums and the difference
-/// err by at most 2⁻⁵³ S each, S = Σ|n_k x_k| + |o|, and the computed S is at most 3 of its own roundings too small:
-/// under 2⁻⁵¹ S together. The rounded sum of value and error has the sign of the exact one. False if x is not finite.
+/// Returns whether n·x ≤ o is certain. The three products of floats are exact in double. Let S = Σ|n_k x_k| + |o|. The
+/// two sums and the difference err by at most 2⁻⁵³ S each, and the computed S is too small by at most 3 roundings:
+/// under 2⁻⁵¹ S together. Adding this to the value cannot change the sign by rounding. Returns false if x is not
+/// finite.
 OGC_HD inline bool is_behind(const HalfSpace& plane, const Vec& x) {
   const Excess e = excess(plane.normal, plane.offset, x);
   return add(e.value, mul(0x1p-51, e.size)) <= 0;
@@ -48,13 +49,15 @@ struct FeasibleRegion {
   Ball ball;
   const HalfSpace* planes = nullptr;  ///< on the backend
   int count = 0;                      ///< half-spaces, at most most_planes
-  bool slides = true;                 ///< false: a position outside is scaled towards X_prev (bounds=dat)
+  /// false: a position outside is moved back along the line to X_prev (bounds=dat); true: it slides along the
+  /// half-spaces
+  bool slides = true;
 };
 
-/// N, the largest number of planes of a vertex. Where triangles are collapsed, a vertex would have hundreds.
+/// N, the largest number of planes of a vertex. At collapsed triangles a vertex would otherwise have hundreds.
 inline constexpr int most_planes = 16;
 
-/// Holds the regions of all vertices since the last detection.
+/// Holds the regions of all vertices, as the last detection left them.
 struct FeasibleRegions {
   const Vec* centre = nullptr;        ///< X_prev by vertex [m]
   const float* radius = nullptr;      ///< b_v by vertex [m]
@@ -65,9 +68,9 @@ struct FeasibleRegions {
 
   /// Returns whether regions have half-spaces.
   OGC_HD bool has_planes() const { return counts != nullptr; }
-  /// Returns the ball. A kernel reads it early, together with its other loads.
+  /// Returns the ball of a vertex, so that a kernel can load it early, together with other data.
   OGC_HD Ball ball(int v) const { return {centre[v], radius[v]}; }
-  /// Returns the region of a vertex, whose ball was read before.
+  /// Returns the region of a vertex; `ball` is its result of ball(v).
   OGC_HD FeasibleRegion region(int v, const Ball& ball) const {
     if (is_off) return {{ball.centre, unbounded}};
     if (counts == nullptr) return {ball};
@@ -76,7 +79,7 @@ struct FeasibleRegions {
   OGC_HD FeasibleRegion operator[](int v) const { return region(v, ball(v)); }
 
  private:
-  /// [m]; its square fits into single precision
+  /// radius of an unbounded ball [m]; its square fits into single precision
   static constexpr float unbounded = 0x1p50F;
 };
 

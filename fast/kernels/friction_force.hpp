@@ -1,6 +1,6 @@
 // Adds the friction of one contact on one vertex: IPC's lagged potential with f₁, in the stabilised form of Vertex
-// Block Descent (method.md §4.4). λ, n and the weights are taken at the positions that the update reads, and are
-// constants of the derivatives.
+// Block Descent (method.md §4.4). The derivatives treat λ, n and the weights, taken at the positions that the update
+// reads, as constants.
 #pragma once
 
 #include "fast/kernels/arithmetic/accumulator.hpp"
@@ -10,15 +10,15 @@
 
 namespace ogc::fast {
 
-/// Returns f₁(y)/y [1/m] with ε = ε_v h [m]: (2 − y/ε)/ε for y < ε, else 1/y.
+/// Returns f₁(y)/y [1/m] for the slip y and ε = ε_v h [m]: (2 − y/ε)/ε for y < ε, else 1/y.
 template <class T>
 OGC_HD T friction_slope_over_slip(const T& slip, float limit) {
   return choose(
       slip < T(limit), [&] { return (2.0f - slip / limit) / limit; }, [&] { return 1.0f / slip; });
 }
 
-/// Adds −μ λ f₁/‖u‖ w u and the block μ λ f₁/‖u‖ w² (I − n nᵀ), with `majorant` in place of w². `moved` = Σ w_i (x_i −
-/// x_iᵗ), u its tangential part [m]; `normal_force` λ ≥ 0 [N]; `limit` ε_v h [m].
+/// Adds the force −μ λ f₁/‖u‖ w u and the block μ λ f₁/‖u‖ w² (I − n nᵀ), with `majorant` in place of w². u is the
+/// slip, the tangential part of `moved` = Σ w_i (x_i − x_iᵗ) [m]. `normal_force` is λ ≥ 0 [N], `limit` is ε_v h [m].
 template <class T>
 OGC_HD void add_friction(const Vector<T>& normal, const Vector<T>& moved, const T& weight, const T& majorant,
                          const T& friction, const T& normal_force, float limit, ForceAndBlockOf<T>& sum) {

@@ -1,4 +1,5 @@
-// Truncates a proposal to the region of its vertex (method.md §5). Every kernel that moves a vertex writes the result.
+// Truncates proposed positions to the regions of their vertices (method.md §5). Every kernel that moves a vertex calls
+// this.
 #pragma once
 
 #include "fast/kernels/control.hpp"
@@ -7,8 +8,8 @@
 
 namespace ogc::fast {
 
-/// Returns the proposal of a free vertex, truncated to its region; `cut`: it was changed. All `lanes` of a team call
-/// this together.
+/// Returns the proposal for a free vertex, truncated to its region; `cut`: truncation changed it. All lanes of a team
+/// must call this together.
 template <class Metric, class Lanes = OneLane>
 OGC_HD Truncated held(const FeasibleRegion& region, const Vec& current, const Vec& proposal, const Metric& metric,
                       const Lanes& lanes = {}) {
@@ -18,14 +19,15 @@ OGC_HD Truncated held(const FeasibleRegion& region, const Vec& current, const Ve
   return slide_into(region, current, proposal, metric, lanes);
 }
 
-/// Returns the target of a prescribed vertex, truncated along its straight path.
+/// Returns the target of a prescribed vertex, truncated to its region on the straight line to the target.
 OGC_HD inline Truncated held_on_path(const FeasibleRegion& region, const Vec& current, const Vec& target) {
   if (region.count == 0) return truncate(region.ball, target);
   if (is_within(region, target)) return {target, false};
   return scale_into(region, region.slides ? current : region.ball.centre, target, OneLane{});
 }
 
-/// Counts a prescribed vertex that did not reach its target.
+/// Counts a prescribed vertex that did not reach its target: as cut, or with planes as lagging. `previous` is its
+/// X_prev.
 OGC_HD inline void count_behind(StepControl& control, const Truncated& kept, const Vec& previous,
                                 const FeasibleRegions& regions) {
   if (!kept.cut) return;

@@ -1,4 +1,4 @@
-// Computes inertia's target y, and adds force and block of its energy m/(2h²) ‖x − y‖².
+// Computes the target y of inertia, and adds force and block of its energy m/(2h²) ‖x − y‖².
 #pragma once
 
 #include "fast/kernels/arithmetic/accumulator.hpp"
@@ -12,7 +12,7 @@ OGC_HD inline Vec inertia_target(const Vec& start, const Vec& velocity, const Ve
   return start + step * (velocity + step * acceleration);
 }
 
-/// Adds force and block of inertia; `weight` is m/h² [N/m].
+/// Adds the force and block of inertia; `weight` is m/h² [N/m].
 OGC_HD inline void add_inertia(float weight, const Vec& position, const Vec& target, ForceAndBlock& sum) {
   sum.add_force(weight, target - position);
   sum.add_identity(weight);

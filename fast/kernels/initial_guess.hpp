@@ -13,21 +13,21 @@
 
 namespace ogc::fast {
 
-/// Sets x = xᵗ and y, and finds the largest move. y of a prescribed vertex is its target of the step, y of a fixed
-/// vertex its position. Index over all vertices.
+/// Sets x = xᵗ and y for each vertex, and finds the largest move. For a prescribed vertex y is the target of this step,
+/// for a fixed vertex its position. Index over all vertices.
 struct BeginVertex {
   const Vec* start;               ///< xᵗ
   const Vec* velocity;            ///< vᵗ
   const int* prescribed_number;   ///< by vertex: number among the prescribed ones; −1 free, −2 fixed
-  const Vec* prescribed_targets;  ///< [step of the frame][number]
-  int prescribed_count;           ///< vertices in a row of targets
+  const Vec* prescribed_targets;  ///< [step of the frame][number of the prescribed vertex]
+  int prescribed_count;           ///< prescribed vertices: length of a row of targets
   Vec acceleration;               ///< a [m/s²]
   float step;                     ///< h [s]
   Vec* position;                  ///< x by vertex [m], written
   Vec* target;                    ///< y by vertex [m], written
-  Vec* taken;                     ///< by vertex, set to 0: the first round of the guess loop reads it
-  StepControl* control;           ///< on the backend; largest_move is raised, infinite and NaN moves are counted
-  /// by vertex, not 0 on driven volumes, which move to their targets here; null if there are none
+  Vec* taken;                     ///< by vertex; set to 0, as the first round of the guess loop expects
+  StepControl* control;  ///< on the backend; largest_move is raised, moves that are infinite or NaN are counted
+  /// by vertex: not 0 on driven volumes, which move to their targets here; null if there are no driven volumes
   const std::uint8_t* is_driven_volume = nullptr;
 
   OGC_HD void operator()(int v) const {
@@ -49,16 +49,18 @@ struct BeginVertex {
   }
 };
 
-/// Checks the certificate of the ending regions, in double on stored positions, then sets X_prev ← x. Before the first
-/// detection of a step nothing is checked: those regions are of an earlier step, which was certified. Index over all
-/// vertices, before a detection.
+/// Checks before a detection, in double on stored positions, that each vertex is in its old region; then sets X_prev ←
+/// x. Before the first detection of a step it checks nothing, because the end of the previous step checked the old
+/// regions. Index over all vertices.
 struct BeginRegions {
-  const Vec* position;          ///< x by vertex [m]
-  FeasibleRegions ended;        ///< left by the last detection
-  Vec* previous;                ///< X_prev by vertex [m], written
-  StepControl* control;         ///< on the backend; vertices outside their region are counted
-  Vec* displacement = nullptr;  ///< y − x or x − X_prev by vertex [m], written; set if it divides gaps (bounds=dat)
-  const Vec* target = nullptr;  ///< y by vertex in the guess loop, later null; read if displacements are written
+  const Vec* position;    ///< x by vertex [m]
+  FeasibleRegions ended;  ///< regions of the last detection
+  Vec* previous;          ///< X_prev by vertex [m], written
+  StepControl* control;   ///< on the backend; vertices outside their region are counted
+  /// w by vertex [m], written: y − x if `target` is set, else x − X_prev; null if no gaps are divided by speed (only
+  /// bounds=dat)
+  Vec* displacement = nullptr;
+  const Vec* target = nullptr;  ///< y by vertex in the guess loop, later null; read only if `displacement` is set
 
   OGC_HD void operator()(int v) const {
     const Vec x = position[v];
@@ -68,16 +70,17 @@ struct BeginRegions {
   }
 };
 
-/// Sets x ← y truncated about X_prev. Contacts may first shorten the move of a free vertex, and the truncation slides
-/// it along half-spaces with the metric of inertia. A touching prescribed vertex stays from the second round on: the
-/// sweeps move what is in its way. Index over all vertices.
+/// Sets x to y, truncated to the region. Before this, contacts may shorten the move of a free vertex. The truncation
+/// slides it along half-spaces with the metric of inertia. From the second round on, a prescribed vertex that touches
+/// others stays, because only the sweeps move its neighbours out of its way. Index over all vertices.
 struct GuessVertex {
   const Vec* target;        ///< y by vertex [m]
   FeasibleRegions regions;  ///< about X_prev
-  /// `taken` is a double buffer: even rounds read its first half and write its second, odd rounds the reverse
+  /// reads one half of the double buffer `taken`: in even rounds the first, in odd rounds the second; `taken` below
+  /// gets the other
   GuessContacts contacts;
-  int vertex_count;              ///< length of one half
-  Vec* taken;                    ///< the buffer of contacts.taken, written
+  int vertex_count;              ///< length of one half of `taken`
+  Vec* taken;                    ///< both halves: what contacts removed from each vertex's move [m], written
   Vec* position;                 ///< x by vertex [m], written
   StepControl* control;          ///< on the backend; `active` and `rounds` are read, cuts are counted
   const int* prescribed_number;  ///< as in BeginVertex
@@ -97,7 +100,7 @@ struct GuessVertex {
   }
 
  private:
-  /// Returns the position before truncation: y itself, to the bit, if no contact holds the vertex.
+  /// Returns the position before truncation. If no contact shortens the move, this is y to the bit.
   OGC_HD Vec proposal(int v, const Vec& stay) const {
     const bool is_odd = control->rounds % 2 != 0;
     GuessContacts here = contacts;
@@ -113,13 +116,13 @@ struct GuessVertex {
   }
 };
 
-/// Copies xᵗ and x after the guess to the buffers of the sweep. Both buffers get x, because the sweep writes no fixed
-/// vertex. Index over all vertices.
+/// Copies xᵗ and x after the guess loop into the buffers of the sweep. Both position buffers get x, because the sweep
+/// never writes fixed vertices. Index over all vertices.
 struct BeginSweep {
   const Vec* start;         ///< xᵗ by vertex [m]
   const Vec* position;      ///< x by vertex [m]
   PaddedVec* padded_start;  ///< xᵗ by vertex [m], written
-  PaddedVec* padded;        ///< x by vertex in both buffers, the fresh one behind the old one, written
+  PaddedVec* padded;        ///< x by vertex, in the old buffer and in the fresh one behind it, written [m]
   int vertex_count;         ///< length of one buffer
 
   OGC_HD void operator()(int v) const {

@@ -1,5 +1,5 @@
-// Reads the element data of a kind's formulas. The formulas are written once, for one element (here) or for several
-// side by side on a CPU (fast/cpu/packed_items.hpp), with the same bits.
+// Reads the data of elements for the formulas of a kind. The formulas are written once, for one element (OneItem) or
+// for several side by side on a CPU (fast/cpu/packed_items.hpp), and both give the same bits.
 #pragma once
 
 #include "fast/kernels/arithmetic/accumulator.hpp"
@@ -13,7 +13,7 @@ struct OneItem {
   using Number = float;  ///< number type of the formulas
   const Item& item;
 
-  /// Return number(item) and condition(item).
+  /// Return number(item), and condition(item).
   template <class F>
   OGC_HD float each(F number) const {
     return number(item);
@@ -22,12 +22,12 @@ struct OneItem {
   OGC_HD bool which(F condition) const {
     return condition(item);
   }
-  /// Returns the position [m] of the vertex with the encoded index index(item), from the buffer that the update reads.
+  /// Returns the position of a vertex [m] in the buffer that the update reads; index(item) is its encoded index.
   template <class F>
   OGC_HD Vec position(const SweepShared& view, F index) const {
     return view.read(index(item));
   }
-  /// Returns xᵗ of that vertex [m].
+  /// Returns xᵗ of the vertex with the encoded index index(item) [m].
   template <class F>
   OGC_HD Vec start(const SweepShared& view, F index) const {
     return view.start[decoded(index(item))];

@@ -1,5 +1,5 @@
-// Kernels that end a step: the last certificate, the commit, and the terms of the row that reports the step. Terms are
-// in double; no position depends on them.
+// Ends a step: checks the last certificate, commits positions and velocities, and sums the terms of the row that
+// reports the step. Terms are in double; no position depends on them.
 #pragma once
 
 #include <cmath>
@@ -12,39 +12,40 @@
 
 namespace ogc::fast {
 
-/// One row of the device's reports, one for each step of a frame; the host converts it to a compare::StepMetrics.
+/// A row of the device's report, one for each step of a frame. The host converts it to a compare::StepMetrics.
 struct StepRow {
   int status = 0;                                         ///< compare::StepStatus bits; 0: the step was committed
   int vertex_facet_contacts = 0, edge_edge_contacts = 0;  ///< records of the last detection
-  /// counts of the step; cut_last: vertices that its last iteration cut
+  /// counts of the step; cut_last: vertices that the last iteration cut
   int detections = 0, rounds = 0, iterations = 0, cut_last = 0;
-  /// r_q, the largest lag, the smallest b_v or, with planes, the smallest distance [m]
+  /// r_q; largest lag; smallest b_v, or with planes smallest distance of any pair [m]
   float query_radius = 0, largest_lag = 0, smallest_bound = 0;
   double lost_guess = 0, lost_end = 0;  ///< ‖Σ m (x − y)‖/‖Σ m (y − xᵗ)‖ after the guess loop and at the end [1]
-  /// at the end [J]; without StepSettings::energies elastic is the energy of tetrahedra alone, and contact is 0
+  /// at the end [J]; without StepSettings::energies, `elastic` is only the energy of tetrahedra, and `contact` is 0
   double kinetic = 0, gravity = 0, elastic = 0, contact = 0;
   int inverted = 0;  ///< tetrahedra with J ≤ 0
-  /// at the last detection: contacts with volumes, vertices inside, sheets without any way out, largest depth [m]
+  /// at the last detection: contacts with volumes, vertices inside, sheets without a way out, largest depth [m]
   int volume_contacts = 0, vertices_inside = 0, depth_unresolved = 0;
   float deepest = 0;
-  /// with rods: smallest distance of contacts that act [m], mean and largest ‖D‖/l − 1 of segments
+  /// with rods: smallest distance of contacts that exert a force [m], largest and mean ‖D‖/l − 1 of segments
   float smallest_contact = 0, largest_stretch = 0;
   double mean_stretch = 0;
   double last_motion = 0;  ///< motion of the last sweep over that of the step, weighted by mass [1]
-  /// if forces were measured: Eq. 29 and the part of it that may be rounding [1]; vertices that a bound holds
+  /// if forces were measured: residual of Eq. 29, the part of it that rounding may cause [1], and the number of
+  /// vertices that a bound holds
   double left_residual = 0, left_rounding = 0;
   int left_held = 0;
 };
 
-/// Checks a vertex at the end of a step: certificate, largest lag, smallest bound (with half-spaces: smallest
-/// distance). Index over all vertices.
+/// Checks a vertex at the end of a step: its certificate, its lag, and its bound (with planes: its smallest distance).
+/// Index over all vertices.
 struct CheckVertex {
-  const Vec* position;             ///< x by vertex [m]
+  const Vec* position;             ///< regions of the last detection
   FeasibleRegions regions;         ///< of the last detection
   const Vec* target;               ///< y by vertex [m]
   const int* prescribed_number;    ///< by vertex: number among the prescribed ones; −1 free, −2 fixed
   StepControl* control;            ///< on the backend; counts and extremes are written
-  const float* nearest = nullptr;  ///< smallest distances [m], if there are half-spaces
+  const float* nearest = nullptr;  ///< by vertex: smallest distance [m]; set if there are planes
 
   OGC_HD void operator()(int v) const {
     if (control->active == 0) return;
@@ -58,7 +59,7 @@ struct CheckVertex {
   }
 };
 
-/// Stops the step before its commit if the certificate failed.
+/// Stops the step before its commit if a check failed.
 struct EndCheck {
   StepControl* control;  ///< on the backend
 
@@ -81,7 +82,7 @@ struct CommitVertex {
   }
 };
 
-/// Copies bounds for a snapshot. Index over all vertices.
+/// Copies the bounds into a stored state. Index over all vertices.
 struct CopyBound {
   const float* from;  ///< b_v by vertex [m]
   float* to;
@@ -89,7 +90,8 @@ struct CopyBound {
   OGC_HD void operator()(int v) const { to[v] = from[v]; }
 };
 
-/// Adds the terms of a vertex, before the commit: momentum lost so far, and at the end kinetic and gravity energy.
+/// Adds the terms of a vertex to the sums, before the commit: kinetic energy, gravity, lost momentum and last motion.
+/// Of the sums after the guess loop only the lost momentum is reported.
 struct VertexTerm {
   const Vec* position;           ///< x by vertex [m]
   const PaddedVec* before;       ///< x by vertex before the last sweep [m]; null if there was none
@@ -136,12 +138,12 @@ OGC_HD inline double momentum_lost(const double* sums) {
 /// Returns the quotient of two sums; 0 if `whole` is 0.
 OGC_HD inline double share_of(double part, double whole) { return whole > 0 ? part / whole : 0.0; }
 
-/// Writes the row of a step, also if the step failed; the last kernel of each step. A step that a full list stopped is
-/// repeated and has no row.
+/// Writes the row of a step, even if the step failed; this is the last kernel of each step. A step that stopped because
+/// a list was full has no row, because it is repeated.
 struct FinishStep {
   StepControl* control;  ///< on the backend
   ContactView contacts;  ///< their counts are reported
-  const double* sums;    ///< the first guess_columns after the guess loop, then SumColumn at the end
+  const double* sums;    ///< guess_columns sums after the guess loop, then SumColumn at the end of the step
   StepRow* rows;         ///< by step of the frame, on the backend
   int segments = 0;      ///< segments of rods
   /// by LeftColumn, on the backend; null if forces were not measured
@@ -187,8 +189,8 @@ struct FinishStep {
   }
 
  private:
-  /// Writes the residual of Eq. 29: the mean of f over the vertices that no bound holds, over the mean of f* of all
-  /// free ones.
+  /// Writes the residual of Eq. 29: the mean of ‖f‖ over the vertices that no bound holds, divided by the mean of ‖f*‖
+  /// over all free vertices.
   OGC_HD void add_left(StepRow& row) const {
     const double reference = share_of(left[left_reference], free_vertices), unheld = free_vertices - left[left_held];
     row.left_residual = share_of(share_of(left[left_force], unheld), reference);

@@ -1,5 +1,5 @@
-// Searches for a detection whose pairs get planes. Every pair within r_q is noted, even if its partners have nearer
-// neighbours, because a vertex's pairs without planes are only known if all its pairs are.
+// Searches for a detection that places planes. It notes every pair within r_q, even if its vertices have nearer pairs:
+// which pairs of a vertex have no plane is only known when all its pairs are known.
 #pragma once
 
 #include "fast/kernels/detect_edge_edge.hpp"
@@ -7,19 +7,20 @@
 
 namespace ogc::fast {
 
-/// Searches all vertices; a Query of search.hpp.
+/// Searches the tree of facets for all vertices. It is a Query of search.hpp.
 struct NearVertexFacet : DetectVertexFacet {
   const float* query_radius;  ///< r_q [m], on the backend
 
-  /// Returns the search of the i-th vertex along the Hilbert curve. Its limit is that of r_q and never falls.
+  /// Returns the search of the i-th vertex along the Hilbert curve. Its limit is the gap limit of r_q and does not
+  /// fall.
   OGC_HD Search begin(int i) const {
     const int v = vertex_order[i];
     const Vec x = searched_from(v);
     return {{x, x}, v, 0, gap_limit(*query_radius)};
   }
 
-  /// Returns the limit of r_q; negative if the boxes are farther apart, or if vertex and facet form no pair (method.md
-  /// §2.3).
+  /// Returns the gap limit of r_q. The result is negative if the boxes are farther apart, or if vertex and facet form
+  /// no pair (method.md §2.3).
   OGC_HD float candidate_limit(const Search& search, const Offer& offer) const {
     if (offer.gap > search.limit) return -1.0F;
     const int v = search.owner;
@@ -29,13 +30,14 @@ struct NearVertexFacet : DetectVertexFacet {
     return search.limit;
   }
 
-  /// Returns whether the pair may be within r_q, by a lower bound of its distance.
+  /// Returns whether the pair may be within r_q; computes only a lower bound of its distance.
   OGC_HD bool is_pair(const Search& search, const Offer& offer) const {
     if (candidate_limit(search, offer) < 0) return false;
     return !is_beyond(separation(search.box.lower, corners(surface.facets[offer.primitive])), search.limit);
   }
 
-  /// Notes the pair if it may be nearer than r_q; it is `certain` if it is certainly nearer than r.
+  /// Notes the pair if it may be nearer than r_q, as `certain` if it is certainly nearer than r. Returns the unchanged
+  /// limit.
   OGC_HD float meet(const Search& search, int t, float) const {
     const Distance d = point_triangle_distance(search.box.lower, corners(surface.facets[t]));
     if (d.may_be_within(*query_radius)) lists.note({~search.owner, t}, d.is_surely_within(contact_radius));
@@ -43,17 +45,17 @@ struct NearVertexFacet : DetectVertexFacet {
   }
 };
 
-/// Searches all edges; each pair once, as in DetectEdgeEdge.
+/// Searches the tree of edges for all edges, each pair once, as DetectEdgeEdge does.
 struct NearEdgeEdge : DetectEdgeEdge {
   const float* query_radius;  ///< r_q [m], on the backend
 
-  /// Returns the search of the edge at place i of the tree; it covers the places behind i. Its limit never falls.
+  /// Returns the search of the edge at place i of the tree. It covers the places behind i, and its limit does not fall.
   OGC_HD Search begin(int i) const {
     const Child child = tree.node(0, i / 4).child[i % 4];
     return {child.box(), child.primitive, i + 1, gap_limit(*query_radius)};
   }
 
-  /// Returns the same as NearVertexFacet::candidate_limit.
+  /// Returns the gap limit of r_q; a negative number as NearVertexFacet::candidate_limit does.
   OGC_HD float candidate_limit(const Search& search, const Offer& offer) const {
     if (offer.gap > search.limit) return -1.0F;
     const EdgeEnds p = surface.edges[search.owner], q = surface.edges[offer.primitive];
@@ -61,17 +63,17 @@ struct NearEdgeEdge : DetectEdgeEdge {
     return search.limit;
   }
 
-  /// Returns the same as NearVertexFacet::is_pair.
+  /// Returns whether the pair may be within r_q; computes only a lower bound of its distance.
   OGC_HD bool is_pair(const Search& search, const Offer& offer) const {
     if (candidate_limit(search, offer) < 0) return false;
     return !is_beyond(separation(ends(surface.edges[search.owner]), ends(surface.edges[offer.primitive])),
                       search.limit);
   }
 
-  /// Returns false: every pair is noted.
+  /// Returns false, because every pair is noted.
   OGC_HD bool is_idle(const Search&, const Offer&, float) const { return false; }
 
-  /// Notes the pair as NearVertexFacet::meet does.
+  /// Notes the pair if it may be nearer than r_q, as NearVertexFacet::meet does. Returns the unchanged limit.
   OGC_HD float meet(const Search& search, int other, float) const {
     const int low = search.owner < other ? search.owner : other, high = search.owner < other ? other : search.owner;
     const Distance d = edge_edge_distance(ends(surface.edges[low]), ends(surface.edges[high]));

@@ -1,8 +1,8 @@
-// Planes between pairs (method.md §5.6). A ball prevents a vertex from sliding along a neighbour and from leaving it; a
-// half-space prevents the approach alone. A pair has one normal n and two offsets o₁ < o₂: all vertices of its first
-// side keep n·x ≤ o₁, all vertices of its second side n·x ≥ o₂. If two positions keep these inequalities, so do the
-// convex hulls of both sides at every instant of a straight motion between them: the pair cannot meet. n may be any
-// vector, if all vertices of the pair read the same bits.
+// Computes planes between pairs (method.md §5.6). A ball prevents a vertex from sliding along a neighbour and from
+// leaving it; a half-space only prevents the approach. A pair has one normal n and two offsets o₁ < o₂: all vertices of
+// its first side keep n·x ≤ o₁, all vertices of its second side n·x ≥ o₂. If the positions before and after a straight
+// motion keep these inequalities, the convex hulls of both sides keep them at every instant between. So the pair cannot
+// intersect. n may be any vector, if all vertices of the pair use the same bits.
 #pragma once
 
 #include "fast/kernels/arithmetic/solve3.hpp"
@@ -13,13 +13,13 @@
 
 namespace ogc::fast {
 
-/// Holds the plane of a pair, or only a lower bound of the pair's distance if it has no plane.
+/// Holds the plane of a pair, or only a lower bound of the pair's distance if there is no plane.
 struct alignas(8) PairPlane {
   Vec normal;                    ///< from the first side to the second; 0: there is no plane
   float below = 0;               ///< lower bound of the pair's distance [m]
   double first = 0, second = 0;  ///< offsets o₁ < o₂ [m]
 
-  /// Returns whether there is a plane; of_first() and of_second() return the half-spaces for the vertices of each side.
+  /// Returns whether there is a plane. of_first() and of_second() return its half-space for the vertices of each side.
   OGC_HD bool exists() const { return normal.x != 0 || normal.y != 0 || normal.z != 0; }
   OGC_HD HalfSpace of_first() const { return {normal, first}; }
   OGC_HD HalfSpace of_second() const { return {-normal, -second}; }
@@ -32,7 +32,8 @@ struct PairPoints {
   bool is_first_fixed, is_second_fixed;
 };
 
-/// Returns the gap between the projections of both sides onto `direction` [m]. All points are relative to one of them.
+/// Returns the gap between the projections of both sides onto `direction` [m]. All points are relative to the same
+/// origin.
 template <int m, int n>
 OGC_HD double shadow_gap(const Real& direction, const Real (&first)[m], const Real (&second)[n]) {
   double top = dot(direction, first[0]).value, bottom = dot(direction, second[0]).value;
@@ -41,9 +42,9 @@ OGC_HD double shadow_gap(const Real& direction, const Real (&first)[m], const Re
   return divide(sub(bottom, top), square_root(squared(direction)));
 }
 
-/// Replaces the best direction if the new one has a larger gap. The gap between the projections of two convex sets is
-/// at most their distance, and equal to it along the line of their closest points. So it is not necessary to know which
-/// faces hold these points.
+/// Replaces `best` if the new direction has a larger gap. For any direction the gap between the projections of two
+/// convex sets is at most their distance. It is equal to the distance along the line of their closest points. So this
+/// line wins without a decision which faces hold these points.
 template <int m, int n>
 OGC_HD void offer_direction(Real& best, double& best_gap, const Real& direction, const Real (&first)[m],
                             const Real (&second)[n]) {
@@ -53,11 +54,10 @@ OGC_HD void offer_direction(Real& best, double& best_gap, const Real& direction,
   best_gap = gap;
 }
 
-/// Returns the vector from the origin to the closest point of the segment from a along e.
+/// Returns the vector from the origin to the closest point of the segment from a to a + e.
 OGC_HD inline Real to_segment(const Real& a, const Real& e) { return a + Rounded{segment_parameter(-a, e)} * e; }
 
-/// Returns the direction from a vertex, the first side, to the closest point of a triangle, the second side; 0 if they
-/// touch.
+/// Returns the direction from a vertex (first side) to the closest point of a triangle (second side); 0 if they touch.
 OGC_HD inline Real separating_direction(const PairPoints<1, 3>& pair) {
   const Real first[1] = {};
   const Real second[3] = {difference<Rounded>(pair.second[0], pair.first[0]),
@@ -76,7 +76,7 @@ OGC_HD inline Real separating_direction(const PairPoints<1, 3>& pair) {
   return best;
 }
 
-/// Returns the direction from the first edge's closest point to that of the second edge; 0 if they touch.
+/// Returns the direction from the closest point of the first edge to the closest point of the second; 0 if they touch.
 OGC_HD inline Real separating_direction(const PairPoints<2, 2>& pair) {
   const Real e = difference<Rounded>(pair.first[1], pair.first[0]),
              f = difference<Rounded>(pair.second[1], pair.second[0]),
@@ -94,7 +94,7 @@ OGC_HD inline Real separating_direction(const PairPoints<2, 2>& pair) {
   return best;
 }
 
-/// Returns the distance of the closed faces, with its slack. No exact sign decides which faces hold the closest points.
+/// Returns the distance of the two closed faces, with its slack.
 OGC_HD inline Distance distance_of(const PairPoints<1, 3>& pair) {
   return point_triangle_distance(pair.first[0], {pair.second[0], pair.second[1], pair.second[2]});
 }
@@ -102,14 +102,14 @@ OGC_HD inline Distance distance_of(const PairPoints<2, 2>& pair) {
   return edge_edge_distance({pair.first[0], pair.first[1]}, {pair.second[0], pair.second[1]});
 }
 
-/// Returns the first side's share of the approach 2γ_p g if both sides can move: one half.
+/// Returns the first side's share of the approach that both sides may make together, 2γ_p times the gap: one half.
 struct Halved {
   OGC_HD double operator()(const Vec&) const { return 0.5; }
 };
 
-/// Returns this share in proportion to both sides' speeds along n (method.md §5.6, `bounds=dat`). The first side's
-/// speed is its largest n·w, the second side's its largest −n·w; the speed of a side that moves away is 0. The share
-/// lies between least_division and 1 − least_division.
+/// Returns this share in proportion to the speeds of both sides along n (method.md §5.6, `bounds=dat`). The speed of
+/// the first side is its largest n·w, that of the second its largest −n·w; it is 0 for a side that moves away. The
+/// share is clamped to least_division … 1 − least_division.
 template <int first_count, int second_count>
 struct ByApproach {
   Vec first[first_count], second[second_count];  ///< w by vertex of the side [m]
@@ -126,11 +126,11 @@ struct ByApproach {
   }
 };
 
-/// Returns the plane of a pair at its positions, with γ_p = `share` and `below` a lower bound of its distance. Together
-/// both sides may approach by 2γ_p of the gap; the first side has the share division(n) of this. If one side is fixed
-/// the other side has all of it, and the fixed side's offset is half way between the side and the other offset. Offsets
-/// are computed from the points themselves, so n need not be exact. Each point is tested with the test that truncation
-/// uses; a pair with a point that fails has no plane.
+/// Returns the plane of a pair at its positions. `share` is γ_p, `below` a lower bound of the pair's distance. Together
+/// both sides may approach by 2γ_p of the gap; division(n) of this is the first side's share. If one side is fixed the
+/// other has all of it. The fixed side's offset is then half way between the fixed side and the other side's offset.
+/// Offsets are computed from the points themselves, so n need not be exact. All points must pass the test that
+/// truncation uses; otherwise the pair has no plane.
 template <int m, int n, class Division = Halved>
 OGC_HD PairPlane plane_of(const PairPoints<m, n>& pair, float below, float share, const Division& division = {}) {
   PairPlane plane;
@@ -156,8 +156,8 @@ OGC_HD PairPlane plane_of(const PairPoints<m, n>& pair, float below, float share
   return separates ? placed : plane;
 }
 
-/// Returns the first half-space, from number `from` on, that x does not certainly keep; region.count if there is none.
-/// Team lanes share the tests, because in sequence they would be the slowest part of a colour.
+/// Returns the first half-space, from number `from` on, in which x does not certainly lie; region.count if there is
+/// none. Team lanes share the tests, which would otherwise be the slowest part of an update.
 template <class Lanes>
 OGC_HD int first_left(const FeasibleRegion& region, const Vec& x, const Lanes& lanes, int from = 0) {
   return lanes.first(region.count, from, [&](int k) { return !is_behind(region.planes[k], x); });
@@ -169,14 +169,14 @@ OGC_HD bool is_within(const FeasibleRegion& region, const Vec& x, const Lanes& l
   return first_left(region, x, lanes) == region.count && is_within(region.ball, x);
 }
 
-/// Returns H⁻¹ n, the direction in which a vertex leaves a half-space with the least increase of its energy.
+/// Returns H⁻¹ n, the direction in which a vertex enters a half-space with the least increase of its energy.
 struct BlockMetric {
   Symmetric3 block;    ///< H of the update, inertia included [N/m]
   float fallback = 0;  ///< as in solve_symmetric
 
   OGC_HD Vec operator()(const Vec& n) const { return solve_symmetric(block, n, fallback); }
 };
-/// Returns n, which is this direction if the energy is inertia alone.
+/// Returns n, which is the direction of BlockMetric if the energy is inertia alone.
 struct InertiaMetric {
   OGC_HD Vec operator()(const Vec& n) const { return n; }
 };
@@ -186,28 +186,29 @@ namespace slide {
 using Point = Vector<double>;
 inline constexpr int passes = 4, nudges = 3;  ///< at most: passes over the half-spaces, nudges of a stored position
 
-/// Convert to double without loss, and back with one rounding.
+/// Convert to double without loss, and to single precision with one rounding.
 OGC_HD inline Point wide(const Vec& a) { return {a.x, a.y, a.z}; }
 OGC_HD inline Vec stored(const Point& a) {
   return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
 }
 
-/// Returns how far across the plane y can move if it is stored in single precision (2⁻²⁴ of each coordinate) and nudged
-/// `steps` times (2⁻²³ of one coordinate each).
+/// Returns how far y can move across the plane when it is stored in single precision and then nudged `steps` times.
+/// Storing moves each coordinate by up to 2⁻²⁴ of itself. A nudge moves one coordinate to the next float, by up to 2⁻²³
+/// of itself.
 OGC_HD inline double room_to_store(const HalfSpace& plane, const Point& y, int steps) {
   const Point n = wide(plane.normal);
   return (1 + 2 * steps) * 0x1p-24 * (modulus(n.x * y.x) + modulus(n.y * y.y) + modulus(n.z * y.z));
 }
 
-/// Returns how far y lies beyond the plane, plus the distance that storing can add. The value only guides the search
-/// for a position; `is_within` decides whether the position is accepted.
+/// Returns how far y lies beyond the plane, plus the distance by which storing can increase this. The value only guides
+/// the search for a position; `is_within` decides whether the position is accepted.
 OGC_HD inline double beyond(const HalfSpace& plane, const Point& y) {
   return dot(wide(plane.normal), y) - plane.offset + room_to_store(plane, y, 0);
 }
 
-/// Returns the radius about the centre within which storing and `steps` nudges leave no position outside the ball.
-/// Storing moves each coordinate by at most 2⁻²⁴ (‖X_prev‖_∞ + b), so the point by √3 times that. The code uses twice
-/// that, because the arithmetic here is rounded, too.
+/// Returns a radius such that a point within it remains in the ball when it is stored and nudged `steps` times. Storing
+/// moves each coordinate by at most 2⁻²⁴ (‖X_prev‖_∞ + b), so the point by √3 times this. The code uses the factor 2
+/// instead, because the arithmetic here is rounded, too.
 OGC_HD inline double safe_radius(const FeasibleRegion& region, int steps = 0) {
   const Point centre = wide(region.ball.centre);
   const double radius = static_cast<double>(region.ball.radius);
@@ -215,7 +216,8 @@ OGC_HD inline double safe_radius(const FeasibleRegion& region, int steps = 0) {
   return larger(0.0, radius - (2 + 2 * steps) * 0x1p-24 * size);
 }
 
-/// Moves y into the violated half-spaces, one after the other, then into the ball.
+/// Moves y into the half-spaces that it violates, one after the other, then into the ball; repeats this up to `passes`
+/// times.
 template <class Metric, class Lanes>
 OGC_HD Point along_planes(const FeasibleRegion& region, Point y, const Metric& metric, const Lanes& lanes) {
   const Point centre = wide(region.ball.centre);
@@ -240,9 +242,9 @@ OGC_HD Point along_planes(const FeasibleRegion& region, Point y, const Metric& m
   return y;
 }
 
-/// Moves one coordinate of x by one float into the first half-space, or the ball, that x violates. It is the coordinate
-/// that leads farthest inside: steps of a small coordinate, whose spacing is small, would be too short. Storing moves a
-/// point out of a half-space by at most half a spacing of each coordinate times |n_k|, so two steps suffice.
+/// Moves one coordinate of x by one float into the first half-space that x violates, or into the ball. It chooses the
+/// coordinate whose step moves x farthest inside, because floats near 0 are too close together. Storing moves a point
+/// out of a half-space by at most Σ |n_k| half a spacing of coordinate k, so two nudges suffice.
 template <class Lanes>
 OGC_HD Vec nudged(const FeasibleRegion& region, Vec x, const Lanes& lanes) {
   const int left = first_left(region, x, lanes);
@@ -255,8 +257,8 @@ OGC_HD Vec nudged(const FeasibleRegion& region, Vec x, const Lanes& lanes) {
   return x;
 }
 
-/// Returns the stored position, nudged if storing moved it out of the region. The caller checks with `is_within`
-/// whether the nudges sufficed.
+/// Returns the stored position, nudged if it is outside of the region. The caller must check with `is_within` whether
+/// the nudges sufficed.
 template <class Lanes>
 OGC_HD Vec stored_inside(const FeasibleRegion& region, const Point& y, const Lanes& lanes) {
   Vec x = stored(y);
@@ -264,8 +266,8 @@ OGC_HD Vec stored_inside(const FeasibleRegion& region, const Point& y, const Lan
   return x;
 }
 
-/// Returns the share of the way from `from`, which is in the region, to y that stays in the region. Room for storing
-/// and `steps` nudges remains at the end.
+/// Returns the share of the straight way from `from` to y that lies in the region; `from` is in the region. The end
+/// keeps enough distance from its boundary that storing and `steps` nudges do not leave the region.
 template <class Lanes>
 OGC_HD double share_inside(const FeasibleRegion& region, const Point& from, const Point& y, int steps,
                            const Lanes& lanes) {
@@ -277,16 +279,16 @@ OGC_HD double share_inside(const FeasibleRegion& region, const Point& from, cons
                  out = dot(n, y) - plane.offset + room, rise = dot(n, step);
     return out > 0 && rise > 0 ? larger(0.0, 1 - out / rise) : 1.0;
   });
-  // Solves ‖away + s step‖ = radius for s. `from` may lie beyond the safe radius if the way first leads inward.
+  // Solves ‖away + s step‖ = radius for s. `from` may lie beyond this radius if the way first leads inward.
   const double radius = safe_radius(region, steps), bb = dot(step, step), ab = dot(away, step),
                left = radius * radius - dot(away, away), root = ab * ab + bb * left;
   if (bb > 0 && ab + ab + bb > left) share = smaller(share, root > 0 ? larger(0.0, (std::sqrt(root) - ab) / bb) : 0.0);
   return share;
 }
 
-/// Returns the farthest stored position on the way to y that is in the region, or one just short of it; `from` if none
-/// is found. Where a way along one half-space ends at another or at the ball, nudging x into one may move it out of the
-/// other. Then the way is shortened until this does not happen.
+/// Returns the farthest stored position on the way from `from` to y that is in the region, or one just before it;
+/// `from` if none is found. If a half-space and another one, or the ball, bound the way at the same place, a nudge into
+/// the one may leave the other. Then the way is shortened and the nudges are repeated.
 template <class Lanes>
 OGC_HD Vec scaled(const FeasibleRegion& region, const Vec& from, const Point& y, const Lanes& lanes) {
   const Point start = wide(from);
@@ -301,9 +303,9 @@ OGC_HD Vec scaled(const FeasibleRegion& region, const Vec& from, const Point& y,
 
 }  // namespace slide
 
-/// Returns a position of the region near a finite proposal outside it. The proposal slides along the half-spaces, and
-/// is nudged if storing moved it out. If it is still outside, it is scaled towards `current`, which is in the region.
-/// In the worst case the result is `current`.
+/// Returns a position of the region near a finite proposal outside of it. The proposal slides along the half-spaces,
+/// and is nudged if storing moved it out. If it is still outside, it is scaled towards `current`, which is in the
+/// region. If this fails, the result is `current`.
 template <class Metric, class Lanes>
 OGC_HD OGC_OUT_OF_LINE Truncated slide_into(FeasibleRegion region, Vec current, Vec proposal, Metric metric,
                                             Lanes lanes) {
@@ -312,7 +314,8 @@ OGC_HD OGC_OUT_OF_LINE Truncated slide_into(FeasibleRegion region, Vec current, 
   return {is_within(region, x, lanes) ? x : slide::scaled(region, current, y, lanes), true};
 }
 
-/// Truncates along the straight line from `current`. This is for prescribed vertices, whose groups must stay rigid.
+/// Truncates a proposal along the straight line from `current`. Prescribed vertices need this, so that their groups
+/// stay rigid, and bounds that do not slide.
 template <class Lanes>
 OGC_HD OGC_OUT_OF_LINE Truncated scale_into(FeasibleRegion region, Vec current, Vec proposal, Lanes lanes) {
   return {slide::scaled(region, current, slide::wide(proposal), lanes), true};

@@ -1,14 +1,16 @@
-// Turns the pairs within r_q that a search noted into each vertex's half-spaces and ball (method.md §5.6):
+// Turns the pairs within r_q that a search noted into half-spaces and a ball for each vertex (method.md §5.6):
 //
-//   MeasurePairs     by pair    its distance, and its place in the row of each of its vertices
-//   (scan of the rows' lengths)
-//   FillPairRows     by pair    its distance into these rows
-//   ChooseThreshold  by row     δ_v, the (N+1)-th smallest distance
-//   PlacePlanes      by pair    a plane if nearer than δ_v for all its vertices; else it limits the vertices' balls
-//   SortHalfSpaces   by plane   its place in ascending order of pair; for each vertex the ball
+//   MeasurePairs     for each pair: its distance, and its place in the row of each of its vertices
+//   (a scan of the rows' lengths)
+//   FillPairRows     for each pair: enters its distance in these rows
+//   ChooseThreshold  for each row: δ_v, the (N+1)-th smallest distance
+//   PlacePlanes      for each pair: places a plane if it is nearer than δ_v for all its vertices; otherwise its
+//                    distance limits the balls of its vertices
+//   SortHalfSpaces   for each plane: moves it to its place in ascending order of pairs; for each vertex: writes its
+//                    ball
 //
 // No result depends on the order in which pairs were noted: planes are sorted, a threshold is the (N+1)-th of sorted
-// distances, a ball is a minimum. Fixed vertices have no planes and no row.
+// distances, and a ball's radius is a minimum. Fixed vertices have no planes and no row.
 #pragma once
 
 #include "compare/stages/truncate.hpp"
@@ -19,7 +21,7 @@
 
 namespace ogc::fast {
 
-/// The places of a pair in the rows of its vertices.
+/// The places of a pair's distance in the rows of its four vertices.
 struct RowPlaces {
   int at[4];
 };
@@ -27,20 +29,21 @@ struct RowPlaces {
 /// Holds the arrays that the kernels of this file share.
 struct PlaneListsView {
   SurfaceView surface;
-  PaddedVecs positions;                    ///< of the detection
+  PaddedVecs positions;                    ///< x at the detection
   const std::uint8_t* is_fixed = nullptr;  ///< by vertex
   float share = 0;                         ///< γ_p
-  const Vec* displacement = nullptr;       ///< w by vertex [m], for ByApproach; null: gaps are halved
+  const Vec* displacement = nullptr;       ///< w by vertex [m], for ByApproach; null: both sides have half of each gap
   const float* query_radius = nullptr;     ///< r_q [m]
-  const NotedPair* noted = nullptr;        ///< pairs within r_q in any order, numbered by their place
+  const NotedPair* noted = nullptr;        ///< pairs within r_q in any order; a pair's number is its place here
   float* distance = nullptr;               ///< by noted pair, rounded down [m]
   RowPlaces* places = nullptr;             ///< by noted pair
   int* pair_counts = nullptr;              ///< by vertex: number of its pairs
   int* pair_offsets = nullptr;             ///< vertices + 1
   float* pair_rows = nullptr;              ///< distances of vertex v's pairs [m] from pair_offsets[v] on, in any order
   float* threshold = nullptr;              ///< δ_v [m]
-  float* nearest = nullptr;           ///< by vertex: lower bound of the distance of its nearest pair, at most r_q [m]
-  float* unplaned = nullptr;          ///< by vertex: the same bound for its nearest pair without a plane
+  float* nearest = nullptr;  ///< by vertex: lower bound of the distance of its nearest pair, at most r_q [m]
+  /// by vertex: lower bound of the distance of its nearest pair without a plane, at most r_q [m]
+  float* unplaned = nullptr;
   HalfSpace* placed = nullptr;        ///< half-spaces of vertex v from v · most_planes on, in any order
   NotedPair* placed_pairs = nullptr;  ///< the pair of each half-space in `placed`
   HalfSpace* rows = nullptr;  ///< half-spaces of each vertex in ascending order of pair; `pairs` holds their pairs
@@ -48,14 +51,14 @@ struct PlaneListsView {
   int* counts = nullptr;   ///< half-spaces by vertex, at most most_planes
   float* bound = nullptr;  ///< b_v by vertex [m]: γ_p times `unplaned`
 
-  /// Returns whether the pair is stored as ~vertex and facet.
+  /// Returns whether the pair is a vertex and a facet; its first number is then ~vertex.
   OGC_HD bool is_vertex_facet(const NotedPair& pair) const { return pair.first < 0; }
-  /// Returns noted pair i. A search stores its second number inverted if the pair is surely nearer than r.
+  /// Returns noted pair i. The search stored its second number inverted if the pair was certainly nearer than r.
   OGC_HD NotedPair pair(int i) const {
     const NotedPair raw = noted[i];
     return {raw.first, raw.second < 0 ? ~raw.second : raw.second};
   }
-  /// Holds the vertices of a pair; those from `second_from` on belong to the second side.
+  /// Holds the vertices of a pair. The second side consists of those from index `second_from` on.
   struct Vertices {
     int at[4], second_from;
   };
@@ -67,7 +70,7 @@ struct PlaneListsView {
     const EdgeEnds p = surface.edges[pair.first], q = surface.edges[pair.second];
     return {{p.a, p.b, q.a, q.b}, 2};
   }
-  /// Returns f(points) for the PairPoints of a pair.
+  /// Returns f(points) for the positions of a pair.
   template <class F>
   OGC_HD auto at_points(const NotedPair& pair, F f) const {
     const Vertices of = vertices(pair);
@@ -78,7 +81,7 @@ struct PlaneListsView {
       return f(PairPoints<1, 3>{{x[v[0]]}, {x[v[1]], x[v[2]], x[v[3]]}, fixed(0, 0), fixed(1, 2) && fixed(3, 3)});
     return f(PairPoints<2, 2>{{x[v[0]], x[v[1]]}, {x[v[2]], x[v[3]]}, fixed(0, 1), fixed(2, 3)});
   }
-  /// Returns the displacements of a pair's points.
+  /// Returns the displacements w of a pair's vertices; the second argument only selects the type.
   OGC_HD ByApproach<1, 3> approach(const NotedPair& pair, const PairPoints<1, 3>&) const {
     const Vertices of = vertices(pair);
     const Vec* w = displacement;
@@ -98,7 +101,7 @@ struct PlaneListsView {
   }
 };
 
-/// Resets counts and `unplaned` before MeasurePairs. Index over vertices.
+/// Resets counts and `unplaned` before the pairs are measured. Index over vertices.
 struct PreparePlanes {
   PlaneListsView lists;
 
@@ -116,7 +119,7 @@ struct MeasurePairs {
   OGC_HD void operator()(int i) const {
     const NotedPair pair = lists.pair(i);
     const PlaneListsView::Vertices of = lists.vertices(pair);
-    RowPlaces places;  // computed before the distance, which hides the latency of the atomics
+    RowPlaces places;  // places before the distance, whose computation hides the latency of the atomics
     for (int k = 0; k < 4; ++k)
       places.at[k] = lists.is_fixed[of.at[k]] != 0 ? nowhere : atomic_add(&lists.pair_counts[of.at[k]], 1);
     lists.places[i] = places;
@@ -140,7 +143,8 @@ struct FillPairRows {
   }
 };
 
-/// Writes δ_v, the (N+1)-th smallest distance of a vertex's row or infinity, and the smallest one. Called for each row.
+/// Writes δ_v and the smallest distance of a vertex. δ_v is the (N+1)-th smallest distance of its row, infinity if the
+/// row is shorter. Called once for each row.
 struct ChooseThreshold {
   static constexpr int rank = most_planes;
   PlaneListsView lists;
@@ -151,8 +155,8 @@ struct ChooseThreshold {
   }
 };
 
-/// Places the plane of a pair that is nearer than δ_v for all its vertices that can move, if its points pass the
-/// plane's test. The distance of any other pair lowers `unplaned` of its vertices. Index over noted pairs.
+/// Places the plane of a pair if the pair is nearer than δ_v for each of its movable vertices, and if its points pass
+/// the test of plane_of. Otherwise the pair's distance lowers `unplaned` of its vertices. Index over noted pairs.
 struct PlacePlanes {
   PlaneListsView lists;
 
@@ -173,7 +177,7 @@ struct PlacePlanes {
         lower(&lists.unplaned[v], below);
         continue;
       }
-      // in the row: at most N pairs are nearer than δ_v
+      // fits into the row, because at most N pairs are nearer than δ_v
       const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(v) * most_planes + atomic_add(&lists.counts[v], 1);
       lists.placed[at] = k < of.second_from ? plane.of_first() : plane.of_second();
       lists.placed_pairs[at] = pair;
@@ -181,8 +185,8 @@ struct PlacePlanes {
   }
 };
 
-/// Moves each plane to its place in the order; the thread of the first place also writes the ball. Index over N places
-/// of each vertex.
+/// Moves each plane to its place in ascending order of pairs; the thread of place 0 also writes the ball's radius.
+/// Index over N places for each vertex.
 struct SortHalfSpaces {
   PlaneListsView lists;
 

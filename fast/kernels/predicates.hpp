@@ -1,6 +1,6 @@
-// Defines the polynomials whose signs bound the blocks (Eq. 8–10, 14, 15) and decide `d < r`. One polynomial for each
-// boundary serves both classification and membership, so no point falls between two faces (method.md §3.1). Degrees are
-// below 7: between 2⁻⁴⁰ m and 2⁴⁰ m nothing overflows or underflows.
+// Defines the polynomials whose signs bound the blocks (Eq. 8–10, 14, 15) and decide `d < r`. Each boundary has one
+// polynomial, used both to find the closest face and to test blocks, so no point falls between two faces (method.md
+// §3.1). The degrees are at most 6: for lengths between 2⁻⁴⁰ m and 2⁴⁰ m nothing overflows or underflows.
 #pragma once
 
 #include "fast/kernels/arithmetic/exact_sign.hpp"
@@ -13,15 +13,15 @@ OGC_HD N perpendicular_product(const Vector<N>& u, const Vector<N>& w, const Vec
   return dot(u, w) * dot(e, e) - dot(u, e) * dot(w, e);
 }
 
-/// Returns the same from cross products, in which the parts along e cancel term by term. The sums of the general form
-/// lose all digits, even in double-double, if the parts across e are 2⁻¹⁰⁰ of those along e. Small coordinates beside
-/// an edge on an axis cause this.
+/// Returns the same from cross products, in which the parts along e cancel term by term. The formula above would lose
+/// all digits, even in double-double, if the parts across e are 2⁻¹⁰⁰ of the parts along e. Small coordinates beside an
+/// edge on an axis cause this.
 OGC_HD inline Wide perpendicular_product(const Vector<Wide>& u, const Vector<Wide>& w, const Vector<Wide>& e) {
   return dot(cross(u, e), cross(w, e));
 }
 
-/// Is positive if x, projected on the line ab, lies before the end a: on b's side of it. Otherwise x is beyond a. Never
-/// positive for an edge of zero length.
+/// Holds the points of a predicate. value() is positive if the projection of x on the line ab lies on b's side of a, so
+/// that x is not beyond the end a. It is never positive for an edge of zero length.
 struct End {
   /// (x − a)·(b − a) [m²].
   static constexpr int degree = 2;
@@ -32,8 +32,8 @@ struct End {
   }
 };
 
-/// Is positive if x lies on c's side of the edge ab, seen in the triangle's plane; 0 for every x if the triangle has no
-/// area.
+/// Holds the points of a predicate. value() is positive if x lies on c's side of the edge ab, seen in the plane of abc.
+/// It is 0 for every x if the triangle has no area.
 struct Side {
   /// ((x − a) × (b − a))·((c − a) × (b − a)) [m⁴].
   static constexpr int degree = 4;
@@ -44,8 +44,9 @@ struct Side {
   }
 };
 
-/// Is negative if the distance to the line ab falls from v towards w. If the point c of the edge ab closest to v is
-/// inside ab, this is the plane of Eq. 15 at v: c lies in U_v if and only if the value is ≥ 0 for all neighbours w.
+/// Holds the points of a predicate. value() is negative if the distance to the line ab falls from v towards w. Let c be
+/// the point of the edge ab closest to v. If c is in the interior of ab, this is the condition of Eq. 15: c lies in U_v
+/// if and only if value() ≥ 0 for all neighbours w of v.
 struct Receding {
   /// ((v − a) × (b − a))·((w − v) × (b − a)) [m⁴].
   static constexpr int degree = 4;
@@ -56,8 +57,8 @@ struct Receding {
   }
 };
 
-/// Is positive if the edges are nearly parallel: ‖e×f‖² < 10⁻⁶ ‖e‖² ‖f‖² (method.md §1.4). Never for an edge of zero
-/// length.
+/// Holds the points of a predicate. value() is positive if the edges e and f are nearly parallel: ‖e×f‖² < 10⁻⁶ ‖e‖²
+/// ‖f‖² (method.md §1.4). It is never positive for an edge of zero length.
 struct NearlyParallel {
   /// ‖e‖² ‖f‖² − 10⁶ ‖e × f‖² [m⁴], e = b − a, f = d − c.
   static constexpr int degree = 4;
@@ -69,7 +70,7 @@ struct NearlyParallel {
   }
 };
 
-/// Is negative if x is nearer than r to the point a.
+/// Holds the points of a predicate. value() is negative if x is nearer than r to the point a.
 struct PointReach {
   /// ‖x − a‖² − r² [m²].
   static constexpr int degree = 2;
@@ -82,7 +83,7 @@ struct PointReach {
   }
 };
 
-/// Is negative if x is nearer than r to the line ab.
+/// Holds the points of a predicate. value() is negative if x is nearer than r to the line ab.
 struct LineReach {
   /// ‖(x − a) × e‖² − r² ‖e‖² [m⁴], e = b − a.
   static constexpr int degree = 4;
@@ -95,8 +96,9 @@ struct LineReach {
   }
 };
 
-/// Is negative if x is nearer than r to the plane through a that b − a and d − c span. With c = a this is a triangle's
-/// plane. With x = c it decides the distance of the lines ab and cd.
+/// Holds the points of a predicate. value() is negative if x is nearer than r to the plane through a that b − a and d −
+/// c span. With c = a this is the plane of a triangle. With x = c the distance to it is the distance of the lines ab
+/// and cd.
 struct PlaneReach {
   /// ((x − a)·n)² − r² ‖n‖² [m⁶], n = (b − a) × (d − c).
   static constexpr int degree = 6;

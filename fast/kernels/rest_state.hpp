@@ -23,14 +23,14 @@ inline RestVector rest_cross(const RestVector& a, const RestVector& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Holds the area and the gradients ∇N_k of the three linear shape functions in an orthonormal frame of the rest
-/// triangle: F = Σ x_k ∇N_kᵀ (3×2).
+/// Holds the area of a rest triangle, and the gradients ∇N_k of its three linear shape functions in an orthonormal
+/// frame of its plane: F = Σ x_k ∇N_kᵀ (3×2).
 struct RestTriangle {
   double area = 0;             ///< A [m²]
   double gradient[3][2] = {};  ///< ∇N_k by corner [1/m]
 };
 
-/// Returns the rest data of a triangle, which must have an area (validate refuses it otherwise).
+/// Returns the rest data of a triangle. Its area must not be 0; validate refuses other triangles.
 inline RestTriangle rest_triangle(const compare::Vec3& p0, const compare::Vec3& p1, const compare::Vec3& p2) {
   const RestVector first = rest_difference(p1, p0), second = rest_difference(p2, p0);
   const double length = rest_length(first), twice_area = rest_length(rest_cross(first, second));
@@ -45,14 +45,14 @@ inline RestTriangle rest_triangle(const compare::Vec3& p0, const compare::Vec3& 
   return rest;
 }
 
-/// Holds the volume, and what is derived from the four linear shape functions N_k of a tetrahedron.
+/// Holds the volume of a tetrahedron at rest, and the gradients of its four linear shape functions N_k.
 struct RestTetrahedron {
   double volume = 0;            ///< V [m³]
   RestVector gradient[4] = {};  ///< ∇N_k by corner [1/m]
   double weight[6] = {};        ///< V ∇N_k·∇N_l of the pairs 01, 02, 03, 12, 13, 23 [m]
 };
 
-/// Returns the rest data of a tetrahedron, whose volume must be positive (validate refuses it otherwise). ∇N_k =
+/// Returns the rest data of a tetrahedron. Its volume must be positive; validate refuses other tetrahedra. ∇N_k =
 /// n_k/(6V), where n_k points inward and has twice the area of the face opposite corner k.
 inline RestTetrahedron rest_tetrahedron(const compare::Vec3& p0, const compare::Vec3& p1, const compare::Vec3& p2,
                                         const compare::Vec3& p3) {
@@ -69,15 +69,15 @@ inline RestTetrahedron rest_tetrahedron(const compare::Vec3& p0, const compare::
   return rest;
 }
 
-/// Holds the rest data of a hinge. θ₀ is the angle between the triangles (x0, x1, o0) and (x1, x0, o1) in [−π, π], 0 if
-/// they are flat. e = x1 − x0. The weights of x1, o0 and o1 in the isometric model are sums of the cotangents of the
-/// angles at x0 and x1 over ‖e‖.
+/// Holds the rest data of a hinge with the edge e = x1 − x0. θ₀ is the angle between the triangles (x0, x1, o0) and
+/// (x1, x0, o1) in [−π, π]; 0 if they are flat. The weights of x1, o0 and o1 in the isometric model are, up to sign,
+/// sums of the cotangents of the angles at x0 and x1, divided by ‖e‖.
 struct RestHinge {
   double angle = 0, factor = 0;  ///< θ₀ [rad], 3‖e‖²/(A₀ + A₁) [1]
   double weight[3] = {};         ///< of x1, o0, o1 [1/m]
 };
 
-/// Returns the rest data of a hinge. θ₀ is negative if o1 lies on the side to which (x1 − x0) × (o0 − x0) points, as in
+/// Returns the rest data of a hinge. θ₀ is negative if (x1 − x0) × (o0 − x0) points to the side on which o1 lies, as in
 /// fast/kernels/models/discrete_hinge.hpp.
 inline RestHinge rest_hinge(const compare::Vec3& x0, const compare::Vec3& x1, const compare::Vec3& o0,
                             const compare::Vec3& o1) {

@@ -1,27 +1,27 @@
-// Defines a search of a tree. One thread carries it out, four candidates at a time (fast/cpu/packed_search.hpp), or a
-// warp carries out several together (fast/cuda/search.cuh).
+// Defines a search of a tree. A CPU thread runs one search and handles four candidates at a time
+// (fast/cpu/packed_search.hpp). A warp runs several searches together (fast/cuda/search.cuh).
 //
-// A Query holds what all searches of one kind share:
-//   bool is_off() const                                 whether to search nothing
+// A Query is what all searches of one kind have in common:
+//   bool is_off() const                                 returns whether nothing is searched
 //   Search begin(int i) const                           returns the i-th search
-//   bool is_pair(const Search&, const Offer&)           returns whether the distance of the primitive must be computed;
-//                                                       cheap, in single precision
+//   bool is_pair(const Search&, const Offer&)           returns whether the distance of the primitive must be
+//                                                       computed; cheap, in single precision
 //   float meet(const Search&, int primitive, float gap) computes the distance; returns a new limit for the search
-// A search may also offer primitives beyond the limit, in any order: no result may depend on this.
+// A search may also offer primitives beyond the limit, in any order. No result may depend on this.
 #pragma once
 
 #include "fast/kernels/bvh.hpp"
 
 namespace ogc::fast {
 
-/// Looks for all primitives at a place ≥ `from` whose box has at most the squared gap `limit` to `box`, or is within
-/// the primitive's own reach.
+/// Looks for all primitives, at place `from` or later, whose box has at most the squared gap `limit` to `box`, or at
+/// most the gap limit of the primitive's own reach.
 struct alignas(16) Search {  // aligned, so that few instructions read it whole
   Box box;                   ///< box of the vertex or edge that searches [m]
   int owner = -1;            ///< number of the vertex or edge that searches
   int from = 0;              ///< first place in the tree's order whose primitive is offered
   float limit = 0;           ///< squared gap [m²]; falls as distances are found
-  float reach = 0;           ///< for an edge: gap limit of its own reach [m²]
+  float reach = 0;           ///< for an edge: gap limit of the edge's reach [m²]
 };
 
 /// Holds `count` searches in one tree.

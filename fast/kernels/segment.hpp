@@ -1,14 +1,14 @@
-// Computes the distance of a point and a closed segment in rounded double, for both pair distances.
+// Computes the distance of a point and a closed segment in rounded double, for the distances of both kinds of pairs.
 #pragma once
 
 #include "fast/kernels/arithmetic/exact_sign.hpp"
 
 namespace ogc::fast {
 
-/// A vector in rounded double.
+/// A vector of doubles whose operations are never contracted.
 using Real = Vector<Rounded>;
 
-/// Holds a distance and the largest error of it.
+/// Holds a computed distance, and a bound of its error.
 struct Distance {
   double value = 0, slack = 0;  ///< [m]: the exact distance lies within value ± slack
 
@@ -30,16 +30,16 @@ OGC_HD inline double norm_1(const Real& a) {
 /// Returns ‖a‖²; each operation is rounded.
 OGC_HD inline double squared(const Real& a) { return dot(a, a).value; }
 
-/// Returns the parameter of the point of the line nearest to x, clamped to [0, 1]; u = x − a, e = b − a. 0 if the edge
-/// has no length.
+/// Returns the parameter in [0, 1] of the point of a segment ab closest to x; 0 if the segment has no length. u is x −
+/// a, e is b − a.
 OGC_HD inline double segment_parameter(const Real& u, const Real& e) {
   const double along = dot(u, e).value, whole = squared(e);
   if (!(along > 0)) return 0;
   return along < whole ? divide(along, whole) : 1;
 }
 
-/// Returns the squared distance to the closed segment. Its root errs by less than 2⁻⁴⁸ (‖u‖ + ‖e‖): the parameter by 12
-/// roundings of ‖u‖/‖e‖, the difference and the norm by 8 of ‖u‖.
+/// Returns the squared distance of x and the closed segment ab; u is x − a, e is b − a. Its root errs by less than 2⁻⁴⁸
+/// (‖u‖ + ‖e‖): 12 roundings of ‖u‖/‖e‖ in the parameter, 8 roundings of ‖u‖ in the difference and the norm.
 OGC_HD inline double squared_to_segment(const Real& u, const Real& e) {
   return squared(u - Rounded{segment_parameter(u, e)} * e);
 }

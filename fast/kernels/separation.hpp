@@ -1,10 +1,11 @@
-// Computes lower bounds of distances in single precision. They prove for most pairs of a search that the pair is too
-// far apart, without the distance in double precision.
+// Computes lower bounds of distances in single precision. For most pairs of a search they prove that the pair is too
+// far apart, so that its distance in double is not needed.
 //
-// For any direction d, the gap between the projections of two convex sets on d is at most their distance; it is equal
-// if d joins the closest points. So d may be rough: its error only makes the bound lower, never wrong. Only the
-// projections on d contribute errors. The difference of two points, the product, two sums, and two more sums where
-// three projections meet err by 6 u ‖d‖₂ S together, with S the sum of the 1-norms of the differences.
+// For any direction d, the gap between the projections of two convex sets on d is at most their distance. It is equal
+// to the distance if d joins the closest points. So d may be rough: an error of d only makes the bound lower, never
+// wrong. Only the projections on d contribute errors: the difference of two points, a product, two sums, and two more
+// sums where three projections are added. Together they err by 6 · 2⁻²⁴ ‖d‖₂ S, with S the sum of the 1-norms of the
+// differences.
 #pragma once
 
 #include "fast/kernels/arithmetic/scalar.hpp"
@@ -13,7 +14,7 @@
 
 namespace ogc::fast {
 
-/// Returns a/b roughly. It only serves to compute d, which may be rough.
+/// Returns a/b roughly. This is accurate enough for the direction d.
 OGC_HD inline float rough_quotient(float a, float b) {
 #if defined(__CUDA_ARCH__)
   return __fdividef(a, b);
@@ -22,7 +23,7 @@ OGC_HD inline float rough_quotient(float a, float b) {
 #endif
 }
 
-/// Returns 1/√a within 4 u.
+/// Returns 1/√a with a relative error of at most 4 · 2⁻²⁴.
 OGC_HD inline float rough_inverse_root(float a) {
 #if defined(__CUDA_ARCH__)
   return rsqrtf(a);
@@ -43,17 +44,17 @@ OGC_HD T clamped(const T& s) {
   return smaller(larger(s, T{}), T{1.0F});
 }
 
-/// Returns the lower bound, given the gap of the projections on d (times ‖d‖), d·d, and the error of the projections as
-/// a length. The root and products err by 8 u. Returns 0, which proves nothing, if d·d is so small that it may have
-/// lost bits.
+/// Returns the lower bound of the distance. `gap` is the gap of the projections on d, times ‖d‖; `dd` is d·d; `error`
+/// is the error of the projections as a length. The factor covers the root and the products, which err by 8 · 2⁻²⁴.
+/// Returns 0, which proves nothing, if d·d may have lost bits to underflow.
 template <class T>
 OGC_HD T separation(const T& gap, const T& dd, const T& error) {
   return select(dd > 0x1p-100F, gap * rough_inverse_root(dd) * (1 - 0x1p-20F) - error, T{});
 }
 
-/// Returns a lower bound of `edge_edge_distance(p, q).below()`, possibly negative or NaN. Beside the error of 6 u S
-/// above, that value may be below the exact distance by two slacks and one rounding of at most 2 u S each: 12 u S in
-/// all. The code uses 16 u S.
+/// Returns a lower bound of `edge_edge_distance(p, q).below()`, possibly negative or NaN. With u = 2⁻²⁴ the projections
+/// err by 6 u S (see the head of this file). `below()` may be less than the exact distance by two slacks and one
+/// rounding, at most 2 u S each. This is 12 u S in all; the code uses 16 u S.
 template <class T>
 OGC_HD T separation(const EndsOf<T>& p, const EndsOf<T>& q) {
   const Vector<T> e = p.b - p.a, f = q.b - q.a, w = q.a - p.a;
@@ -66,8 +67,8 @@ OGC_HD T separation(const EndsOf<T>& p, const EndsOf<T>& q) {
 }
 
 /// Returns a lower bound of `point_triangle_distance(x, corners).below()`, from two directions: the normal, and the
-/// direction to the nearest point of the outline. The projected vectors are x − corner, and S' is the sum of their
-/// 1-norms. S ≤ 3 S', so two slacks of 2 u S and the rest are under 20 u S'. The code uses 32 u S'.
+/// direction to the nearest point of the outline. The projected vectors are x − corner; S' is the sum of their 1-norms.
+/// With u = 2⁻²⁴ and S ≤ 3 S', two slacks of 2 u S and the other errors are under 20 u S'. The code uses 32 u S'.
 template <class T>
 OGC_HD T separation(const Vector<T>& x, const CornersOf<T>& t) {
   const Vector<T> u = x - t.a, v = x - t.b, w = x - t.c, e = t.b - t.a, f = t.c - t.b, g = t.a - t.c, n = cross(e, f);
@@ -85,7 +86,8 @@ OGC_HD T separation(const Vector<T>& x, const CornersOf<T>& t) {
   return larger(outline, separation<T>(larger(low, -high), dot(n, n), error));
 }
 
-/// Returns whether a lower bound of a distance exceeds a limit of gap_limit.
+/// Returns whether the distance certainly exceeds a search's limit. `separation` is a lower bound of the distance,
+/// `limit` a gap_limit [m²].
 OGC_HD inline bool is_beyond(float separation, float limit) {
   return separation > 0 && separation * separation > limit;
 }

@@ -1,5 +1,5 @@
-// Launches of a detection within a step. Each launch also does work of the step that is due at the same time, because a
-// separate launch would cost a device more than the work. The two parts of a launch are independent of each other.
+// Combines the launches of a detection with work of the step that is due at the same time, because on a device a
+// separate launch would cost more than this work. The two parts of a launch are independent of each other.
 #pragma once
 
 #include "fast/kernels/contact_stream.hpp"
@@ -8,7 +8,7 @@
 
 namespace ogc::fast {
 
-/// First launch: checks the certificate of the ending regions, sets X_prev ← x, and begins the detection. Index as in
+/// First launch: checks each vertex's old region, sets X_prev ← x, and begins the detection. Index as in
 /// BeginDetection.
 struct BeginStepDetection {
   BeginRegions regions;
@@ -34,7 +34,7 @@ struct EndStepDetection {
   }
 };
 
-/// Second part of the last launch: sorts the incidences, and writes each one's contact into the stream. Index over all
+/// Second part of the last launch: sorts the incidences, and writes the contact of each into the stream. Index over all
 /// incidences.
 struct RankAndResolve {
   RankIncidences rank;

@@ -1,4 +1,4 @@
-// Holds the complex as kernels see it: numbers and adjacency in plain arrays, no positions.
+// Holds the mesh in the form that kernels read: numbers and adjacency in plain arrays, without positions.
 #pragma once
 
 #include <cstdint>
@@ -7,15 +7,15 @@
 
 namespace ogc::fast {
 
-/// A triangle with its edges. Bit k of `descending` is set if edge k starts at its higher-numbered vertex. With it all
-/// triangles at an edge evaluate the edge's predicate with the same operands.
+/// A triangle with its edges. Bit k of `descending` is set if edge k starts at its higher-numbered vertex. It lets all
+/// triangles at an edge evaluate the edge's predicate with the same operands in the same order.
 struct alignas(16) Facet {
   int corner[3];  ///< vertices in the order of the mesh
   int edge[3];    ///< 01, 12 and 20, as numbers of SurfaceView::edges
   unsigned descending;
 };
 
-/// Vertices of an edge, smaller first.
+/// The vertices of an edge, the lower-numbered one first.
 struct alignas(8) EdgeEnds {
   int a, b;
 };
@@ -26,56 +26,58 @@ struct alignas(16) SolidElement {
   int behind[4];  ///< by corner: the tetrahedron across the opposite side, or −1
 };
 
-/// Row i is items[offsets[i] … offsets[i + 1]).
+/// Adjacency in rows: row i is items[offsets[i] … offsets[i + 1]).
 struct Rows {
   const int* offsets = nullptr;  ///< rows + 1
   const int* items = nullptr;    ///< row by row
 };
 
-/// Seeds of an edge. A seed names a pair that certainly takes part in the smallest distances. So a query need not
-/// search beyond the pair's distance (fast/kernels/bvh.hpp). −1: no seed.
+/// Seeds of an edge: vertices nearby in the mesh whose distance bounds the edge's smallest distance, so that a query
+/// need not search farther (Reach in fast/kernels/bvh.hpp). −1: no seed.
 struct EdgeSeeds {
-  int vertex[2];  ///< each has an edge that forms a pair with this edge
+  int vertex[2];  ///< each belongs to an edge that forms a pair with this edge
 };
-/// Seeds of a facet.
+/// Seeds of a facet: vertices whose distance bounds the facet's smallest distance.
 struct FacetSeeds {
-  int vertex[3];  ///< across edge k of the facet; forms a pair with the facet
+  int vertex[3];  ///< for edge k: the vertex across it, which forms a pair with the facet
 };
-/// Seeds of a vertex.
+/// Seeds of a vertex: edges whose distance bounds the vertex's smallest distance.
 struct VertexSeeds {
-  int edge[2];  ///< each has a facet that forms a pair with the vertex
+  int edge[2];  ///< each belongs to a facet that forms a pair with the vertex
 };
 
-/// Holds the complex on the backend.
+/// Holds the mesh on the backend.
 struct SurfaceView {
   int vertex_count = 0, edge_count = 0, triangle_count = 0;
-  const Facet* facets = nullptr;              ///< by triangle
-  const EdgeEnds* edges = nullptr;            ///< by edge
-  Rows neighbours;                            ///< V_v of Eq. 8 and 15
-  Rows opposites;                             ///< V_e of Eq. 9
-  Rows vertex_edges, vertex_triangles;        ///< by vertex: numbers of its edges and of its triangles
-  const std::uint8_t* off_surface = nullptr;  ///< by vertex; null if all are on the surface (compare::Topology)
+  const Facet* facets = nullptr;        ///< by triangle
+  const EdgeEnds* edges = nullptr;      ///< by edge
+  Rows neighbours;                      ///< by vertex: V_v of Eq. 8 and 15
+  Rows opposites;                       ///< by edge: V_e of Eq. 9
+  Rows vertex_edges, vertex_triangles;  ///< by vertex: numbers of its edges and of its triangles
+  /// by vertex: see is_off_surface; null if all vertices are on the surface
+  const std::uint8_t* off_surface = nullptr;
   const int* groups = nullptr;            ///< by vertex; pairs whose vertices all have the same group ≥ 0 are omitted
   const EdgeSeeds* edge_seeds = nullptr;  ///< by edge
   const FacetSeeds* facet_seeds = nullptr;    ///< by triangle
   const VertexSeeds* vertex_seeds = nullptr;  ///< by vertex
-  /// a pair is omitted if a vertex of one side is in the row of a vertex of the other side; no offsets: no such pairs
+  /// by vertex: a pair is omitted if a vertex of one side is in the row of a vertex of the other side; null offsets: no
+  /// rows
   Rows partners;
-  /// Primitives that take part in searches: vertices, then edges, then facets, without those of volumes. Null: all, in
-  /// order.
+  /// Numbers of the primitives that take part in searches: vertices, then edges, then facets; those of volumes are
+  /// missing. Null: all primitives, in order.
   const int* searched = nullptr;
-  int searched_vertices = 0, searched_edges = 0, searched_facets = 0;  ///< how many of each
+  int searched_vertices = 0, searched_edges = 0, searched_facets = 0;  ///< number of each
 
-  /// Returns whether detections omit the vertex: it is inside a solid, on no boundary triangle (method.md §8.3), or a
-  /// vertex of a volume, which volume_depth.hpp treats.
+  /// Returns whether detections omit the vertex. It is inside a solid, on no boundary triangle (method.md §8.3), or it
+  /// belongs to a volume, which volume_depth.hpp tests.
   OGC_HD bool is_off_surface(int v) const { return off_surface != nullptr && off_surface[v] != 0; }
 
-  /// Return a face as one number. Vertices come first, then edges, then triangles, in the order of compare::Face.
+  /// Return a face as one number, in the order of compare::Face: first vertices, then edges, then triangles.
   OGC_HD int vertex_face(int v) const { return v; }
   OGC_HD int edge_face(int e) const { return vertex_count + e; }
   OGC_HD int triangle_face(int t) const { return vertex_count + edge_count + t; }
 
-  /// Returns whether method.md §2.3 omits the pair. The pair shares no vertex.
+  /// Returns whether a pair is omitted by method.md §2.3. Its sides must not share a vertex.
   OGC_HD bool left_out(int v, const Facet& t) const {
     const int g = groups[v];
     if (g >= 0 && groups[t.corner[0]] == g && groups[t.corner[1]] == g && groups[t.corner[2]] == g) return true;
@@ -90,7 +92,7 @@ struct SurfaceView {
   }
 
  private:
-  /// Returns whether `of` is in v's row. Rows are short, and nearly all of them are empty.
+  /// Returns whether `of` is in the row of v in `partners`. Rows are short, and nearly all of them are empty.
   OGC_HD bool is_partner(int v, int of) const {
     for (int i = partners.offsets[v]; i < partners.offsets[v + 1]; ++i) {
       if (partners.items[i] == of) return true;

@@ -1,10 +1,11 @@
-// What an update of Algorithm 4 reads and writes apart from elements, and the form of a kind's stream. kinds/kinds.hpp
-// joins both to the SweepView of the kernels.
+// Defines the data that updates of Algorithm 4 read and write, and the stream that each kind of element has.
+// kinds/kinds.hpp combines these into the SweepView of the kernels.
 //
-// Updates are Gauss–Seidel over colours, with two position buffers an iteration (method.md §7.2). A neighbour of lower
-// colour is read from the fresh buffer, any other from the old one. This choice is known when the streams are made, so
-// the index encodes it: n ≥ 0 reads old[n], n < 0 reads fresh[~n]. Prescribed and fixed vertices have colour −1. Both
-// buffers are halves of one array, so the choice is arithmetic and loads no pointer.
+// Updates are Gauss–Seidel over colours. Each iteration has two position buffers, the old and the fresh one (method.md
+// §7.2). A neighbour of lower colour is read from the fresh buffer, any other from the old one. This choice is known
+// when the streams are made, so the stored index encodes it: n ≥ 0 reads old[n], n < 0 reads fresh[~n]. Prescribed and
+// fixed vertices have colour −1. Both buffers are halves of one array, so the choice is arithmetic and loads no
+// pointer.
 #pragma once
 
 #include <cstdint>
@@ -18,24 +19,24 @@
 
 namespace ogc::fast {
 
-/// Features that a scene requires of the sum over a vertex's stencils, one bit each: elements of these kinds, and
-/// volumes. asks_any_model: bending or damping other than discrete hinges and damping of strains. asks_any_activation:
-/// an activation other than `ogc`.
+/// Features that a scene may require of the sum over a vertex's stencils, one bit each: kinds of elements, volumes,
+/// asks_any_model (bending or damping other than discrete hinges and damping of strains), and asks_any_activation (an
+/// activation other than `ogc`).
 inline constexpr unsigned asks_triangles = 1, asks_hinges = 2, asks_springs = 4, asks_tetrahedra = 8,
                           asks_segments = 16, asks_volumes = 32, asks_any_model = 64, asks_any_activation = 128;
 
-/// The elements of a vertex in the stream of a kind.
+/// The incidences of a vertex in the stream of a kind of element.
 struct Row {
-  int begin = 0, count = 0;  ///< first place among the incidences; number of them
+  int begin = 0, count = 0;  ///< index of the first incidence in the stream; number of incidences
 };
 
-/// In place of data that a kind of elements does not have.
+/// Replaces data that a kind of element does not have.
 struct NoData {};
 
-/// Parts of a stream. A part that a kind does not have takes no room, because every launch copies its view.
+/// Members of a stream. A member that a kind does not need is left out, because every launch copies its view.
 template <bool has_rows>
 struct RowsOfStream {
-  const Row* rows = nullptr;  ///< by slot; null: the scene has no such element
+  const Row* rows = nullptr;  ///< by slot; null: the scene has no element of this kind
 };
 template <>
 struct RowsOfStream<false> {};
@@ -47,7 +48,7 @@ template <>
 struct BesideOfStream<NoData> {};
 template <class Start>
 struct StartOfStream {
-  const Start* start = nullptr;  ///< by element; read if the element is damped
+  const Start* start = nullptr;  ///< by element; read only if the element is damped
 };
 template <>
 struct StartOfStream<NoData> {};
@@ -58,16 +59,16 @@ struct ByBodyOfStream {
 template <>
 struct ByBodyOfStream<NoData> {};
 
-/// The stream of a kind: for each free vertex, its incidences of the kind's elements, row by row in the order of slots.
-/// `Beside`: further data of an incidence, which only some models read. `Start`: data of an element at the start of the
-/// step, for damping. `ByBody`: constants of a body that only this kind reads. `has_rows`: rows are an array, not part
-/// of SweepVertex.
+/// The stream of a kind of element: for each free vertex a row with its incidences, in the order of slots. `Beside`:
+/// more data of an incidence, which only some models read. `Start`: data of an element at the start of the step, for
+/// damping. `ByBody`: constants of a body that only this kind reads. `has_rows`: rows are a separate array, not part of
+/// SweepVertex.
 template <class Incidence, class Beside, class Start, class ByBody, bool has_rows>
 struct StreamView : RowsOfStream<has_rows>, BesideOfStream<Beside>, StartOfStream<Start>, ByBodyOfStream<ByBody> {
   const Incidence* incidences = nullptr;  ///< row by row
 };
 
-/// Encodes the indices of the vertices that the update of one vertex reads.
+/// Encodes the indices of the vertices that the update of one vertex reads (see the head of this file).
 struct ColourOrder {
   const int* colour;  ///< by vertex; −1: not free
   int own;            ///< colour of the vertex that is updated
@@ -76,81 +77,81 @@ struct ColourOrder {
   int operator()(int vertex) const { return colour[vertex] < own ? ~vertex : vertex; }
 };
 
-/// A free vertex in the order of the sweep, with its rows in the streams.
+/// A free vertex in the order of the sweep, with its rows in the streams of some kinds.
 struct alignas(16) SweepVertex {
   int vertex = -1;  ///< number in the mesh
   int body = -1;
   float inertia = 0;  ///< m/h² [N/m]
-  Row rows[2];        ///< its rows of the kinds with `row_in_vertex` ≥ 0
+  Row rows[2];        ///< rows of the kinds with `row_in_vertex` ≥ 0
 };
 
-/// A contact as one of its vertices sees it. Slots are those of contact_force.hpp; `own` is the slot of the vertex
-/// itself.
+/// A contact as one of its vertices sees it. contact_force.hpp defines the slots; `own` is the slot of this vertex.
 struct alignas(16) ContactIncidence {
-  int index[4] = {0, 0, 0, 0};                  ///< by slot, encoded
-  float stiffness = 0, friction = 0;            ///< e_k k_c [N/m] with e_k of the detection, μ [1]
+  int index[4] = {0, 0, 0, 0};                  ///< vertices by slot, encoded
+  float stiffness = 0, friction = 0;            ///< k_c [N/m], times e_k at the detection if the pair has one; μ [1]
   ContactKind kind = ContactKind::point_point;  ///< decides which slots the contact has
   std::uint8_t own = 0;                         ///< 0 … 3
-  std::uint8_t together = 0;                    ///< bit k: the vertex of slot k is another one of the same colour
+  std::uint8_t together = 0;                    ///< bit k: the vertex of slot k is another vertex, of the same colour
 };
 
-/// The contacts of a vertex in the stream: the vertex–facet ones, then the edge–edge ones.
+/// The contacts of a vertex in the stream: first the vertex–facet contacts, then the edge–edge contacts.
 struct alignas(16) ContactRow {
-  /// first place in SweepView::contacts; number of vertex–facet contacts; number of all contacts
+  /// index of the first contact in SweepShared::contacts; number of vertex–facet contacts; number of all contacts
   int begin = 0, vertex_facet = 0, count = 0;
 };
 
 struct VolumeIncidence;
 
-/// Holds the contacts of all slots with volumes, in rows of fixed length (fast/kernels/volumes/). Rows of prescribed
-/// vertices follow the rows of the slots.
+/// Holds the contacts with volumes in rows of fixed length, one for each slot (fast/kernels/volumes/). Rows of
+/// prescribed vertices follow.
 struct VolumeStream {
-  const VolumeIncidence* contacts = nullptr;  ///< contacts of a slot's vertex as the point: from slot · capacity on
-  const int* counts = nullptr;                ///< by slot: number of contacts in its row
-  int capacity = 0;                           ///< of a row
-  // Only if volumes are free; else null:
+  /// row of a slot from slot · capacity on: contacts in which its vertex is the point
+  const VolumeIncidence* contacts = nullptr;
+  const int* counts = nullptr;  ///< by slot: number of contacts in its row
+  int capacity = 0;             ///< contacts that fit in a row
+  // The members below are null or 0 if all volumes are driven.
   const int* colour = nullptr;  ///< by vertex; −1: not free
-  /// contacts of a slot's vertex as a corner, from slot · corner_capacity on, ascending: (place in `contacts`) · 4 +
-  /// role
+  /// row of a slot from slot · corner_capacity on: contacts in which its vertex is a corner, ascending, each as (index
+  /// in `contacts`) · 4 + role
   const int* corner_codes = nullptr;
   const int* corner_counts = nullptr;  ///< by slot: number of codes in its row
-  int corner_capacity = 0;             ///< of a row of codes
+  int corner_capacity = 0;             ///< codes that fit in a row
 };
 
-/// Returns the vertex of an encoded index. Avoids a branch, because a processor cannot predict which buffer is read.
+/// Returns the vertex of an encoded index. The formula avoids a branch, which a processor could not predict.
 OGC_HD inline int decoded(int index) { return index ^ (index >> 31); }
 
-/// Holds what updates read and write in every scene. The pointers are valid for one launch sequence.
+/// Holds the data that updates read and write in every scene. The pointers are valid for one sequence of launches.
 struct SweepShared {
   const SweepVertex* vertices = nullptr;       ///< by slot
   const ContactRow* contact_rows = nullptr;    ///< by slot
-  const ContactIncidence* contacts = nullptr;  ///< row by row, see contact_rows
+  const ContactIncidence* contacts = nullptr;  ///< row by row
   const SurfaceMaterial* materials = nullptr;  ///< by body
   const SurfaceModels* models = nullptr;       ///< by body
-  PaddedVecs start;                            ///< xᵗ
-  const Vec* target = nullptr;                 ///< y
-  FeasibleRegions regions;                     ///< about X_prev; every new position is truncated to them
-  PaddedVec* old = nullptr;                    ///< x before the iteration
-  int to_fresh = 0;                ///< offset of a vertex's position in the fresh buffer from that in the old one
-  Vec* position = nullptr;         ///< fresh positions for all other kernels; the sweep only writes them
-  StepControl* control = nullptr;  ///< on the backend: counts cut vertices and positions not finite
-  const int* turn = nullptr;       ///< number of the iteration whose turn it is, on the device; null: always this one's
-  int iteration = 0;               ///< number of this iteration, which does nothing if it is not its turn
+  PaddedVecs start;                            ///< xᵗ by vertex [m]
+  const Vec* target = nullptr;                 ///< y by vertex [m]
+  FeasibleRegions regions;                     ///< regions around X_prev; every new position is truncated to its region
+  PaddedVec* old = nullptr;                    ///< x before the iteration, by vertex [m]
+  int to_fresh = 0;                ///< distance of a vertex's place in the fresh buffer from its place in the old one
+  Vec* position = nullptr;         ///< fresh positions by vertex [m], for other kernels; the sweep only writes them
+  StepControl* control = nullptr;  ///< on the backend: counts cut vertices and positions that are not finite
+  const int* turn = nullptr;       ///< number of the iteration that is next, on the device; null: this one
+  int iteration = 0;               ///< number of this iteration; it does nothing if another one is next
   float contact_radius = 0;        ///< r [m]
   float friction_limit = 0;        ///< ε_v h [m]
-  /// of all contacts; read by sums with AnyActivation
+  /// activation of all contacts; read by sums with AnyActivation
   ContactActivation activation = ContactActivation::ogc;
   VolumeStream volumes;  ///< read if there are volumes
 
-  /// Returns whether it is another iteration's turn.
+  /// Returns whether another iteration is next, so that this one must do nothing.
   OGC_HD bool is_off() const { return turn != nullptr && *turn != iteration; }
-  /// Returns the same for the team of a vertex that was read. Without a branch between the two reads a device issues
-  /// both at once.
+  /// Returns the same for a slot whose vertex is being loaded. The vertex number, which is ≥ 0, is tested in the same
+  /// expression without a branch, so that a device issues both loads at once.
   OGC_HD bool is_off(const SweepVertex& vertex) const {
     return turn != nullptr && ((*turn != iteration) | (vertex.vertex < 0));
   }
 
-  /// Returns the place in `old` from which an encoded index is read.
+  /// Returns the index into `old`, which may lie in the fresh half, for an encoded index.
   OGC_HD int number(int index) const { return decoded(index) + ((index >> 31) & to_fresh); }
   /// Returns the position at an encoded index.
   OGC_HD Vec read(int index) const { return PaddedVecs{old}[number(index)]; }
@@ -161,7 +162,7 @@ struct SweepShared {
   }
 };
 
-/// The vertex that is solved: its position, and its motion since the start of the step for damping by vertex.
+/// The vertex that is updated: its position, and its motion since the start of the step, for damping by vertex.
 struct OwnVertex {
   Vec position, moved;  ///< x, and x − xᵗ [m]
 };
@@ -169,9 +170,9 @@ struct OwnVertex {
 /// Holds the force that a step leaves on a free vertex (Eq. 29) [N].
 struct alignas(16) LeftForce {
   float reference = 0;  ///< ‖f*‖ after the guess loop
-  float left = 0;       ///< ‖f‖ at the end
-  float rounding = 0;   ///< largest part of ‖f‖ that rounded positions may cause
-  int is_held = 0;      ///< 1: the next update would leave the vertex's region, so its force stays
+  float left = 0;       ///< ‖f‖ at the end of the step
+  float rounding = 0;   ///< bound of the part of ‖f‖ that rounded positions cause
+  int is_held = 0;      ///< 1: the next update would leave the vertex's region
 };
 
 }  // namespace ogc::fast

@@ -1,7 +1,7 @@
-// Defines the sum of a team of W team lanes, run by one thread. A sum has parts, one for each kind of term. Item k of a
-// part goes to team lane k mod W. A team lane adds its items of one part in order, then its parts in order; a fixed
-// tree adds the team lanes. Every team that follows this rule gives the same bits, on any backend and with any number
-// of threads; only W can change a bit.
+// Defines the sum of a team of W team lanes, here run by one thread. A sum has parts, one for each kind of term. Item k
+// of a part is added by team lane k mod W. A team lane adds its items of one part in order, then its parts in order; a
+// fixed tree adds the team lanes. Every team that follows this rule gives the same bits, on any backend and with any
+// number of threads. Only W changes bits.
 #pragma once
 
 #include "fast/kernels/arithmetic/qualifiers.hpp"
@@ -9,8 +9,9 @@
 
 namespace ogc::fast {
 
-/// Terms k of a sum, 0 ≤ k < count. load(k) reads only what the preceding launch does not write; add(loaded, acc) reads
-/// the rest and adds. So a device can load while the preceding launch still runs (programmatic dependent launch).
+/// A part of a sum: terms k with 0 ≤ k < count. load(k) reads only data that the preceding launch does not write.
+/// add(loaded, sum) reads the rest and adds the term. So a device can call load while the preceding launch still runs
+/// (programmatic dependent launch).
 template <class Load, class Add>
 struct Part {
   int count;  ///< items
@@ -24,7 +25,7 @@ OGC_HD Part<Load, Add> part(int count, Load load, Add add) {
   return {count, load, add};
 }
 
-/// The `load` of a Part that reads item k of a row.
+/// Reads item k of a row; used as `load` of a Part.
 template <class Item>
 struct LoadFrom {
   const Item* first;  ///< first item of the row
@@ -32,11 +33,11 @@ struct LoadFrom {
   OGC_HD Item operator()(int k) const { return first[k]; }
 };
 
-/// Terms of items begin + k that read nothing of the team's vertex. So the threads of a block may share the terms of
-/// all its teams. term(load(item)) is an Accumulator.
+/// A part whose terms, of the items begin + k, do not depend on the team's own data. So the threads of a block may
+/// share the terms of all its teams. term(load(item)) returns an Accumulator.
 template <class Load, class Term>
 struct PooledPart {
-  int begin, count;  ///< first item, and how many
+  int begin, count;  ///< first item; number of items
   Load load;
   Term term;
 };
@@ -47,7 +48,7 @@ OGC_HD PooledPart<Load, Term> pooled_part(int begin, int count, Load load, Term 
   return {begin, count, load, term};
 }
 
-/// Read item k of either kind of part, and add it, so that a team has one loop for both.
+/// Read item k of a part, and add it to a sum; each for both types of parts, so that a team needs one loop.
 template <class Load, class Add>
 OGC_HD auto load_item(const Part<Load, Add>& part, int k) {
   return part.load(k);
@@ -65,8 +66,8 @@ OGC_HD void add_item(const PooledPart<Load, Term>& part, const Loaded& loaded, A
   sum += part.term(loaded);
 }
 
-/// Searches and minima over items k < count, for a team of one lane. A team of several lanes shares the items: its
-/// lanes hold the same numbers, call together, and get the answer of one lane.
+/// Finds and minimises over items k < count, for a team of one lane. In a team of several lanes all lanes call the same
+/// functions together with the same numbers, share the items, and get the same results.
 struct OneLane {
   /// Returns the smallest k ≥ from for which is(k) holds; count if there is none.
   template <class Is>
@@ -83,20 +84,20 @@ struct OneLane {
   }
 };
 
-/// Runs W team lanes in turn. `Accumulator` is value-initialised to its zero and has `+=`. Zeros are +0, and a rounded
-/// sum is −0 only if both terms are −0. So omitting the empty lanes of a part changes no bit.
+/// Runs W team lanes one after the other. `Accumulator` has `+=`, and value initialisation makes it zero. Zeros are +0,
+/// and a rounded sum is −0 only if both terms are −0. So a lane without items changes no bit and may be omitted.
 template <int W>
 struct SerialTeam : OneLane {
   static_assert(W >= 1 && W <= 32 && (W & (W - 1)) == 0, "W is a power of two, at most 32");
-  static constexpr int width = W;  ///< W, team lanes
+  static constexpr int width = W;  ///< W, the number of team lanes
 
-  /// Prefetches `bytes` from `rows` on into a cache, if that helps; does nothing here.
+  /// Prefetches `bytes` from `rows` on into a cache. A serial team does nothing.
   OGC_HD static void prefetch(const void*, int) {}
 
-  /// Replaces `sum` for a team without a vertex: all teams of a launch call `sum` or `leave`.
+  /// Is called in place of `sum` by a team without a vertex, because all teams of a launch must call one of them.
   OGC_HD static void leave() {}
 
-  /// Returns Σ over all terms of all parts; in a team of threads only those with holds_total() get it.
+  /// Returns the sum of all terms of all parts. In a team of threads, only threads with holds_total() get it.
   template <class Accumulator, class... Parts>
   OGC_HD Accumulator sum(const Parts&... parts) const {
     Accumulator lanes[W] = {};
@@ -107,9 +108,9 @@ struct SerialTeam : OneLane {
     return lanes[0];
   }
 
-  /// Returns whether this thread has the total; such threads may call `first` and `smallest` together.
+  /// Returns whether this thread has the total. Only threads that have it may call `first` and `smallest`, together.
   OGC_HD bool holds_total() const { return true; }
-  /// Returns whether this thread writes the team's result; it also holds the total.
+  /// Returns whether this thread writes the team's result; if so it also has the total.
   OGC_HD bool leader() const { return true; }
 
  private:

@@ -1,27 +1,28 @@
-// Computes what contacts leave of a vertex's move in the guess loop (method.md §5.2). A touching vertex does not enter
-// its partner, and rubs on it. So a sweep begins with nearly the forces with which it ends, and long slips do not stop
-// at each detection.
+// Computes how contacts shorten a vertex's move in the guess loop (method.md §5.2). A vertex in contact does not move
+// into its partner, and friction slows it. So a sweep begins with nearly the forces with which it ends, and long slips
+// do not stop at each detection.
 #pragma once
 
 #include "fast/kernels/sweep_view.hpp"
 
 namespace ogc::fast {
 
-/// Holds the contacts that a round of the guess loop found, and the moves that vertices would make without contacts.
+/// Holds the contacts that are known in a round of the guess loop, and the moves that vertices would make without
+/// contacts.
 struct GuessContacts {
-  const int* offsets = nullptr;  ///< by vertex, vertices + 1: its row in `contacts`; null: no contact takes part
-  const ContactIncidence* contacts = nullptr;  ///< the stream of the detection
+  const int* offsets = nullptr;  ///< by vertex, vertices + 1: its row in `contacts`; null: contacts are ignored
+  const ContactIncidence* contacts = nullptr;  ///< contact stream of the detection
   const Vec* position = nullptr;               ///< X_prev by vertex [m]
   const Vec* target = nullptr;                 ///< y by vertex [m]
-  const Vec* taken = nullptr;                  ///< t by vertex [m]: what contacts took of its move in the last round
-  float radius = 0;                            ///< r [m]
+  const Vec* taken = nullptr;  ///< t by vertex [m]: the part of its move that contacts removed in the last round
+  float radius = 0;            ///< r [m]
 
-  /// Returns the move that another vertex is expected to make [m].
+  /// Returns the move of another vertex that this round expects: y − X_prev without the part that contacts removed [m].
   OGC_HD Vec expected(int v) const { return target[v] - position[v] + taken[v]; }
 };
 
-/// Returns the move of a vertex [m] after one contact. The contact removes the vertex's approach as far as it exceeds
-/// the partners' motion apart. Friction removes slip, at most μ times the removed approach.
+/// Returns the move of a vertex [m] after one contact has shortened it. The contact removes the part of the vertex's
+/// approach that exceeds the partners' motion apart. Friction removes slip, at most μ times the removed approach.
 OGC_HD inline Vec held_by(const GuessContacts& here, const ContactIncidence& contact, const Vec& move) {
   Vec x[4], others{};
   for (int k = 0; k < 4; ++k) x[k] = here.position[decoded(contact.index[k])];
@@ -44,7 +45,7 @@ OGC_HD inline Vec held_by(const GuessContacts& here, const ContactIncidence& con
   return held;
 }
 
-/// Returns whether a vertex is part of a contact that acts.
+/// Returns whether a vertex takes part in a contact that exerts a force.
 OGC_HD inline bool touches(const GuessContacts& here, int v) {
   for (int i = here.offsets[v]; i < here.offsets[v + 1]; ++i) {
     const ContactIncidence& contact = here.contacts[i];
@@ -55,7 +56,7 @@ OGC_HD inline bool touches(const GuessContacts& here, int v) {
   return false;
 }
 
-/// Returns what the contacts of a vertex leave of its move, one contact after the other [m].
+/// Returns the move of a vertex after all its contacts have shortened it, one after the other [m].
 OGC_HD inline Vec held_move(const GuessContacts& here, int v, const Vec& move) {
   Vec held = move;
   for (int i = here.offsets[v]; i < here.offsets[v + 1]; ++i) held = held_by(here, here.contacts[i], held);

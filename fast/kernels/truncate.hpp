@@ -1,4 +1,4 @@
-// Truncates to the conservative bound (Eq. 27, 28) so that the *stored* position obeys it. The cut is computed in
+// Truncates to the conservative bound (Eq. 27, 28) so that the *stored* position keeps it. The cut is computed in
 // double, each coordinate is rounded towards x_prev, and the stored result is tested exactly.
 #pragma once
 
@@ -8,27 +8,27 @@
 
 namespace ogc::fast {
 
-/// Holds a position inside its region, and whether the proposal was changed.
+/// Holds a position inside its region, and whether truncation changed the proposal.
 struct Truncated {
   Vec position;  ///< [m]
   bool cut = false;
 };
 
-/// Returns whether ‖x − x_prev‖ < b is certain in single precision. With u = 2⁻²⁴ a difference errs by u, so the sum of
-/// three squares is at least (1 − u)⁵ of the exact one. b² (1 − 16 u) in two roundings is at most (1 + u)² (1 − 16 u)
-/// b² < (1 − u)⁵ b². Squares that underflow err by 2⁻¹⁵⁰ each, far less than 16 u b² if b² ≥ 2⁻¹⁰⁰. Contraction only
-/// omits roundings, so it does not change what is certain. False if x is not finite.
+/// Returns whether single precision proves ‖x − x_prev‖ < b. With u = 2⁻²⁴ a difference errs by u, so the sum of three
+/// squares is at least (1 − u)⁵ of the exact one. b² (1 − 16 u), rounded twice, is at most (1 + u)² (1 − 16 u) b² < (1
+/// − u)⁵ b². Squares that underflow err by 2⁻¹⁵⁰ each, far less than 16 u b² if b² ≥ 2⁻¹⁰⁰. Contraction only omits
+/// roundings, so the proof remains valid. Returns false if x is not finite.
 OGC_HD inline bool is_certainly_within(const Ball& ball, const Vec& x) {
   const Vec step = x - ball.centre;
   const float squared = ball.radius * ball.radius;
   return squared >= 0x1p-100f && squared <= 0x1p100f && dot(step, step) < (1.0f - 16 * 0x1p-24f) * squared;
 }
 
-/// Holds a sum of doubles without rounding (Shewchuk's growing expansion): its components do not overlap and grow in
-/// size.
+/// Holds a sum of doubles without rounding, as several doubles that do not overlap, in ascending order of size
+/// (Shewchuk's expansions).
 struct ExactTotal {
-  double part[8] = {};  ///< the first `count` are in use
-  int count = 0;        ///< at most 8: each square adds two
+  double part[8] = {};  ///< in use: the first `count`
+  int count = 0;        ///< at most 8, because there are four squares and each adds two
 
   /// Adds a number without rounding.
   OGC_HD void grow(double value) {
@@ -52,9 +52,9 @@ struct ExactTotal {
   }
 };
 
-/// Returns whether ‖x − x_prev‖ ≤ b, without rounding. It decides if double-double cannot tell distance and bound
-/// apart: ties, and coordinates of 10⁻²¹ beside one at the bound, which must not pass. A difference that does not fit
-/// into a double counts as beyond.
+/// Returns whether ‖x − x_prev‖ ≤ b, without rounding. It is called if double-double cannot distinguish the distance
+/// from b. This happens at ties, and if one coordinate differs by b and another by 10⁻²¹, which must not pass. If a
+/// difference does not fit into a double, the result is false.
 OGC_HD inline bool is_exactly_within(const Ball& ball, const Vec& x) {
   const Vector<Wide> step = difference<Wide>(x, ball.centre);
   if (step.x.low != 0 || step.y.low != 0 || step.z.low != 0) return false;
@@ -76,20 +76,20 @@ OGC_HD inline bool is_within(const Ball& ball, const Vec& x) {
   return sign < 0 || (sign == 0 && is_exactly_within(ball, x));
 }
 
-/// Returns the float nearest to q = p + s (x − p) that is not farther from p than q is.
+/// Returns the float nearest to q = p + s (x − p) among those that are not farther from p than q.
 OGC_HD inline float towards(float p, float x, double s) {
   const double step = mul(s, sub(static_cast<double>(x), static_cast<double>(p))),
                place = add(static_cast<double>(p), step);
   return step > 0 ? round_down(place) : round_up(place);
 }
 
-/// Completes `truncate` if single precision does not prove that x is within the bound.
+/// Does the work of `truncate` if single precision does not prove that x is within the bound.
 OGC_HD OGC_OUT_OF_LINE inline Truncated truncate_in_double(Ball ball, Vec x) {
   if (is_within(ball, x)) return {x, false};
   const Vec& previous = ball.centre;
   const Vector<Rounded> step = difference<Rounded>(x, previous);
   double s = divide(static_cast<double>(ball.radius), square_root(dot(step, step).value));
-  // The second and third attempt serve coordinates far larger than the bound, where rounding of the step in double
+  // The first attempt fails only if coordinates are far larger than the bound, so that rounding of the step in double
   // crossed a float.
   for (int attempt = 0; attempt < 3; ++attempt) {
     const Vec cut{towards(previous.x, x.x, s), towards(previous.y, x.y, s), towards(previous.z, x.z, s)};
@@ -99,8 +99,8 @@ OGC_HD OGC_OUT_OF_LINE inline Truncated truncate_in_double(Ball ball, Vec x) {
   return {previous, true};
 }
 
-/// Returns x, bit for bit, if the ball holds it. Otherwise returns the point of the segment from x_prev towards x at
-/// distance b, or just short of it; x_prev if x is not finite.
+/// Returns x, bit for bit, if the ball holds it. Otherwise returns the point at distance b from x_prev on the segment
+/// to x, or just before it. Returns x_prev if x is not finite.
 OGC_HD inline Truncated truncate(const Ball& ball, const Vec& x) {
   if (is_certainly_within(ball, x)) return {x, false};
   return truncate_in_double(ball, x);

@@ -1,30 +1,31 @@
-// Finds whether a point is inside a volume, or nearer to it than r (§3.9, method.md §9). Each part of the volume's
-// surface is tested separately, by the side of the part's face that is nearest to the point. The search for this face
-// starts with the distance to one facet of the part and shrinks from there, so a point may lie at any depth.
+// Finds whether a point is inside a volume, or nearer to it than r (§3.9, method.md §9). Each connected part of the
+// surface is tested separately: the point is inside if it lies on the inner side of the part's nearest face. The search
+// starts with the distance to any facet of the part, so it finds this face at any depth.
 //
 // The side of x at a face, all in rounded double:
 //
 //   triangle   the side of its normal
 //   edge       the side of the sum of its triangles' unit normals. Points whose closest point is on the edge are all
-//              outside at a ridge and all inside at a valley; the sum's line halves their region
-//   vertex     the side of one of its edges, whose direction from the vertex is nearest to x's direction. On the sphere
-//              about the vertex, the arc from x to that direction crosses no triangle: a crossing would be nearer
+//              outside at a ridge and all inside at a valley; the line of the sum halves their region
+//   vertex     the side at that edge of the vertex whose direction is nearest to the direction of x. On the sphere
+//              about the vertex, the arc from x to this edge crosses no triangle: a crossing would be nearer
 //   rim        outside: an edge of only one triangle, and a vertex of such an edge, have no inner side
 //
-// A point beyond the box of a part is not inside it, so most points need no search of most parts.
+// A point outside the box of a part is not inside the part, so most points are searched in few parts.
 //
 // A driven volume stands still between two detections of a step, and most points far from it move little. So a search
-// that finds a point p far, but inside the box, also finds a radius ρ: all points within ρ of p are far. Let D be the
-// distance of p, c its closest point, d_t a lower bound of its distance to facet t, and h_t its height over the plane
-// of t. A point x at most ρ < D − r from p is farther than r from the part, and at most D + ρ. So the facets around the
-// nearest face of x are at most D + 2 ρ from p. If (d_t − D)/2 > ρ or h_t > ρ for every facet t, x lies on the outer
-// side of all these facets. Then x also lies on the outer side of an edge or vertex among them, unless two normals are
-// nearly opposite. To exclude such normals, h_t is used only if the normal of t leans towards p − c by at least 2⁻⁸.
+// that finds a point p far, but in the part's box, also computes a radius ρ such that all points within ρ of p are far.
+// Let D be the distance of p and c its closest point. Let d_t be a lower bound of its distance to facet t, and h_t its
+// height over the plane of t. A point x within ρ < D − r of p is farther than r from the part, and its distance is at
+// most D + ρ. So the facets around the nearest face of x are at most D + 2 ρ from p. If (d_t − D)/2 > ρ or h_t > ρ for
+// every facet t, x lies on the outer side of all these facets. Then x also lies on the outer side of an edge or vertex
+// among them, unless two normals are nearly opposite. To exclude this, h_t is used only if the cosine between the
+// normal of t and p − c exceeds 2⁻⁸.
 //
-// Rounding: the face that the search finds may be farther than the nearest one by two slacks, each at most 2 u S
-// (point_triangle_distance). For p and for x, S is at most six times the 1-norm L of the box' extent, so this is 2⁻¹⁹
-// L. Heights refer to the planes of is_outside, whose normals err by 2⁻³⁰ unless the facet is a sliver. Squares in the
-// test of the ball err by 2⁻²² of ρ ≤ L. 2⁻¹⁸ L covers all of this.
+// Rounding: the face that the search finds may be farther than the nearest one by two slacks of
+// point_triangle_distance, each at most 2⁻²³ S. For p and for x, S is at most six times the 1-norm L of the box's
+// extent, so this is 2⁻¹⁹ L. Heights refer to the planes of is_outside, whose normals err by 2⁻³⁰ unless the facet is a
+// sliver. The squares in ClearBall::holds err by 2⁻²² ρ, ρ ≤ L. The code uses 2⁻¹⁸ L, which covers all of this.
 #pragma once
 
 #include "fast/kernels/block.hpp"
@@ -34,14 +35,14 @@
 
 namespace ogc::fast {
 
-/// Holds a tree and the other data of its refit.
+/// Holds a tree and the data that its refit needs.
 struct PartTree {
   TreeView tree;            ///< refitted at these positions
-  int* arrivals = nullptr;  ///< as in RefitTrees
-  int first_item = 0;       ///< number of its first place in a refit of all trees, each padded to whole warps
+  int* arrivals = nullptr;  ///< counters of its nodes, as in RefitTrees
+  int first_item = 0;       ///< index of its first item in a launch that refits all trees, each padded to whole warps
 };
 
-/// Holds the trees of one part of a volume, so that a search of one part meets no facet of another.
+/// Holds the trees of one connected part of a volume, so that a search of this part meets no facet of another part.
 struct VolumePart {
   PartTree facets;
   PartTree tetrahedra;  ///< empty if the part is a surface
@@ -54,7 +55,7 @@ struct SolidView {
   const SolidElement* elements = nullptr;  ///< by tetrahedron
   std::uint8_t* is_positive = nullptr;     ///< by tetrahedron: whether its volume is positive; written by the refit
   Rows vertex_elements;                    ///< by vertex: tetrahedra that contain it, ascending
-  const int* owner = nullptr;              ///< by facet: the tetrahedron whose boundary it is
+  const int* owner = nullptr;              ///< by facet: the tetrahedron that has the facet as a side
 };
 
 /// Holds a volume, or all volumes of a scene, on the backend.
@@ -67,33 +68,35 @@ struct VolumeView {
   SolidView solids{};        ///< for parts of tetrahedra
 };
 
-/// The position of a point relative to a part.
+/// Position of a point relative to a part; `near`: outside, but nearer than r.
 enum class VolumeSide : int { far, inside, near };
 
-/// The facet of a part that is nearest to a point; if the nearest face is an edge or a vertex, one of its facets.
+/// Holds the facet of a part that is nearest to a point. If the nearest face is an edge or a vertex, any facet that
+/// contains it.
 struct NearestFacet {
   int facet = -1;
   VolumeSide side = VolumeSide::far;  ///< far: outside, and not nearer than r
 };
 
-/// One contact of a point with a part; c is the closest point of `face`.
+/// Holds one contact of a point with a part. c is the point of `face` that is closest to the point.
 struct FoundVolumeContact {
   /// the lowest-numbered facet that contains the face; the face, as SurfaceView numbers it
   int triangle = -1, face = -1;
   bool inside = false;
-  float weights[3] = {};  ///< of c, by corner of `triangle` [1]
+  float weights[3] = {};  ///< barycentric weights of c in `triangle` [1]
   Vec direction;          ///< n, out of the part [1]
-  float depth = 0;        ///< [m]
+  float depth = 0;        ///< r − ‖x − c‖ outside, r + ‖x − c‖ inside [m]
 };
 
-/// A ball about a point that was far from a part. All its points are far while the volume stands still.
+/// Holds a ball around a point that was far from a part. Its radius is chosen so that all its points are far until the
+/// volume moves.
 struct alignas(16) ClearBall {
-  /// Values in place of a radius. `unasked`: the point was not tested since the volume moved. `asked`: it was tested,
-  /// and no ball is known. `refused`: a ball was sought, and there is none.
+  /// Negative radii of an empty ball. `unasked`: the point was not tested since the volume moved. `asked`: it was
+  /// tested, but no ball is known. `refused`: a ball was sought, but there is none.
   static constexpr float unasked = -1, asked = -2, refused = -3;
 
   Vec centre;              ///< [m]
-  float radius = unasked;  ///< [m]; negative: the ball holds no point
+  float radius = unasked;  ///< [m]; negative: the ball is empty
 
   OGC_HD bool holds(const Vec& x) const {
     const Vec d = x - centre;
@@ -101,19 +104,19 @@ struct alignas(16) ClearBall {
   }
 };
 
-/// Largest radius of a clear ball, as a share of its centre's distance beyond r.
+/// Largest radius of a ClearBall, divided by D − r, where D is the distance of its centre from the part.
 inline constexpr float clear_share = 0.125F;
 
 class SolidQuestion;
 
-/// Finds where a point lies relative to a volume, and its contacts with it.
+/// Finds where a point lies relative to a volume, and the point's contacts with the volume.
 class VolumeQuestion {
  public:
   OGC_HD VolumeQuestion(const VolumeView& volume, const Vec& point) : volume_(volume), x_(point) {}
 
-  /// Returns the nearest facet and the side of the point. The search starts at `first`, any facet of the part: a near
-  /// one saves time. If the point is far but in the box of the part, `*clear` becomes a ball of far points, unless
-  /// `clear` is null.
+  /// Returns the nearest facet of a part and the side of the point. The search starts at facet `first` of the part; it
+  /// is faster if `first` is near. If the point is far but in the box of the part, a ball of far points is written to
+  /// `*clear`, unless `clear` is null.
   OGC_HD NearestFacet nearest_of(int part, int first, ClearBall* clear = nullptr) const {
     const Box box = box_of(part);
     if (squared_gap(box, {x_, x_}) > gap_limit(volume_.contact_radius)) return {first, VolumeSide::far};
@@ -125,8 +128,8 @@ class VolumeQuestion {
     return {nearest.facet, VolumeSide::far};
   }
 
-  /// Calls visit(contact) for each contact with a part, given its `nearest`. A point inside has one contact, at the
-  /// nearest face. A near point has one with each face in whose outward block it lies nearer than r.
+  /// Calls visit(contact) for each contact with a part; `nearest` is the result of nearest_of. A point inside has one
+  /// contact, at the nearest face. A near point has one with each face in whose outward block it lies nearer than r.
   template <class Visit>
   OGC_HD void visit_contacts(int part, const NearestFacet& nearest, Visit visit) const {
     if (nearest.side == VolumeSide::far) return;
@@ -135,8 +138,8 @@ class VolumeQuestion {
       visit(contact_at(nearest_face, true));
       return;
     }
-    // A near point has a contact with the nearest face, even if rounding puts it outside the face's block. The
-    // exception is a point beyond the box of the part, on the inner side of this face.
+    // A near point has a contact with its nearest face, even if rounding puts it outside the face's block. It has none
+    // if it is outside the part's box and on the inner side of this face.
     if (is_outside(nearest_face)) visit(contact_at(nearest_face, false));
     const float limit = gap_limit(volume_.contact_radius);
     for_each_near(volume_.parts[part].facets.tree, Box{x_, x_}, 0, limit, [&](const Offer& offer) {
@@ -146,7 +149,7 @@ class VolumeQuestion {
   }
 
  private:
-  friend class SolidQuestion;  ///< uses the same tests of faces
+  friend class SolidQuestion;  ///< uses the tests of faces below
 
   struct Nearest {
     Distance distance;
@@ -158,7 +161,7 @@ class VolumeQuestion {
     return {volume_.positions[facet.corner[0]], volume_.positions[facet.corner[1]], volume_.positions[facet.corner[2]]};
   }
 
-  /// Returns the vertex, edge or triangle that holds the point of facet t closest to x.
+  /// Returns the number of the face (vertex, edge or triangle) that holds the point of facet t closest to x.
   OGC_HD int face_of(int t) const {
     const Facet& facet = volume_.surface.facets[t];
     const TriangleFeature feature = closest_feature(x_, corners(t), facet.descending);
@@ -168,8 +171,8 @@ class VolumeQuestion {
     return volume_.surface.triangle_face(t);
   }
 
-  /// Returns the nearest face; among equally near faces the lowest-numbered one, which also has the lowest dimension.
-  /// face_of is called only at equal distances and at the end, because its predicates are exact and slow.
+  /// Returns the nearest face. Among equally near faces the lowest-numbered one, which also has the lowest dimension,
+  /// is taken. face_of is called only for ties and at the end, because its predicates are exact and slow.
   OGC_HD Nearest search(int part, int first) const {
     Nearest nearest;
     nearest.distance.value = infinity;
@@ -195,7 +198,8 @@ class VolumeQuestion {
     return nearest;
   }
 
-  /// Returns the ball about x. x must be far, in the box, and on the outer side of the nearest face.
+  /// Returns a ball around x whose points are all far until the volume moves (see the head of this file); its radius is
+  /// `refused` if there is none. x must be far, in the box, and on the outer side of the nearest face.
   OGC_HD ClearBall clear_ball(int part, const Nearest& nearest, const Box& box) const {
     const float doubt = mul(0x1p-18F, norm_1(box.upper - box.lower));
     const Corners at = corners(nearest.facet);
@@ -221,8 +225,8 @@ class VolumeQuestion {
     return {x_, radius > doubt ? radius : ClearBall::refused};
   }
 
-  /// Returns the height of x over the plane of a facet; −∞ if the facet's normal is inaccurate or does not lean towards
-  /// `away`.
+  /// Returns the height of x over the plane of a facet. Returns −∞ if the facet's normal is inaccurate, or if the
+  /// cosine between it and `away` is at most 2⁻⁸.
   OGC_HD float height_over(int t, const Real& away) const {
     const Corners at = corners(t);
     const Real e = difference<Rounded>(at.b, at.a), f = difference<Rounded>(at.c, at.a), n = cross(e, f);
@@ -232,7 +236,7 @@ class VolumeQuestion {
     return round_down(divide(dot(difference<Rounded>(x_, at.a), n).value, size));
   }
 
-  /// Returns the box of a part; it is exact.
+  /// Returns the box of all facets of a part, without any margin.
   OGC_HD Box box_of(int part) const {
     const TreeView& tree = volume_.parts[part].facets.tree;
     return tree.node(tree.levels - 1, 0).whole();
@@ -242,14 +246,15 @@ class VolumeQuestion {
            box.lower.z <= x_.z && x_.z <= box.upper.z;
   }
 
-  /// Returns whether x is nearer than r to a facet at distance d; decides exactly if the slack does not.
+  /// Returns whether x is nearer than r to facet t, whose distance is d. An exact predicate decides if d is within its
+  /// slack of r.
   OGC_HD bool is_near(int t, const Distance& d) const {
     const Corners at = corners(t);
     return is_within(x_, at, closest_feature(x_, at, volume_.surface.facets[t].descending), d, volume_.contact_radius);
   }
 
-  /// Returns the face of facet t in whose block x lies nearer than r; −1 if there is none, or if a lower-numbered facet
-  /// contains the face.
+  /// Returns the face of facet t that holds the closest point to x, if x is nearer than r and in the block of this
+  /// face. Returns −1 otherwise, and if a lower-numbered facet contains the face.
   OGC_HD int touched_face(int t) const {
     const SurfaceView& surface = volume_.surface;
     const Corners at = corners(t);
@@ -350,8 +355,8 @@ class VolumeQuestion {
   }
 
   /// Returns the contact with its weights, direction and depth. The direction is along x − c, outward. It is the
-  /// facet's normal if c is in the facet's interior, or if x − c is below 2⁻⁴⁸ of the coordinates and so only their
-  /// rounding.
+  /// facet's normal if c is in the facet's interior. It is also the normal if x − c is below 2⁻⁴⁸ of the coordinates,
+  /// and so is only rounding error.
   OGC_HD FoundVolumeContact contact_at(int face, bool inside) const {
     const SurfaceView& surface = volume_.surface;
     FoundVolumeContact contact;
@@ -387,7 +392,7 @@ class VolumeQuestion {
     return contact;
   }
 
-  /// Returns x − c if c is a corner or on an edge.
+  /// Returns x − c, where c is the given corner, or the closest point on the given edge.
   OGC_HD Real from_foot(const Corners& at, TriangleFeature feature) const {
     const int f = static_cast<int>(feature);
     if (f < 3) return difference<Rounded>(x_, at[f]);

@@ -1,13 +1,14 @@
-// Adds a contact with a volume. Its detection froze the weights of the point c of a triangle and the unit direction n
-// out of the volume (§3.9, method.md §9). With φ = n·(x₀ − c) the energy E = k/2 max(0, r − φ)² is always quadratic,
-// and its block k w² n nᵀ is exact. Inside and outside do not change between two detections.
+// Adds the force and block of a contact with a volume. The detection froze the weights of the triangle's point c and
+// the unit direction n out of the volume (§3.9, method.md §9). With φ = n·(x₀ − c), the energy E = k/2 max(0, r − φ)²
+// is quadratic in the depth, and its block k w² n nᵀ is exact. Whether the point is inside is decided only at
+// detections.
 #pragma once
 
 #include "fast/kernels/friction_force.hpp"
 
 namespace ogc::fast {
 
-/// Holds the frozen data of one contact.
+/// Holds the data of one contact that its detection froze.
 struct VolumeContact {
   float weights[3] = {};              ///< weights of c, by corner [1]
   Vec normal;                         ///< n [1]
@@ -24,15 +25,16 @@ OGC_HD inline Vec volume_separation(const VolumeContact& contact, const Vec* x) 
   return contact.weights[0] * (x[0] - x[1]) + contact.weights[1] * (x[0] - x[2]) + contact.weights[2] * (x[0] - x[3]);
 }
 
-/// Returns x₀ − x₀ᵗ − Σ wᵢ (xᵢ − xᵢᵗ) [m].
+/// Returns the motion of the point relative to c since the start of the step: x₀ − x₀ᵗ − Σ wᵢ (xᵢ − xᵢᵗ) [m].
 OGC_HD inline Vec volume_motion(const VolumeContact& contact, const Vec* x, const Vec* start) {
   return (x[0] - start[0]) - contact.weights[0] * (x[1] - start[1]) - contact.weights[1] * (x[2] - start[2]) -
          contact.weights[2] * (x[3] - start[3]);
 }
 
-/// Adds normal force, friction and block of the vertex with this role; nothing if φ ≥ r. `slip_limit` is ε_v h [m]. Bit
-/// k of `together` is set if another vertex, of role k, is solved at the same time: blocks then have |w| Σ |w_u| in
-/// place of w² (method.md §7.4). Returns λ = k (r − φ), 0 if the contact does not act [N].
+/// Adds normal force, friction and block of the vertex with this role; adds nothing if φ ≥ r. `slip_limit` is ε_v h
+/// [m]. Bit k of `together` is set if another vertex, of role k, is solved at the same time. The block then has |w| Σ
+/// |w_u| in place of w², with the sum over all vertices u that are solved together (method.md §7.4). Returns λ = k (r −
+/// φ) [N]; 0 if the contact exerts no force.
 OGC_HD inline float add_volume_contact(const VolumeContact& contact, const Vec* x, const Vec* start, int role,
                                        float contact_radius, float slip_limit, ForceAndBlock& sum, int together = 0) {
   const float depth = contact_radius - dot(contact.normal, volume_separation(contact, x));

@@ -1,5 +1,4 @@
-// Holds the force and the symmetric 3×3 block of one vertex (Alg. 4), to which every energy adds. Each team lane sums
-// up one.
+// Holds the sum of all forces on one vertex and of their symmetric 3×3 blocks (Alg. 4). Each team lane has its own sum.
 #pragma once
 
 #include "fast/kernels/arithmetic/qualifiers.hpp"
@@ -15,7 +14,7 @@ struct Symmetric3Of {
 };
 using Symmetric3 = Symmetric3Of<float>;
 
-/// Holds force and block of one vertex.
+/// Holds the force and the block of one vertex.
 template <class T>
 struct ForceAndBlockOf {
   Vector<T> force{};        ///< −∂E/∂x_v [N]
@@ -42,7 +41,7 @@ struct ForceAndBlockOf {
     block.zz = block.zz + scale;
   }
 
-  /// Adds another sum. Each addition is rounded by itself. If it were contracted with a product of the other sum, the
+  /// Adds another sum. Each addition is rounded separately: if it were contracted with a product of the other sum, the
   /// bits would depend on where that product is computed.
   OGC_HD ForceAndBlockOf& operator+=(const ForceAndBlockOf& other) {
     force = {add(force.x, other.force.x), add(force.y, other.force.y), add(force.z, other.force.z)};
@@ -57,7 +56,7 @@ struct ForceAndBlockOf {
 };
 using ForceAndBlock = ForceAndBlockOf<float>;
 
-/// Calls add(sum) where the condition holds.
+/// Calls add(sum) if the condition holds. fast/cpu/packed_items.hpp has the overload for several numbers side by side.
 template <class Add>
 OGC_HD void add_where(bool condition, ForceAndBlock& sum, Add add) {
   if (condition) add(sum);

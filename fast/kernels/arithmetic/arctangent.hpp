@@ -7,9 +7,10 @@
 
 namespace ogc::fast {
 
-/// Returns the angle of (x, y) in [−π, π]; 0 if both are 0. The relative error is at most 4 u
+/// Returns the angle of (x, y) in [−π, π]; 0 if both are 0. With u = 2⁻²⁴ the relative error is at most 4 u
 /// (tests/fast/kernels/arithmetic/arctangent.cpp). The polynomial is a minimax fit of (atan t − t)/t³ in t² on |t| ≤
-/// tan(π/8), with an error of 0.02 u. The rest comes from one division, one or two sums and the rounded π/4, π/2 or π.
+/// tan(π/8), with an error of 0.02 u. The remaining error comes from one division, one or two sums, and the rounded
+/// constants π/4, π/2 and π.
 template <class T>
 OGC_HD T arctangent2(const T& y, const T& x) {
   constexpr float tan_eighth = 0.41421357f, quarter = 0.78539819f, half = 1.57079637f, whole = 3.14159274f;

@@ -1,6 +1,6 @@
-// Defines atomics whose results do not depend on the order of execution: integer sums and maxima, and minima of
-// non-negative floats, whose bits have the same order. Which thread wins a compare-and-exchange does depend on the
-// order, so it may only decide which thread does a piece of work.
+// Defines atomics whose targets end with values that do not depend on the order of execution: integer sums and maxima,
+// and minima of non-negative floats. Values that atomic_add, atomic_compare_exchange and arrives_last return may depend
+// on it. They may only decide which thread does a piece of work, or a place in a list whose order has no effect.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace ogc::fast {
 
-/// Adds, and returns the value before the addition.
+/// Adds the value to the target, and returns the target's value before the addition.
 OGC_HD inline int atomic_add(int* target, int value) {
 #if defined(__CUDA_ARCH__)
   return atomicAdd(target, value);
@@ -22,7 +22,7 @@ OGC_HD inline int atomic_add(int* target, int value) {
 #endif
 }
 
-/// Raises the target to the value.
+/// Sets the target to the maximum of target and value.
 OGC_HD inline void atomic_max(int* target, int value) {
 #if defined(__CUDA_ARCH__)
   atomicMax(target, value);
@@ -33,8 +33,8 @@ OGC_HD inline void atomic_max(int* target, int value) {
 #endif
 }
 
-/// Raises the target as atomic_max does, for a launch whose threads all raise one target. The active threads of a warp
-/// make one access together.
+/// Does the same as atomic_max, but is faster if all threads of a launch use the same target: the active threads of a
+/// warp make one access together.
 OGC_HD inline void raise_together(int* target, int value) {
 #if defined(__CUDA_ARCH__)
   const unsigned here = __activemask();
@@ -45,7 +45,7 @@ OGC_HD inline void raise_together(int* target, int value) {
 #endif
 }
 
-/// Raises the target to the value.
+/// Sets the target to the maximum of target and value.
 OGC_HD inline void atomic_max(std::uint64_t* target, std::uint64_t value) {
 #if defined(__CUDA_ARCH__)
   atomicMax(reinterpret_cast<unsigned long long*>(target), static_cast<unsigned long long>(value));
@@ -68,9 +68,9 @@ OGC_HD inline std::uint64_t atomic_compare_exchange(std::uint64_t* target, std::
 #endif
 }
 
-/// Returns whether this thread is the last of `count` to arrive at a counter. The counter is 0 before the first and
-/// after the last. The last thread sees what the others wrote before they arrived. Only it acquires: an acquire, as in
-/// __threadfence, empties the first-level cache.
+/// Adds 1 to a counter, and returns whether it was the last of `count` additions. The counter is 0 before the first and
+/// after the last. The thread that gets `true` sees what the others wrote before they arrived. Only this thread
+/// executes an acquire fence, because such a fence empties the first-level cache.
 OGC_HD inline bool arrives_last(int* counter, int count) {
 #if defined(__CUDA_ARCH__)
   int before;
@@ -104,7 +104,7 @@ OGC_HD inline int atomic_load(const int* source) {
 #endif
 }
 
-/// Reads a value that other threads may be lowering.
+/// Reads a value that other threads may be lowering at the same time.
 OGC_HD inline float atomic_load(const float* source) {
 #if defined(__CUDA_ARCH__)
   return *const_cast<const volatile float*>(source);
@@ -113,7 +113,8 @@ OGC_HD inline float atomic_load(const float* source) {
 #endif
 }
 
-/// Lowers the target to the value. Floats must not be negative or NaN: then their bits, as integers, have their order.
+/// Sets the target to the minimum of target and value. Neither may be negative or NaN: then the order of their bits as
+/// integers is the order of the floats.
 OGC_HD inline void atomic_min(float* target, float value) {
 #if defined(__CUDA_ARCH__)
   atomicMin(reinterpret_cast<int*>(target), __float_as_int(value));
@@ -124,7 +125,8 @@ OGC_HD inline void atomic_min(float* target, float value) {
 #endif
 }
 
-/// Lowers the target as raise_together raises it. Floats must not be negative or NaN.
+/// Does the same as atomic_min, but is faster if all threads of a launch use the same target. No number may be negative
+/// or NaN.
 OGC_HD inline void lower_together(float* target, float value) {
 #if defined(__CUDA_ARCH__)
   const unsigned here = __activemask();
@@ -136,7 +138,7 @@ OGC_HD inline void lower_together(float* target, float value) {
 #endif
 }
 
-/// Lowers the target as atomic_min does, but compares first: most values lower nothing.
+/// Does the same as atomic_min, but reads the target first, because most values do not change it.
 OGC_HD inline void lower(float* target, float value) {
   if (value < atomic_load(target)) atomic_min(target, value);
 }

@@ -1,13 +1,13 @@
 // Decides signs of polynomials in the coordinates exactly. A polynomial is a functor over a number type. Up to degree
 // 4, `exact_sign` first evaluates it in single precision (Single), which decides nearly all generic input. Then it
-// evaluates in double, together with the sum of the moduli of the terms (Filtered). Only if rounding errors could reach
-// the value, it evaluates in double-double (Wide). All but Single is out of line, so that rare code takes neither
-// registers nor instruction cache from code that always runs.
+// evaluates in double, together with the sum of the moduli of the terms (Filtered). If the value may be a rounding
+// error, it evaluates in double-double (Wide). Only Single is inlined: the other code rarely runs, and would cost
+// registers and instruction cache.
 //
-// Double suffices for nearly all predicates, because the difference of two single-precision coordinates of similar size
-// is exact in it. A predicate of degree 2 or 4 then only has a few roundings of 2⁻⁵³. Double-double has 106 bits. A
-// value under 2⁻⁹⁸ of its terms counts as zero there, so that exact degeneracies (lattices, coplanar layers, collinear
-// triangles) are recognised.
+// Double suffices for nearly all predicates, because it holds the difference of two single-precision coordinates of
+// similar size exactly. A predicate of degree 2 or 4 then only has a few roundings of 2⁻⁵³. Double-double has 106 bits.
+// There a value below 2⁻⁹⁸ of its terms counts as zero, so that exact degeneracies (lattices, coplanar layers,
+// collinear triangles) are recognised.
 #pragma once
 
 #include <cmath>
@@ -17,11 +17,11 @@
 
 namespace ogc::fast {
 
-/// A double; each of its operations is rounded by itself.
+/// A double whose operations are never contracted, so that each is rounded once.
 struct Rounded {
   double value = 0;
 
-  /// Return the difference of two coordinates, rounded once, and a constant. Polynomials consist of both.
+  /// Convert the two inputs of polynomials: the difference of two coordinates, rounded once, and a constant.
   OGC_HD static Rounded difference(float a, float b) { return {sub(static_cast<double>(a), static_cast<double>(b))}; }
   OGC_HD static Rounded exact(double a) { return {a}; }
   friend OGC_HD Rounded operator+(Rounded a, Rounded b) { return {add(a.value, b.value)}; }
@@ -31,7 +31,7 @@ struct Rounded {
   friend OGC_HD Rounded operator/(Rounded a, Rounded b) { return {divide(a.value, b.value)}; }
 };
 
-/// Holds a sign, and whether it is certain despite rounding errors.
+/// Holds a sign, and whether rounding errors can change it.
 struct Sign {
   int value = 0;  ///< −1, 0 or 1
   bool certain = true;
@@ -40,30 +40,30 @@ struct Sign {
 /// Returns −1, 0 or 1; 0 for NaN.
 OGC_HD inline int sign_of(double a) { return (a > 0) - (a < 0); }
 
-/// Holds a value in single precision with the sum of the moduli of its terms, for degrees up to 4. Contraction changes
-/// no certain sign, because it only omits roundings.
+/// Holds a value in single precision and the sum of the moduli of its terms, for degrees up to 4. If the compiler
+/// contracts operations, no certain sign changes, because contraction only omits roundings.
 struct Single {
   float value = 0, scale = 0;  ///< scale: Σ of the moduli of the terms of value
 
-  /// Returns a difference of floats, which has one relative error of u = 2⁻²⁴, however small it is. Its modulus counts
-  /// as at least 2⁻³⁰, so no scale of degree 4 is below 2⁻¹²⁰. Underflow of products then loses 2⁻¹⁵⁰ each, far less
-  /// than u · scale.
+  /// Returns a difference of floats. Its relative error is u = 2⁻²⁴, however small it is. Its modulus counts as at
+  /// least 2⁻³⁰, so no scale of degree 4 is below 2⁻¹²⁰. Then underflow of products, 2⁻¹⁵⁰ each, is far less than u ·
+  /// scale.
   OGC_HD static Single difference(float a, float b) {
     const float d = a - b;
     return {d, larger(fabsf(d), 0x1p-30F)};
   }
-  /// Returns `a`, which has 24 bits.
+  /// Returns `a`, which must fit into 24 bits.
   OGC_HD static Single exact(double a) { return {static_cast<float>(a), static_cast<float>(modulus(a))}; }
   friend OGC_HD Single operator+(Single a, Single b) { return {a.value + b.value, a.scale + b.scale}; }
   friend OGC_HD Single operator-(Single a, Single b) { return {a.value - b.value, a.scale + b.scale}; }
   friend OGC_HD Single operator*(Single a, Single b) { return {a.value * b.value, a.scale * b.scale}; }
 
-  /// Returns the sign as Filtered::sign does, with u = 2⁻²⁴. After an overflow nothing is certain, because no value
-  /// exceeds an infinite scale.
+  /// Returns the sign. It is certain if |value| exceeds 2⁻¹⁸ of the scale, by the count of Filtered::sign with
+  /// roundings of 2⁻²⁴. After an overflow no sign is certain, because no value exceeds an infinite scale.
   OGC_HD Sign sign() const { return {(value > 0) - (value < 0), fabsf(value) > scale * 0x1p-18F}; }
 };
 
-/// Holds a rounded double with the sum of the moduli of its terms.
+/// Holds a value in double and the sum of the moduli of its terms.
 struct Filtered {
   double value = 0, scale = 0;  ///< scale: Σ of the moduli of the terms of value
 
@@ -78,17 +78,17 @@ struct Filtered {
   friend OGC_HD Filtered operator-(Filtered a, Filtered b) { return {sub(a.value, b.value), add(a.scale, b.scale)}; }
   friend OGC_HD Filtered operator*(Filtered a, Filtered b) { return {mul(a.value, b.value), mul(a.scale, b.scale)}; }
 
-  /// Returns the sign. Each term of a polynomial of degree d with nested sums passes at most d differences, d − 1
-  /// products and, by degree, 2, 5, 8 … sums: under 32 roundings of 2⁻⁵³ up to degree 6. The scale has the same
-  /// rounding error. 2⁻⁴⁷ is twice the sum of both.
+  /// Returns the sign. Each term of a polynomial of degree d is the result of at most d differences, d − 1 products
+  /// and, for degrees 2, 4 and 6, 2, 5 and 8 sums. These are under 32 roundings of 2⁻⁵³ for degrees up to 6. The scale
+  /// has as many roundings. 2⁻⁴⁷ is twice both errors together.
   OGC_HD Sign sign() const { return {sign_of(value), modulus(value) > mul(scale, 0x1p-47)}; }
 };
 
-/// Holds an unevaluated sum high + low of two doubles (|low| ≤ ulp(high)/2) with the sum of the moduli of its terms.
+/// Holds an unevaluated sum high + low of two doubles, |low| ≤ ulp(high)/2, and the sum of the moduli of its terms.
 struct Wide {
   double high = 0, low = 0, scale = 0;  ///< scale: Σ of the moduli of the terms of high + low
 
-  /// Return a difference and a constant, both exact: two doubles hold the difference of any two floats.
+  /// Convert the two inputs of polynomials, both exactly: two doubles hold the difference of any two floats.
   OGC_HD static Wide difference(float a, float b) { return sum_of(static_cast<double>(a), -static_cast<double>(b)); }
   OGC_HD static Wide exact(double a) { return {a, 0, modulus(a)}; }
   friend OGC_HD Wide operator+(const Wide& a, const Wide& b) {
@@ -102,7 +102,7 @@ struct Wide {
     return normalised(p, add(rest, add(mul(a.high, b.low), mul(a.low, b.high))), mul(a.scale, b.scale));
   }
 
-  /// Returns the sign. One operation errs by at most 2⁻¹⁰³ of its result, 32 of them by 2⁻⁹⁸.
+  /// Returns the sign. Each operation errs by at most 2⁻¹⁰³ of its result, so 32 operations err by at most 2⁻⁹⁸.
   OGC_HD Sign sign() const { return {modulus(high) <= mul(scale, 0x1p-98) ? 0 : sign_of(high), true}; }
 
  private:
@@ -116,7 +116,7 @@ struct Wide {
   }
 };
 
-/// Returns p − q: exact in double if the coordinates are of similar size, always exact in Wide.
+/// Returns p − q. In double it is exact if the coordinates are of similar size, in Wide always.
 template <class N>
 OGC_HD Vector<N> difference(const Vec& p, const Vec& q) {
   return {N::difference(p.x, q.x), N::difference(p.y, q.y), N::difference(p.z, q.z)};
@@ -130,7 +130,7 @@ OGC_HD OGC_OUT_OF_LINE int exact_sign_in_double(Polynomial polynomial) {
   return quick.certain ? quick.value : polynomial.template value<Wide>().sign().value;
 }
 
-/// Returns the exact sign of polynomial.value<N>(). `Polynomial::degree` is the degree of its terms.
+/// Returns the exact sign of polynomial.value<N>(). `Polynomial::degree` is the polynomial's degree in the coordinates.
 template <class Polynomial>
 OGC_HD int exact_sign(const Polynomial& polynomial) {
   if constexpr (Polynomial::degree <= 4) {

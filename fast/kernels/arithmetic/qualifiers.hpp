@@ -12,8 +12,8 @@
 
 namespace ogc::fast {
 
-/// Returns f() without inlining it, so that rare code takes neither registers nor instruction cache from code that
-/// always runs. `f` is passed by value: a reference would force what it reads into memory.
+/// Returns f() without inlining it, so that rare code costs no registers and no instruction cache where frequent code
+/// runs. `f` is passed by value: a reference would force the variables that f reads into memory.
 template <class F>
 OGC_HD OGC_OUT_OF_LINE auto called(F f) {
   return f();

@@ -26,7 +26,7 @@ template <class T>
 OGC_HD QuatOf<T> operator*(T s, const QuatOf<T>& a) {
   return {s * a.x, s * a.y, s * a.z, s * a.w};
 }
-/// Returns a if the condition holds, else b, component by component.
+/// Returns a if the condition holds, else b; the condition selects each component separately.
 template <class T, class M>
 OGC_HD QuatOf<T> select(const M& condition, const QuatOf<T>& a, const QuatOf<T>& b) {
   return {select(condition, a.x, b.x), select(condition, a.y, b.y), select(condition, a.z, b.z),
@@ -51,7 +51,7 @@ OGC_HD QuatOf<T> pure(const Vector<T>& v) {
   return {v.x, v.y, v.z, T(0.0f)};
 }
 
-/// Returns R(q) v = v + 2 w (u × v) + 2 u × (u × v).
+/// Returns R(q) v = v + 2 w (u × v) + 2 u × (u × v), where u is the vector part of q and w its real part.
 OGC_HD inline Vec turned(const Quat& q, const Vec& v) {
   const Vec u{q.x, q.y, q.z}, twice = 2.0f * cross(u, v);
   return v + q.w * twice + cross(u, twice);
@@ -62,8 +62,8 @@ OGC_HD inline Vec turned_back(const Quat& q, const Vec& v) { return turned(conju
 /// Returns R(q) e₃, the direction of a segment of this orientation.
 OGC_HD inline Vec director(const Quat& q) { return turned(q, {0.0f, 0.0f, 1.0f}); }
 
-/// Returns q/‖q‖; q is not 0. The second factor corrects the rounding of root and quotient, which may be inexact on a
-/// device. The norm of the result is 1 within 4 u.
+/// Returns q/‖q‖ for q ≠ 0, with a norm within 4 · 2⁻²⁴ of 1. The second factor, a Newton step, corrects the root and
+/// the quotient, which a device may round inexactly.
 template <class T>
 OGC_HD QuatOf<T> unit(const QuatOf<T>& q) {
   const QuatOf<T> near = T(1.0f / root(dot(q, q))) * q;

@@ -1,6 +1,6 @@
-// Defines arithmetic whose every operation is rounded by itself. The host never contracts operations
-// (-ffp-contract=off), but nvcc does, except with these intrinsics. So detection gives the same bits on both sides in
-// every build, not only in `strict`.
+// Defines operations that are each rounded separately, never contracted to fused multiply-adds. The host never
+// contracts operations (-ffp-contract=off). nvcc does, except with the intrinsics used here. So detection gives the
+// same bits on host and device in every build, not only in a `strict` one.
 #pragma once
 
 #include <bit>
@@ -18,7 +18,7 @@ namespace ogc::fast {
 #define OGC_ROUNDED(on_device, on_host) return on_host
 #endif
 
-/// Each computes one IEEE operation, rounded to nearest and never contracted.
+/// Each function computes one IEEE operation, rounded to nearest and never contracted.
 OGC_HD inline double add(double a, double b) { OGC_ROUNDED(__dadd_rn(a, b), a + b); }
 OGC_HD inline double sub(double a, double b) { OGC_ROUNDED(__dsub_rn(a, b), a - b); }
 OGC_HD inline double mul(double a, double b) { OGC_ROUNDED(__dmul_rn(a, b), a * b); }
@@ -27,7 +27,7 @@ OGC_HD inline double square_root(double a) { OGC_ROUNDED(__dsqrt_rn(a), std::sqr
 /// Returns a·b + c with one rounding.
 OGC_HD inline double fused(double a, double b, double c) { OGC_ROUNDED(__fma_rn(a, b, c), std::fma(a, b, c)); }
 
-/// The same operations in single precision.
+/// Compute the same operations in single precision.
 OGC_HD inline float add(float a, float b) { OGC_ROUNDED(__fadd_rn(a, b), a + b); }
 OGC_HD inline float sub(float a, float b) { OGC_ROUNDED(__fsub_rn(a, b), a - b); }
 OGC_HD inline float mul(float a, float b) { OGC_ROUNDED(__fmul_rn(a, b), a * b); }
@@ -35,7 +35,7 @@ OGC_HD inline float square_root(float a) { OGC_ROUNDED(__fsqrt_rn(a), std::sqrt(
 
 #undef OGC_ROUNDED
 
-/// Return minimum, maximum and |a|. If one of two arguments is NaN the result is the first.
+/// Return minimum, maximum and |a|. If either argument is NaN, minimum and maximum return the first argument.
 OGC_HD inline double smaller(double a, double b) { return b < a ? b : a; }
 OGC_HD inline double larger(double a, double b) { return a < b ? b : a; }
 OGC_HD inline double modulus(double a) { return a < 0 ? -a : a; }

@@ -1,5 +1,5 @@
-// Defines what a formula needs of its number type beyond + − × ÷. So a formula is written once, for one float and for
-// several side by side (fast/cpu/pack.hpp).
+// Defines the functions of a number type that formulas use besides + − × ÷. So a formula is written once, for one float
+// and for several numbers side by side (fast/cpu/pack.hpp).
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace ogc::fast {
 
-/// Names the result type of a comparison of two numbers.
+/// Names the type of a comparison's result.
 template <class T>
 struct MaskOf {
   using type = bool;
@@ -19,20 +19,20 @@ using Mask = typename MaskOf<T>::type;
 
 /// Returns a if the condition holds, else b.
 OGC_HD inline float select(bool condition, float a, float b) { return condition ? a : b; }
-/// Returns a if the condition holds, else b, component by component.
+/// Returns a if the condition holds, else b; the condition selects each component separately.
 template <class T, class M>
 OGC_HD Vector<T> select(const M& condition, const Vector<T>& a, const Vector<T>& b) {
   return {select(condition, a.x, b.x), select(condition, a.y, b.y), select(condition, a.z, b.z)};
 }
-/// Returns a() if the condition holds, else b(). A single number computes one of them; several side by side compute
-/// both.
+/// Returns a() if the condition holds, else b(). For a single number only one of them is computed, for several numbers
+/// side by side both.
 template <class A, class B>
 OGC_HD float choose(bool condition, const A& a, const B& b) {
   return condition ? a() : b();
 }
 OGC_HD inline float absolute(float a) { return fabsf(a); }
 OGC_HD inline float root(float a) { return sqrtf(a); }
-/// Returns whether the condition holds for no number, so that a formula may end early.
+/// Returns whether the condition is false for all numbers, so that a formula may return early.
 OGC_HD inline bool is_false(bool condition) { return !condition; }
 
 }  // namespace ogc::fast

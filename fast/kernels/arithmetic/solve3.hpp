@@ -7,10 +7,10 @@
 
 namespace ogc::fast {
 
-/// Returns x of H x = f by LDLᵀ without pivoting; H should be symmetric positive definite. In single precision it is
-/// not if a pivot is at most 4 u of its diagonal entry, which is the rounding error of the products subtracted from it,
-/// or if an entry is not finite. Then the result is f · `fallback`, a step down the gradient; with fallback = h²/m this
-/// is the step of inertia alone.
+/// Returns x of H x = f by LDLᵀ without pivoting, for a symmetric positive definite H. H counts as indefinite if a
+/// pivot is at most 4 · 2⁻²⁴ of its diagonal entry, the rounding error of the products subtracted from it, or is not a
+/// number. Then the result is f · `fallback`, a step down the gradient. With fallback = h²/m this is the step of
+/// inertia alone.
 OGC_HD inline Vec solve_symmetric(const Symmetric3& h, const Vec& f, float fallback) {
   constexpr float noise = 4 * 0x1p-24f;
   const Vec gradient_step = fallback * f;

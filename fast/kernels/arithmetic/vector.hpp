@@ -1,5 +1,5 @@
 // Defines vectors over any number type: float for the sweep, the types of exact_sign.hpp for detection. `Vec` has the
-// layout of compare::Vec3f, so positions are copied, never converted.
+// layout of compare::Vec3f, so that arrays of positions are copied without conversion.
 #pragma once
 
 #include "fast/kernels/arithmetic/qualifiers.hpp"
@@ -23,7 +23,7 @@ struct Vector {
 /// A point or vector in single precision; its unit is given at each use.
 using Vec = Vector<float>;
 
-/// A position that is read often. Its 16 bytes are one read on a device and one register on a CPU.
+/// A position padded to 16 bytes, which a device loads with one instruction and a CPU holds in one register.
 struct alignas(16) PaddedVec {
   float x = 0, y = 0, z = 0, unused = 0;  ///< `unused` fills it up to 16 B
 
@@ -32,7 +32,7 @@ struct alignas(16) PaddedVec {
   OGC_HD operator Vec() const { return {x, y, z}; }
 };
 
-/// Padded positions, each read whole.
+/// An array of padded positions; each access loads all 16 bytes at once.
 struct PaddedVecs {
   const PaddedVec* at = nullptr;  ///< by vertex [m]
 
@@ -62,7 +62,7 @@ template <class T>
 OGC_HD Vector<T> operator*(const Vector<T>& a, const T& s) {
   return {a.x * s, a.y * s, a.z * s};
 }
-/// Returns a·b. Products are added from the left: the order of rounded sums decides bits.
+/// Returns a·b. Products are added from the left, because the order of rounded sums changes bits.
 template <class T>
 OGC_HD T dot(const Vector<T>& a, const Vector<T>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;

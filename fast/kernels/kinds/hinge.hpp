@@ -1,4 +1,4 @@
-// Hinges of bending surfaces.
+// Adds hinges of bending surfaces to the sums of sweeps and reports.
 #pragma once
 
 #include "fast/kernels/items.hpp"
@@ -8,20 +8,20 @@
 
 namespace ogc::fast {
 
-/// A hinge as one of its vertices sees it. An end of the edge is x0 itself, and `index` holds x1, o0, o1. An opposite
-/// vertex is o0 itself, and `index` holds x0, x1, o1.
+/// A hinge as one of its vertices sees it. If this vertex is an end of the edge it counts as x0, and `index` holds x1,
+/// o0, o1. If it is an opposite vertex it counts as o0, and `index` holds x0, x1, o1.
 struct alignas(8) HingeIncidence {
-  int index[3] = {0, 0, 0};  ///< encoded
-  int hinge = -1;            ///< number in RestState::hinges; ~number at an opposite vertex
+  int index[3] = {0, 0, 0};  ///< encoded as in sweep_view.hpp
+  int hinge = -1;            ///< number in RestState::hinges; ~number if the vertex is an opposite one
   HingeStencil stencil{};    ///< c and θ₀
 };
 
-/// Returns the energy of hinge i, for the functor of its model.
+/// Computes the energy of hinge i; the argument is the functor of the bending model.
 struct HingeEnergy {
   const HingeRest& rest;
   const HingeWeights* weights;  ///< by hinge; read only if the model `reads_weights`
   int i;
-  const Vec* to;  ///< from x0 to x1, o0 and o1 [m]
+  const Vec* to;  ///< x1, o0 and o1 minus x0 [m]
 
   template <class Model>
   OGC_HD double operator()(Model) const {
@@ -31,8 +31,8 @@ struct HingeEnergy {
   }
 };
 
-/// Describes hinges as a kind of element (kind.hpp). Roles 0 and 1 are the ends of the edge, 2 and 3 the opposite
-/// vertices.
+/// Describes hinges as a kind of element (kind.hpp). The vertices with roles 0 and 1 are the ends of the edge, those
+/// with roles 2 and 3 are opposite to it.
 struct HingeKind : ElementKind<HingeRest, HingeIncidence> {
   using Beside = IsometricStencil;
   using RestBeside = HingeWeights;
@@ -43,12 +43,13 @@ struct HingeKind : ElementKind<HingeRest, HingeIncidence> {
   };
   static constexpr unsigned asked = asks_hinges;
   static constexpr int row_in_vertex = 1;
-  /// The roles of the other vertices, in the order in which a vertex of each role lists them. Exchanging x0 with x1 and
-  /// o0 with o1 keeps the angle (fast/kernels/models/discrete_hinge.hpp).
+  /// By role of a vertex: the roles of the other vertices, in the order of HingeIncidence::index. At the second end and
+  /// at the second opposite vertex x0 and x1 are exchanged, and o0 and o1; this keeps the angle
+  /// (fast/kernels/models/hinge.hpp).
   static constexpr int others[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {1, 0, 2}};
-  /// fast/kernels/models/discrete_hinge.hpp: differences 9, normals 18, squares 25, their limits 4, length 1,
-  /// projections 12, angle's arguments 11, arctangent2 13, feet 7, divisors 2, gradient 11, moment 5, force 6, block
-  /// 17.
+  /// Operations by term (fast/kernels/models/discrete_hinge.hpp): differences 9, normals 18, squares 25, their limits
+  /// 4, length 1, projections 12, the angle's arguments 11, arctangent2 13, feet 7, divisors 2, gradient 11, moment 5,
+  /// force 6, block 17.
   static constexpr double flop = 141;
 
   template <class AnyView>
@@ -64,8 +65,8 @@ struct HingeKind : ElementKind<HingeRest, HingeIncidence> {
     incidence.stencil = {rest.stiffness, rest.angle};
     return incidence;
   }
-  /// Returns the weights in the order of the incidence. The weight of x0 is computed from the stored ones and rounded
-  /// once.
+  /// Returns the weights of the vertex and of the others, in the order of the incidence. The weight of x0 is minus the
+  /// sum of the stored ones, rounded once.
   static IsometricStencil beside(const HingeRest&, const HingeWeights& rest, int role) {
     const float* w = rest.weight;
     const float all[4] = {
@@ -89,7 +90,7 @@ struct HingeKind : ElementKind<HingeRest, HingeIncidence> {
   }
 };
 
-/// Reads the data of hinges. `angle_start` is θᵗ by hinge.
+/// Returns the numbers that hinges need at the current positions. `angle_start` is θᵗ by hinge.
 template <class Items>
 OGC_HD HingeReadsOf<typename Items::Number> read_hinges(const SweepShared& view, const float* angle_start,
                                                         const Items& items, const SurfaceMaterial& material) {
@@ -105,12 +106,11 @@ OGC_HD HingeReadsOf<typename Items::Number> read_hinges(const SweepShared& view,
   return reads;
 }
 
-// The order of branches decides bits, as in triangle.hpp.
+// The order of branches may change bits, as in triangle.hpp.
 
-/// Adds a hinge, given the functor of its model; `damping` is k_d/h.
+/// Adds a hinge; the argument is the functor of its bending model.
 struct AddHinge {
-  /// Arguments of a bending model's `add` (models/bending_models.hpp): k_d/h [1], 0 for damping by vertex; `sum` takes
-  /// force and block.
+  /// Arguments of the model's `add` (models/bending_models.hpp). `damping` is k_d/h [1], or 0 for damping by vertex.
   const HingeSeen& hinge;
   float damping;
   ForceAndBlock& sum;
@@ -120,7 +120,7 @@ struct AddHinge {
     Model::add(hinge, damping, sum);
   }
 };
-/// Adds the part of the damping that the model's `add` omits; the arguments are the same.
+/// Adds the damping that the model's `add` does not include. Members as in AddHinge.
 struct AddHingeDamper {
   const HingeSeen& hinge;
   float damping;
@@ -144,12 +144,12 @@ struct AddDiscreteHinge {
                        material.bending_damping, own, sum);
   }
 };
-/// A hinge with its isometric weights.
+/// A hinge as one of its vertices sees it, with its isometric weights.
 struct AnyHinge {
   HingeIncidence hinge;
   IsometricStencil isometric;  ///< 0 if no body bends isometrically
 };
-/// Loads hinge k of a vertex with its weights.
+/// Loads hinge k of a vertex, with its isometric weights.
 struct LoadAnyHinge {
   const HingeIncidence* first;        ///< row of the vertex
   const IsometricStencil* isometric;  ///< the same row; null if no body bends isometrically
@@ -160,7 +160,7 @@ struct LoadAnyHinge {
     return any;
   }
 };
-/// Adds a hinge of any model with any form of damping.
+/// Adds a hinge with any bending model and any form of damping.
 struct AddAnyHinge {
   const SweepShared& view;
   const float* angle_start;  ///< θᵗ by hinge [rad]
@@ -184,7 +184,7 @@ struct AddAnyHinge {
   }
 };
 
-/// Gives the part of a sum for discrete hinges with damping of strains.
+/// Makes the part of a vertex's sum that adds discrete hinges with damping of strains.
 struct UsualHinges {
   static constexpr unsigned gives = asks_hinges;
 
@@ -198,7 +198,7 @@ struct UsualHinges {
             {view, view.hinges.start, view.materials[vertex.body], own.position}};
   }
 };
-/// Gives the part of a sum for hinges of any model with any form of damping.
+/// Makes the part of a vertex's sum that adds hinges with any bending model and any form of damping.
 struct Hinges {
   static constexpr unsigned gives = asks_hinges | asks_any_model;
 
@@ -212,12 +212,12 @@ struct Hinges {
             {view, view.hinges.start, view.materials[vertex.body], view.models[vertex.body], own}};
   }
 
-  /// Returns whether packs can add the hinges of a vertex.
+  /// Returns whether add_packs can add the hinges of a vertex: they are discrete hinges with damping of strains.
   template <class View>
   static bool is_packed(const View& view, const SweepVertex& vertex) {
     return has_default_bending(view.models[vertex.body]);
   }
-  /// Adds the hinges of a vertex in packs.
+  /// Adds the hinges of a vertex, several side by side in SIMD registers.
   template <class View, class Lanes>
   static void add_packs(const View& view, int slot, const SweepVertex& vertex, const typename Lanes::Position& own,
                         Lanes& lanes) {

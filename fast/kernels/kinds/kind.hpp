@@ -1,18 +1,18 @@
 // Defines what all kinds of elements have in common. Each kind is a struct in a file of this folder; kinds.hpp lists
-// them. A kind has
+// all kinds. A kind has these members:
 //
-//   Rest, Incidence   an element at rest; the element as one of its vertices sees it
+//   Rest, Incidence     an element at rest; the element as one of its vertices sees it
 //   Beside, Start, ByBody, RestBeside
-//                     further data (see StreamView), `NoData` if there are none; RestBeside extends Rest
-//   stream(view)      its stream in a SweepView; `View` is the part of SweepView that holds the stream
-//   asked             its bit among the features that a scene requires of a sum
-//   row_in_vertex     index of its row in SweepVertex::rows; −1: its rows are a separate array
-//   is_curve          whether vertices have few elements, so that a narrow team suffices
-//   count, vertices   number of an element's vertices, and these vertices
-//   seen, beside      the incidence of a vertex, by the vertex's role: its place among the element's vertices
-//   begin             Start of an element, from xᵗ
-//   add_energy        adds an element's energy
-//   flop, damping_flop  operations of an incidence, and those that damping adds (fast/work.cpp)
+//                       more data (see StreamView), `NoData` if the kind needs none; RestBeside extends Rest
+//   stream(view)        returns the kind's stream in a SweepView; `View` is the part of SweepView that holds the stream
+//   asked               the kind's bit among the features that a scene requires of a sum
+//   row_in_vertex       index of the kind's row in SweepVertex::rows; −1: its rows are a separate array
+//   is_curve            whether vertices have few elements, so that a narrow team suffices
+//   count, vertices     return the number of an element's vertices, and these vertices
+//   seen, beside        return Incidence and Beside for a vertex; its role is its place among the element's vertices
+//   begin               returns Start of an element, computed from xᵗ
+//   add_energy          adds an element's energy
+//   flop, damping_flop  operations of an incidence, and the operations that damping adds (fast/work.cpp)
 #pragma once
 
 #include "fast/kernels/models/damping.hpp"
@@ -21,7 +21,7 @@
 
 namespace ogc::fast {
 
-/// Holds the defaults of a kind.
+/// Holds the default members of a kind.
 template <class RestOfKind, class IncidenceOfKind>
 struct ElementKind {
   using Rest = RestOfKind;
@@ -37,7 +37,7 @@ struct ElementKind {
   static constexpr double damping_flop = 0;
 };
 
-/// Returns the row of a vertex in the stream of a kind. `is_there`: the scene certainly has such elements.
+/// Returns the row of a vertex in the stream of a kind. `is_there`: the scene is known to have elements of this kind.
 template <class Kind, bool is_there, class View>
 OGC_HD Row row_of(const View& view, int slot, const SweepVertex& vertex) {
   if constexpr (Kind::row_in_vertex >= 0)
@@ -48,7 +48,7 @@ OGC_HD Row row_of(const View& view, int slot, const SweepVertex& vertex) {
     return {};
 }
 
-/// Computes the values at the start of a step that damping refers to. Index over the elements of a kind.
+/// Computes for each element the value at the start of the step that damping needs (θᵗ, Gᵗ). Index over the elements.
 template <class Kind>
 struct BeginElement {
   const typename Kind::Rest* rest;       ///< by element

@@ -1,4 +1,4 @@
-// Lists the kinds of elements. Code that treats all kinds alike runs over this list.
+// Lists the kinds of elements. Code that treats all kinds alike iterates over this list.
 #pragma once
 
 #include "fast/kernels/kinds/hinge.hpp"
@@ -15,17 +15,17 @@ struct KindList {
   /// The streams of all kinds.
   struct Views : Kinds::View... {};
 
-  /// Calls use(kind) for each kind, in order.
+  /// Calls use(kind) for each kind, in the order of the list.
   template <class Use>
   static void for_each(const Use& use) {
     (use(Kinds{}), ...);
   }
 };
 
-/// All kinds, in the order in which a sum adds their parts.
+/// All kinds. A sum adds their parts in this order.
 using Kinds = KindList<TriangleKind, HingeKind, SpringKind, TetrahedronKind, SegmentKind>;
 
-/// Holds what the updates of a sweep read and write.
+/// Holds all data that the updates of a sweep read and write.
 struct SweepView : SweepShared, Kinds::Views {};
 
 }  // namespace ogc::fast

@@ -1,4 +1,4 @@
-// Segments of rods.
+// Adds segments of rods to the sums of the sweep.
 #pragma once
 
 #include "fast/kernels/kinds/kind.hpp"
@@ -6,18 +6,20 @@
 
 namespace ogc::fast {
 
-/// Holds what the sweep reads and writes of rods: the stream of segments by vertex, and the segments' quaternions.
+/// Holds the data of rods that the sweep reads and writes: the stream of segments by vertex, and the segments'
+/// quaternions.
 struct RodStream : StreamView<RodIncidence, NoData, NoData, float, true> {  // by body: k_d/h [1]
   const SegmentSlot* slots = nullptr;                                       ///< by slot of the segments
-  const Vec* direction = nullptr;           ///< by segment: c of rod_rest_direction; null if no segment damps strains
+  /// by segment: direction c of rod_rest_direction; null if no segment has damping of strains
+  const Vec* direction = nullptr;
   const Quat* orientation_start = nullptr;  ///< by segment: qᵗ
   Quat* orientation = nullptr;              ///< by segment: q
   bool is_damped_by_vertex = false;         ///< DampingForm::per_vertex
-  bool as_published = false;                ///< μ = σ + ‖b‖ in place of the root
+  bool as_published = false;  ///< true: quaternions are updated as Hsu et al. 2025 do, with μ = σ + ‖b‖
 };
 
-/// Describes segments as a kind of element (kind.hpp). Their energy is summed in fast/kernels/sums/rod_sums.hpp,
-/// together with the extremes of rods.
+/// Describes segments as a kind of element (kind.hpp). There is no add_energy: fast/kernels/sums/rod_sums.hpp sums
+/// their energy.
 struct SegmentKind : ElementKind<SegmentRest, RodIncidence> {
   using ByBody = float;
   /// The kind's part of SweepView.
@@ -26,8 +28,8 @@ struct SegmentKind : ElementKind<SegmentRest, RodIncidence> {
   };
   static constexpr unsigned asked = asks_segments;
   static constexpr bool is_curve = true;
-  /// fast/kernels/models/rod.hpp, at one end: difference 3, over its length 5, turned director 30, strain 3, force 6,
-  /// block 4.
+  /// Operations by term at one end (fast/kernels/models/rod.hpp): difference 3, division by the length 5, turned
+  /// director 30, strain 3, force 6, block 4.
   static constexpr double flop = 51;
 
   template <class AnyView>
@@ -41,12 +43,12 @@ struct SegmentKind : ElementKind<SegmentRest, RodIncidence> {
   }
 };
 
-/// Returns c of a segment; e₃ if no strain is damped.
+/// Returns the direction c of rod_rest_direction for a segment; e₃ if no segment has damping of strains.
 OGC_HD inline Vec segment_direction(const RodStream& rods, int segment) {
   return rods.direction != nullptr ? rods.direction[segment] : Vec{0.0f, 0.0f, 1.0f};
 }
 
-/// Adds a segment of a vertex.
+/// Adds the force and block of a segment on one of its ends.
 struct AddRod {
   const SweepShared& view;
   const RodStream& rods;
@@ -66,7 +68,8 @@ struct AddRod {
   }
 };
 
-/// Gives the part of a sum for segments with any form of damping. `is_there`: the scene certainly has segments.
+/// Makes the part of a vertex's sum that adds segments with any form of damping. `is_there`: the scene is known to have
+/// segments.
 template <bool is_there>
 struct AnySegments {
   static constexpr unsigned gives = asks_segments | asks_any_model;

@@ -1,4 +1,4 @@
-// Springs.
+// Adds springs and stitches to the sums of sweeps and reports.
 #pragma once
 
 #include "fast/kernels/kinds/kind.hpp"
@@ -7,10 +7,10 @@
 
 namespace ogc::fast {
 
-/// A spring as its end `own` sees it. `index` holds all ends, encoded as in sweep_view.hpp.
+/// A spring as one of its ends sees it. `index` holds all ends, encoded as in sweep_view.hpp.
 struct SpringIncidence {
   int index[3] = {0, 0, 0};
-  int own = 0;          ///< number of the end, 0 … 2
+  int own = 0;          ///< number of the end that sees it, 0 … 2
   SpringRest spring{};  ///< rest data, the same at each end
 };
 
@@ -22,8 +22,9 @@ struct SpringKind : ElementKind<SpringRest, SpringIncidence> {
   };
   static constexpr unsigned asked = asks_springs;
   static constexpr bool is_curve = true;
-  /// fast/kernels/models/spring.hpp, of a stitch: now and at the start of the step differences 9 + 9, squares 5 + 5,
-  /// roots 1 + 1; stiffness 2, stretch 2, resistance 1, pull 6, force 1 + 6, block 4 + 3 + 4 + 15.
+  /// Operations by term for a stitch (fast/kernels/models/spring.hpp). Now and at the start of the step: differences 9
+  /// + 9, squares 5 + 5, roots 1 + 1. Once: stiffness 2, stretch 2, resistance 1, pull 6, force 1 + 6, block 4 + 3 + 4
+  /// + 15.
   static constexpr double flop = 74;
 
   template <class AnyView>
@@ -72,7 +73,7 @@ struct AddSpring {
   }
 };
 
-/// Gives the part of a sum for springs with any form of damping. The scene may have no springs.
+/// Makes the part of a vertex's sum that adds springs with any form of damping; empty if the scene has no springs.
 struct Springs {
   static constexpr unsigned gives = asks_springs | asks_any_model;
 

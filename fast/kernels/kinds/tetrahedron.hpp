@@ -1,4 +1,4 @@
-// Tetrahedra of solids.
+// Adds tetrahedra of solids to the sums of sweeps and reports.
 #pragma once
 
 #include "fast/kernels/items.hpp"
@@ -8,34 +8,34 @@
 
 namespace ogc::fast {
 
-/// A tetrahedron as one of its corners sees it. `index` holds the other three, encoded as in sweep_view.hpp. The corner
-/// itself and then these three, in this order, have a positive volume at rest.
+/// A tetrahedron as one of its corners sees it. `index` holds the other three corners, encoded as in sweep_view.hpp, in
+/// an order such that this corner followed by them has a positive volume at rest.
 struct alignas(16) TetrahedronIncidence {
   int index[3] = {0, 0, 0};      ///< a, b, c of models/tetrahedron.hpp
   int tetrahedron = -1;          ///< number in RestState::tetrahedra
-  TetrahedronStencil stencil{};  ///< w and i
+  TetrahedronStencil stencil{};  ///< w_k and i of models/tetrahedron.hpp
 };
 
 /// Describes tetrahedra as a kind of element (kind.hpp).
 struct TetrahedronKind : ElementKind<TetrahedronRest, TetrahedronIncidence> {
   using Beside = TetrahedronGradients;
-  using Start = SolidStrain;  ///< Gᵗ
+  using Start = SolidStrain;  ///< Gᵗ of damping
   using ByBody = SolidMaterial;
   /// The kind's part of SweepView.
   struct View {
     StreamView<TetrahedronIncidence, TetrahedronGradients, SolidStrain, SolidMaterial, true> tetrahedra;
   };
   static constexpr unsigned asked = asks_tetrahedra;
-  static constexpr bool reports_state = true;  ///< the number of inverted tetrahedra
-  /// The other corners in the order in which each corner lists them.
+  static constexpr bool reports_state = true;  ///< each step reports the number of inverted tetrahedra
+  /// By corner: the other corners, in the order of TetrahedronIncidence::index.
   static constexpr int others[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-  /// The index of each pair of corners among the weights.
+  /// Index of each pair of corners in TetrahedronRest::weight.
   static constexpr int pair[4][4] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
-  /// fast/kernels/models/tetrahedron.hpp: differences 9 + 6, normal 9, J − 1 7, pull 3, weighted sum 15, forces
-  /// 6 + 1 + 6, sum of weights 3, identity 3, block 2 + 15.
+  /// Operations by term (fast/kernels/models/tetrahedron.hpp): differences 9 + 6, normal 9, J − 1 7, pull 3, weighted
+  /// sum 15, forces 6 + 1 + 6, sum of weights 3, identity 3, block 2 + 15.
   static constexpr double flop = 85;
-  /// F 45, G 39, own gradient 6, trace 6, stresses 21, pull 15, weights 1 + 7, force 15 + 6, F∇N 15, blocks 2 + 15 +
-  /// 45.
+  /// Operations of damping by term: F 45, G 39, the corner's gradient 6, trace 6, stresses 21, pull 15, weights 1 + 7,
+  /// force 15 + 6, F∇N 15, blocks 2 + 15 + 45.
   static constexpr double damping_flop = 238;
 
   template <class AnyView>
@@ -56,7 +56,8 @@ struct TetrahedronKind : ElementKind<TetrahedronRest, TetrahedronIncidence> {
     incidence.tetrahedron = tetrahedron;
     return incidence;
   }
-  /// Returns the gradients in the order of the incidence. ∇N₀ is computed from the stored gradients and rounded once.
+  /// Returns the gradients of the other corners, in the order of the incidence. ∇N₀ is minus the sum of the stored
+  /// gradients, rounded once.
   static TetrahedronGradients beside(const TetrahedronRest& rest, const NoData&, int corner) {
     float gradient[4][3];
     for (int axis = 0; axis < 3; ++axis) {
@@ -89,14 +90,14 @@ struct TetrahedronKind : ElementKind<TetrahedronRest, TetrahedronIncidence> {
   }
 };
 
-/// Holds what tetrahedra read of one of their corners.
+/// Holds the numbers that tetrahedra need as one of their corners sees them.
 template <class N>
 struct TetrahedronReadsOf {
   TetrahedronStencilOf<N> stencil;
-  Vector<N> a, b, c;  ///< from the own corner to the others [m]
+  Vector<N> a, b, c;  ///< the other corners minus this corner [m]
 };
 
-/// Reads the data of tetrahedra; `own` is the position of the corner.
+/// Returns the numbers that tetrahedra need at the current positions; `own` is the position of the corner.
 template <class Items>
 OGC_HD TetrahedronReadsOf<typename Items::Number> read_tetrahedra(const SweepShared& view, const Items& items,
                                                                   const Vector<typename Items::Number>& own) {
@@ -115,7 +116,7 @@ OGC_HD void add_tetrahedra(const TetrahedronReadsOf<N>& reads, const SolidMateri
   add_tetrahedron(reads.stencil, material, reads.a, reads.b, reads.c, sum);
 }
 
-/// A tetrahedron of a vertex, with its place in the stream.
+/// A tetrahedron as one of its corners sees it, with its place in the stream.
 struct LoadedTetrahedron {
   TetrahedronIncidence incidence;
   int place;  ///< index of its gradients in view.tetrahedra.beside
@@ -144,11 +145,11 @@ struct AddTetrahedron {
                         strain_start[loaded.incidence.tetrahedron], sum);
   }
 };
-/// Adds a tetrahedron with any form of damping.
+/// Adds a tetrahedron with either form of damping.
 struct AddAnyTetrahedron {
   AddTetrahedron add;
   compare::DampingForm form;
-  Vec moved;  ///< since the start of the step [m]
+  Vec moved;  ///< x − xᵗ of the vertex [m]
 
   OGC_HD void operator()(const LoadedTetrahedron& loaded, ForceAndBlock& sum) const {
     switch (form) {
@@ -164,7 +165,7 @@ struct AddAnyTetrahedron {
   }
 };
 
-/// Gives the part of a sum for tetrahedra with damping of strains. The scene must have tetrahedra.
+/// Makes the part of a vertex's sum that adds tetrahedra with damping of strains. The scene must have tetrahedra.
 struct UsualTetrahedra {
   static constexpr unsigned gives = asks_tetrahedra;
 
@@ -178,7 +179,8 @@ struct UsualTetrahedra {
             {view, stream.beside, stream.start, stream.by_body[vertex.body], own.position}};
   }
 };
-/// Gives the part of a sum for tetrahedra with any form of damping. The scene may have no tetrahedra.
+/// Makes the part of a vertex's sum that adds tetrahedra with either form of damping; empty if the scene has no
+/// tetrahedra.
 struct Tetrahedra {
   static constexpr unsigned gives = asks_tetrahedra | asks_any_model;
 
@@ -194,13 +196,13 @@ struct Tetrahedra {
              own.moved}};
   }
 
-  /// Returns whether packs can add the tetrahedra of a vertex.
+  /// Returns whether add_packs can add the tetrahedra of a vertex: none, or undamped ones.
   template <class View>
   static bool is_packed(const View& view, const SweepVertex& vertex) {
     return view.tetrahedra.rows == nullptr ||
            (!(view.tetrahedra.by_body[vertex.body].damping > 0) && damps_strain(view.models[vertex.body].damping));
   }
-  /// Adds the tetrahedra of a vertex in packs.
+  /// Adds the tetrahedra of a vertex, several side by side in SIMD registers.
   template <class View, class Lanes>
   static void add_packs(const View& view, int slot, const SweepVertex& vertex, const typename Lanes::Position& own,
                         Lanes& lanes) {

@@ -1,4 +1,4 @@
-// Triangles of membranes.
+// Adds triangles of membranes to the sums of sweeps and reports.
 #pragma once
 
 #include "fast/kernels/items.hpp"
@@ -8,7 +8,7 @@
 
 namespace ogc::fast {
 
-/// A triangle as one of its corners sees it. `index` holds the other two in the triangle's order, encoded as in
+/// A triangle as one of its corners sees it. `index` holds the other two corners in the triangle's order, encoded as in
 /// sweep_view.hpp.
 struct alignas(16) MembraneIncidence {
   int index[2] = {0, 0};      ///< x_b, x_c
@@ -16,7 +16,7 @@ struct alignas(16) MembraneIncidence {
   MembraneStencil stencil{};  ///< gradients and area
 };
 
-/// Returns the energy of a triangle, for the functor of its model.
+/// Computes the energy of a triangle; the argument is the functor of the membrane model.
 struct MembraneEnergy {
   const TriangleRest& rest;
   const SurfaceMaterial& material;
@@ -30,15 +30,15 @@ struct MembraneEnergy {
 
 /// Describes triangles as a kind of element (kind.hpp).
 struct TriangleKind : ElementKind<TriangleRest, MembraneIncidence> {
-  using Start = Symmetric2;  ///< Gᵗ
+  using Start = Symmetric2;  ///< Gᵗ of damping
   /// The kind's part of SweepView.
   struct View {
     StreamView<MembraneIncidence, NoData, Symmetric2, NoData, false> triangles;
   };
   static constexpr unsigned asked = asks_triangles;
   static constexpr int row_in_vertex = 0;
-  /// fast/kernels/models/st_venant_kirchhoff.hpp: differences 6, F 18, ∇N_a 2, G 20, S 10, its rate 3 + 10, pulls 14,
-  /// force 9 + 6, F∇N_a 9, weights 7, blocks 17 + 30, geometric 9 + 4.
+  /// Operations by term (fast/kernels/models/st_venant_kirchhoff.hpp): differences 6, F 18, ∇N_a 2, G 20, S 10, its
+  /// rate 3 + 10, pulls 14, force 9 + 6, F∇N_a 9, weights 7, blocks 17 + 30, geometric 9 + 4.
   static constexpr double flop = 174;
 
   template <class AnyView>
@@ -66,16 +66,16 @@ struct TriangleKind : ElementKind<TriangleRest, MembraneIncidence> {
   }
 };
 
-/// Holds what triangles read: the other corners, and Gᵗ if they are damped. All reads come first: on a device a vertex
-/// waits for reads, not for arithmetic.
+/// Holds the numbers that triangles need as one of their corners sees them. All are loaded before any arithmetic,
+/// because loads take most of the time of a vertex on a device.
 template <class N>
 struct MembraneReadsOf {
   MembraneStencilOf<N> stencil;
-  Vector<N> b, c;                  ///< positions [m]
+  Vector<N> b, c;                  ///< positions of the other corners [m]
   Symmetric2Of<N> strain_start{};  ///< Gᵗ; 0 without damping
 };
 
-/// Reads the data of triangles. `strain_start` is Gᵗ by triangle.
+/// Returns the numbers that triangles need at the current positions. `strain_start` is Gᵗ by triangle.
 template <class Items>
 OGC_HD MembraneReadsOf<typename Items::Number> read_triangles(const SweepShared& view, const Symmetric2* strain_start,
                                                               const Items& items, const SurfaceMaterial& material) {
@@ -94,7 +94,7 @@ OGC_HD MembraneReadsOf<typename Items::Number> read_triangles(const SweepShared&
   return reads;
 }
 
-/// Adds triangles of any model with damping of strains.
+/// Adds triangles with any membrane model and damping of strains.
 template <class N>
 OGC_HD void add_triangles(const MembraneReadsOf<N>& reads, const SurfaceMaterial& material,
                           compare::MembraneModel model, const Vector<N>& own, ForceAndBlockOf<N>& sum) {
@@ -102,12 +102,12 @@ OGC_HD void add_triangles(const MembraneReadsOf<N>& reads, const SurfaceMaterial
   with_membrane(model, AddDampedMembrane<N>{reads.stencil, material, to_b, to_c, reads.strain_start, sum});
 }
 
-// The choice of the model is nested in the choice of the form of damping, and code that models share is outside of both
-// branches. This decides bits: a device contracts products and sums only within a branch.
+// The functors below select the form of damping first and the model within it; code that all models share is outside of
+// both branches. This nesting changes bits, because a device contracts products and sums only within a branch.
 
-/// Adds a triangle without damping, given the functor of its model.
+/// Adds a triangle without damping; the argument is the functor of the membrane model.
 struct AddElasticMembrane {
-  /// Arguments of a membrane model's `add_elastic`: edges to the other corners [m]; `sum` takes force and block.
+  /// Arguments of the model's `add_elastic`; `to_b` and `to_c` are the edges to the other corners [m].
   const MembraneStencil& stencil;
   const SurfaceMaterial& material;
   Vec to_b, to_c;
@@ -132,7 +132,7 @@ struct AddTriangle {
                   own, sum);
   }
 };
-/// Adds a triangle of any model with any form of damping.
+/// Adds a triangle with any membrane model and either form of damping.
 struct AddAnyTriangle {
   const SweepShared& view;
   const Symmetric2* strain_start;  ///< Gᵗ by triangle
@@ -154,7 +154,7 @@ struct AddAnyTriangle {
   }
 };
 
-/// Gives the part of a sum for triangles of any model with damping of strains.
+/// Makes the part of a vertex's sum that adds triangles with any membrane model and damping of strains.
 struct UsualTriangles {
   static constexpr unsigned gives = asks_triangles;
 
@@ -168,7 +168,7 @@ struct UsualTriangles {
             {view, view.triangles.start, view.materials[vertex.body], view.models[vertex.body].membrane, own.position}};
   }
 };
-/// Gives the part of a sum for triangles of any model with any form of damping.
+/// Makes the part of a vertex's sum that adds triangles with any membrane model and either form of damping.
 struct Triangles {
   static constexpr unsigned gives = asks_triangles | asks_any_model;
 
@@ -182,12 +182,12 @@ struct Triangles {
             {view, view.triangles.start, view.materials[vertex.body], view.models[vertex.body], own}};
   }
 
-  /// Returns whether packs can add the triangles of a vertex.
+  /// Returns whether add_packs can add the triangles of a vertex: their damping is of strains.
   template <class View>
   static bool is_packed(const View& view, const SweepVertex& vertex) {
     return has_default_membrane(view.models[vertex.body]);
   }
-  /// Adds the triangles of a vertex in packs.
+  /// Adds the triangles of a vertex, several side by side in SIMD registers.
   template <class View, class Lanes>
   static void add_packs(const View& view, int slot, const SweepVertex& vertex, const typename Lanes::Position& own,
                         Lanes& lanes) {

@@ -1,6 +1,6 @@
-// Defines the activations (method.md §4.2), one functor each. The default has two stages: Eq. 18 and Eq. 20, with Eq.
-// 19 corrected to k'_c = τ k_c (r − τ) (method.md §1.1), which for τ = r/2 is k_c r²/4. The others are variants for the
-// ablation.
+// Defines the activations g(d), one functor each (method.md §4.2). The default has two stages, Eq. 18 and Eq. 20. Its
+// stiffness Eq. 19 is corrected to k'_c = τ k_c (r − τ), which is k_c r²/4 for τ = r/2 (method.md §1.1). The others are
+// variants for the ablation.
 #pragma once
 
 #include <cmath>
@@ -14,15 +14,16 @@ namespace ogc::fast {
 
 using compare::ContactActivation;
 
-/// Holds g' [N] and g'' [N/m] at a distance. Positions depend on them, so they use no library function.
+/// Holds g' [N] and g'' [N/m] at a distance. They are computed without library functions, because positions depend on
+/// them.
 template <class T>
 struct ActivationSlopeOf {
   T slope{}, curvature{};
 };
 using ActivationSlope = ActivationSlopeOf<float>;
 
-/// Extends formulas for 0 < d < r to all distances: nothing acts for d ≥ r. Distances d > 0 and radii r [m], stiffness
-/// k_c [N/m].
+/// Extends formulas for 0 < d < r to all distances d > 0: g and its derivatives are 0 for d ≥ r. Distance d and radius
+/// r are in m, stiffness k = k_c in N/m.
 template <class Formulas>
 struct ActivationOf {
   /// Returns g' and g''.
@@ -33,8 +34,8 @@ struct ActivationOf {
   OGC_HD static float energy(float d, float r, float k) { return d < r ? Formulas::energy_within(d, r, k) : 0.0F; }
 };
 
-/// Is quadratic for d ≥ τ = r/2, and logarithmic below with the stiffness k'_c of `Stage`. The constant b of Eq. 20 is
-/// included: g = k'_c (log τ − log d) + k_c/2 (r − τ)².
+/// Computes an activation that is quadratic for d ≥ τ = r/2 and logarithmic below, with the stiffness k'_c from
+/// `Stage`. The constant b of Eq. 20 is included: for d < τ, g = k'_c (log τ − log d) + k_c/2 (r − τ)².
 template <class Stage>
 struct TwoStages : ActivationOf<TwoStages<Stage>> {
   /// Returns g' and g'' for 0 < d ≤ r.
@@ -66,7 +67,7 @@ struct OgcActivation : TwoStages<OgcActivation> {
 
 /// Computes ContactActivation::ogc_as_printed, with k'_c of Eq. 19 as printed, k_c r³/8.
 struct OgcAsPrinted : TwoStages<OgcAsPrinted> {
-  /// Returns k'_c as printed in Eq. 19: its unit is J m, not J (method.md §1.1).
+  /// Returns k'_c of Eq. 19 as printed, in J m instead of J (method.md §1.1).
   OGC_HD static float logarithmic_stiffness(float r, float k) {
     const float stiffness = 0.25F * k * r * r;
     return 0.5F * r * stiffness;
@@ -75,7 +76,7 @@ struct OgcAsPrinted : TwoStages<OgcAsPrinted> {
 
 /// Computes ContactActivation::quadratic: k_c/2 (r − d)².
 struct QuadraticActivation : ActivationOf<QuadraticActivation> {
-  /// Returns g' = −k_c (r − d), g'' = k_c; energy_within returns g.
+  /// Returns g' = −k_c (r − d) and g'' = k_c; energy_within returns g.
   OGC_HD static ActivationSlope slope_within(float d, float r, float k) { return {-k * (r - d), k}; }
   OGC_HD static float energy_within(float d, float r, float k) {
     const float depth = r - d;
@@ -99,7 +100,7 @@ struct IpcLogActivation : ActivationOf<IpcLogActivation> {
 
 /// Computes ContactActivation::cubic: 2 k_c/(3 r) (r − d)³.
 struct CubicActivation : ActivationOf<CubicActivation> {
-  /// Returns g' = −2 k_c/r (r − d)², g'' = 4 k_c/r (r − d); energy_within returns g.
+  /// Returns g' = −2 k_c/r (r − d)² and g'' = 4 k_c/r (r − d); energy_within returns g.
   OGC_HD static ActivationSlope slope_within(float d, float r, float k) {
     const float depth = r - d, slope = 2.0F * k / r * depth;
     return {-slope * depth, 2.0F * slope};
@@ -124,20 +125,20 @@ OGC_HD auto with_activation(ContactActivation activation, const Use& use) {
   __builtin_unreachable();
 }
 
-/// An activation that is only known at run time.
+/// An activation that is chosen at run time.
 struct AnyActivation {
-  ContactActivation activation = ContactActivation::ogc;  ///< its functor computes `slope` and `energy`
+  ContactActivation activation = ContactActivation::ogc;
 
-  /// Returns g' and g'', as ActivationOf::slope does.
+  /// Returns g' and g''; 0 for d ≥ r.
   OGC_HD ActivationSlope slope(float d, float r, float k) const {
     return d < r ? slope_within(d, r, k) : ActivationSlope{};
   }
-  /// Returns g' and g'' for 0 < d ≤ r. At r they are the limits from below, which a contact beyond r uses as its
-  /// majorant.
+  /// Returns g' and g'' for 0 < d ≤ r. At d = r they are the limits from below: a contact beyond r uses that g'' in its
+  /// block (contact_force.hpp).
   OGC_HD ActivationSlope slope_within(float d, float r, float k) const {
     return with_activation(activation, SlopeWithin{d, r, k});
   }
-  /// Returns g [J].
+  /// Returns g [J]; 0 for d ≥ r.
   OGC_HD float energy(float d, float r, float k) const { return with_activation(activation, EnergyAt{d, r, k}); }
 
  private:

@@ -1,5 +1,4 @@
-// Selects a bending model by its name. The `switch` has no `default`, so a new model does not compile until it is added
-// here.
+// Selects a bending model. The `switch` has no `default`, so a new model does not compile until it is added here.
 #pragma once
 
 #include "fast/kernels/models/discrete_hinge.hpp"
@@ -7,9 +6,9 @@
 
 namespace ogc::fast {
 
-/// Computes BendingModel::none: hinges without energy. No rest state holds such hinges.
+/// Implements BendingModel::none, whose hinges have no energy. No rest state holds such hinges.
 struct NoBending {
-  /// UsualHinges serve, because such hinges add nothing; no weights are read.
+  /// UsualHinges may be used, because there is nothing to add. No HingeWeights are needed.
   static constexpr bool is_default = true, reads_weights = false;
   OGC_HD static void add(const HingeSeen&, float, ForceAndBlock&) {}
   OGC_HD static void add_damper(const HingeSeen&, float, ForceAndBlock&) {}
@@ -27,7 +26,7 @@ OGC_HD auto with_bending(compare::BendingModel model, const Use& use) {
   __builtin_unreachable();
 }
 
-/// Returns whether UsualHinges compute this bending and its damping.
+/// Returns whether UsualHinges computes the body's bending and damping.
 OGC_HD inline bool has_default_bending(const SurfaceModels& models) {
   const auto is_default = [](auto model) { return decltype(model)::is_default; };
   return damps_strain(models.damping) && with_bending(models.bending, is_default);

@@ -1,5 +1,5 @@
-// Adds damping by vertex (method.md §4.9): k_d/h times a stencil's own block, applied to the vertex's motion since the
-// start of the step. Each model contains the other form, damping of strains.
+// Adds damping by vertex: k_d/h times an element's block at the vertex, times the vertex's motion since the start of
+// the step (method.md §4.9). Damping of strains, the other form, is part of each model.
 #pragma once
 
 #include "fast/kernels/arithmetic/accumulator.hpp"
@@ -8,7 +8,8 @@
 
 namespace ogc::fast {
 
-/// Adds an elastic stencil with damping k = k_d/h by vertex: its force minus k B moved, and its block B times (1 + k).
+/// Adds an elastic force and block B with damping by vertex: the force minus k B `moved`, and (1 + k) B, with k =
+/// `damping` = k_d/h.
 OGC_HD inline void add_damped_by_vertex(const ForceAndBlock& elastic, float damping, const Vec& moved,
                                         ForceAndBlock& sum) {
   const Symmetric3& b = elastic.block;

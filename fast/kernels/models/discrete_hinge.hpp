@@ -1,12 +1,12 @@
-// Adds a discrete hinge as one vertex sees it: c/2 (θ − θ₀)² with c = k_b 3‖ē‖²/(Ā₀ + Ā₁) (method.md §4.7), and damping
-// c k_d/(2h) (θ − θᵗ)². The block is Gauss–Newton's.
+// Adds a discrete hinge as one vertex sees it. Its energy is c/2 (θ − θ₀)² with c = k_b 3‖ē‖²/(Ā₀ + Ā₁) (method.md
+// §4.7), its damping c k_d/(2h) (θ − θᵗ)². The block is that of Gauss–Newton.
 #pragma once
 
 #include "fast/kernels/models/hinge.hpp"
 
 namespace ogc::fast {
 
-/// Computes BendingModel::discrete_hinge.
+/// Implements BendingModel::discrete_hinge.
 struct DiscreteHinge {
   static constexpr bool is_default = true;      ///< UsualHinges and the packs of the CPU compute it
   static constexpr bool reads_weights = false;  ///< whether it needs HingeWeights
@@ -21,7 +21,7 @@ struct DiscreteHinge {
     sum.add_outer(stencil.stiffness * (1.0f + damping), gradient);
   }
 
-  /// Adds hinges as a vertex at `own` sees them; nothing if a hinge's shape is undefined.
+  /// Adds hinges as a vertex at `own` sees them; adds nothing for a collapsed hinge.
   template <class T>
   OGC_HD static void add(const HingeReadsOf<T>& hinge, float damping, const Vector<T>& own, ForceAndBlockOf<T>& sum) {
     const HingeShapeOf<T> shape = hinge_shape_seen<T>(hinge.opposite, hinge.p, own);
@@ -36,7 +36,7 @@ struct DiscreteHinge {
   /// Adds nothing: `add` includes all damping.
   OGC_HD static void add_damper(const HingeSeen&, float, ForceAndBlock&) {}
 
-  /// Returns the energy [J], in double: energies are only reported. `to`: from x0 to x1, o0, o1.
+  /// Returns the energy [J], in double because it is only reported. `to` holds x1, o0 and o1 minus x0.
   OGC_HD static double energy(const HingeRest& rest, const HingeWeights&, const Vec* to) {
     const HingeShape shape = hinge_shape(to[0], to[1], to[2]);
     if (!shape.defined) return 0;

@@ -1,15 +1,15 @@
-// Defines what all bending models share: a hinge's rest data, its angle θ and the angle's gradients. With e = x1 − x0,
-// a = o0 − x0, b = o1 − x0, n_a = e × a, n_b = b × e:
+// Defines what all bending models share: a hinge's rest data, its angle θ and the gradients of θ. With e = x1 − x0, a =
+// o0 − x0, b = o1 − x0, n_a = e × a, n_b = b × e, and b⊥ the part of b perpendicular to e:
 //
-//          o0         θ = atan2(−‖e‖ n_a·b⊥, n_a·n_b). The sine is a volume, because the cross product of two nearly
-//         /  \        equal normals cancels. It uses only b's component across e, because along e the errors of two
-//       x0 ── x1      needles multiply
+//          o0         θ = atan2(−‖e‖ n_a·b⊥, n_a·n_b). The first argument is a volume: the cross product of two nearly
+//         /  \        equal normals would cancel. It uses b⊥ instead of b, because for two needles the errors of b
+//       x0 ── x1      along e would be large
 //         \  /        ∂θ/∂o0 = −‖e‖ n_a/‖n_a‖²,  ∂θ/∂o1 = −‖e‖ n_b/‖n_b‖²
-//          o1         ∂θ/∂x0 = −(1 − s_a) ∂θ/∂o0 − (1 − s_b) ∂θ/∂o1,  s_a = a·e/‖e‖² (place of o0's foot on the edge);
-//                     ∂θ/∂x1 with s instead of 1 − s
+//          o1         ∂θ/∂x0 = −(1 − s_a) ∂θ/∂o0 − (1 − s_b) ∂θ/∂o1, with s_a = a·e/‖e‖² the place of o0's foot on the
+//                     edge; ∂θ/∂x1 with s instead of 1 − s
 //
-// Exchanging x0 with x1 and o0 with o1 at once keeps θ, so two roles, end of the edge and opposite vertex, serve all
-// four vertices.
+// If x0 is exchanged with x1 and o0 with o1, θ does not change. So two formulas serve all four vertices: one for an end
+// of the edge, one for an opposite vertex.
 #pragma once
 
 #include <cmath>
@@ -41,18 +41,18 @@ template <class T>
 struct HingeShapeOf {
   Vector<T> normal_a, normal_b;  ///< n_a, n_b
   T length_squared{};            ///< ‖e‖²
-  T beyond_a{}, beyond_b{};      ///< (1 − s) ‖e‖²: how far the feet lie from x1, times ‖e‖
+  T beyond_a{}, beyond_b{};      ///< (1 − s) ‖e‖²: distance of the feet from x1 along the edge, times ‖e‖
   T divisor_a{}, divisor_b{};    ///< ‖e‖ ‖n‖²
   T angle{};                     ///< θ
-  /// false if a triangle or the edge collapsed: then the members after length_squared are undefined
+  /// false if a triangle or the edge has collapsed: then the members after length_squared are undefined
   Mask<T> defined{};
 };
 using HingeShape = HingeShapeOf<float>;
 
-/// Returns whether a triangle has collapsed. The cross product of two rounded differences has an error of up to 4 u
-/// ‖e‖‖a‖ (two differences, two products). A triangle counts as collapsed if its doubled area is below eight times
-/// that: its normal may then err by more than an eighth, and the normal's square, a divisor of gradients, by more than
-/// a quarter. The hinge exerts no force then, and the membrane alone opens it again.
+/// Returns whether a triangle of the hinge has collapsed. The cross product of two rounded differences has an error of
+/// up to 4 u ‖e‖‖a‖, u = 2⁻²⁴ (two differences, two products). A triangle counts as collapsed if its doubled area is
+/// below eight times this error. Its normal might otherwise err by more than an eighth, and the normal's square, a
+/// divisor of gradients, by more than a quarter. A collapsed hinge exerts no force; the membrane opens it again.
 template <class T>
 OGC_HD Mask<T> hinge_side_collapsed(const T& normal_squared, const T& length_squared, const T& side_squared) {
   constexpr float relative = 1024 * 0x1p-48f;  // (8 · 4 u)²
@@ -81,15 +81,15 @@ OGC_HD HingeShapeOf<T> hinge_shape(const Vector<T>& edge, const Vector<T>& a, co
 }
 
 /// Returns ∂θ/∂o0 [1/m] if `opposite`, else ∂θ/∂x0. One formula with selected numerators serves both, because the
-/// threads of a warp hold both roles at the same time.
+/// threads of a warp have both kinds of vertices at the same time.
 template <class T>
 OGC_HD Vector<T> hinge_gradient(const HingeShapeOf<T>& shape, const Mask<T>& opposite) {
   const T a = select(opposite, -shape.length_squared, shape.beyond_a), b = select(opposite, T{}, shape.beyond_b);
   return (a / shape.divisor_a) * shape.normal_a + (b / shape.divisor_b) * shape.normal_b;
 }
 
-/// Returns the shape of a hinge as one of its vertices sees it. An end of the edge is x0 itself, and `p` holds x1, o0,
-/// o1. An opposite vertex is o0 itself, and `p` holds x0, x1, o1.
+/// Returns the shape of a hinge as one of its vertices, at `own`, sees it. An end of the edge counts as x0, and `p`
+/// holds x1, o0, o1. An opposite vertex counts as o0, and `p` holds x0, x1, o1.
 template <class T>
 OGC_HD HingeShapeOf<T> hinge_shape_seen(const Mask<T>& opposite, const Vector<T>* p, const Vector<T>& own) {
   const Vector<T> base = select(opposite, p[0], own), end = select(opposite, p[1], p[0]),
@@ -104,24 +104,24 @@ struct HingeStencilOf {
 };
 using HingeStencil = HingeStencilOf<float>;
 
-/// Holds the weights in the isometric model: of the vertex itself, and of the others in the order of HingeIncidence
-/// [1/m].
+/// Holds a hinge's weights in the isometric model [1/m]: `own` of the vertex that sees the hinge, `other` of the others
+/// in the order of HingeIncidence.
 struct IsometricStencil {
   float own = 0, other[3] = {};
 };
 
-/// Holds what the discrete model reads of hinges as one vertex sees them.
+/// Holds the numbers that the discrete model needs of hinges as one vertex sees them.
 template <class N>
 struct HingeReadsOf {
   HingeStencilOf<N> stencil;  ///< c and θ₀
-  Mask<N> opposite;           ///< the vertex is not on the edge
-  Vector<N> p[3];             ///< positions of the others, as in hinge_shape_seen [m]
+  Mask<N> opposite;           ///< whether the vertex is an opposite one
+  Vector<N> p[3];             ///< positions of the other vertices, as in hinge_shape_seen [m]
   N angle_start{};            ///< θᵗ [rad]; 0 without damping
 };
 
-/// Holds all that a bending model reads of a hinge.
+/// Holds the numbers that any bending model needs of a hinge.
 struct HingeSeen : HingeReadsOf<float> {
-  Vec own;                     ///< position of the vertex that is solved [m]
+  Vec own;                     ///< position of the vertex that is updated [m]
   IsometricStencil isometric;  ///< read by the isometric model
 };
 

@@ -1,19 +1,19 @@
 // Adds isometric quadratic bending of a flat rest shape as one vertex sees it: c/2 ‖ℓ‖² with ℓ = Σ w_i x_i
-// (compare/stages/bending.hpp). The weights add up to 0, so ℓ is computed from differences to that vertex. Damping is
-// the discrete hinge's, with θᵗ as the rest angle.
+// (compare/stages/bending.hpp). The weights add up to 0, so ℓ is computed from differences to this vertex. The damping
+// is the energy of a discrete hinge with θᵗ as its rest angle.
 #pragma once
 
 #include "fast/kernels/models/discrete_hinge.hpp"
 
 namespace ogc::fast {
 
-/// Computes BendingModel::isometric_quadratic.
+/// Implements BendingModel::isometric_quadratic.
 struct IsometricQuadratic {
-  /// UsualHinges and the packs of the CPU do not compute it, and it reads HingeWeights.
+  /// UsualHinges and the packs of the CPU do not compute this model, and it needs HingeWeights.
   static constexpr bool is_default = false;
   static constexpr bool reads_weights = true;
 
-  /// Adds −c w ℓ and c w² I, without damping.
+  /// Adds −c w ℓ and c w² I, where w is the weight of the vertex; no damping.
   OGC_HD static void add(const HingeSeen& hinge, float, ForceAndBlock& sum) {
     const Vec to[3] = {hinge.p[0] - hinge.own, hinge.p[1] - hinge.own, hinge.p[2] - hinge.own};
     const float* w = hinge.isometric.other;
@@ -23,7 +23,7 @@ struct IsometricQuadratic {
     sum.add_identity(pull * hinge.isometric.own);
   }
 
-  /// Adds the damping; `damping` is k_d/h.
+  /// Adds the damping of a discrete hinge; `damping` is k_d/h.
   OGC_HD static void add_damper(const HingeSeen& hinge, float damping, ForceAndBlock& sum) {
     if (!(damping > 0)) return;
     HingeSeen damper = hinge;
@@ -31,7 +31,7 @@ struct IsometricQuadratic {
     DiscreteHinge::add(damper, 0.0f, sum);
   }
 
-  /// Returns the energy [J], in double: energies are only reported. `to`: from x0 to x1, o0, o1.
+  /// Returns the energy [J], in double because it is only reported. `to` holds x1, o0 and o1 minus x0.
   OGC_HD static double energy(const HingeRest& rest, const HingeWeights& weights, const Vec* to) {
     const Vec curvature = weights.weight[0] * to[0] + weights.weight[1] * to[1] + weights.weight[2] * to[2];
     return 0.5 * rest.stiffness * static_cast<double>(dot(curvature, curvature));

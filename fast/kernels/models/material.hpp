@@ -1,4 +1,4 @@
-// Holds constants and models of surfaces, by body.
+// Defines the constants and models that a body of surfaces has.
 #pragma once
 
 #include "compare/problem/scene.hpp"
@@ -11,11 +11,11 @@ struct alignas(16) SurfaceMaterial {
   float membrane_damping = 0, bending_damping = 0;  ///< k_d/h [1] of membranes and of hinges
 };
 
-/// Models of a body; only read if a scene has other models than the default ones.
+/// Models of a body; only read if some body of the scene has a model other than the default.
 struct SurfaceModels {
   compare::MembraneModel membrane = compare::MembraneModel::st_venant_kirchhoff;  ///< method.md §4.6
   compare::BendingModel bending = compare::BendingModel::discrete_hinge;          ///< method.md §4.7
-  /// also of the body's springs and tetrahedra: method.md §4.9
+  /// form of damping, also for the body's springs and tetrahedra (method.md §4.9)
   compare::DampingForm damping = compare::DampingForm::strain;
 };
 

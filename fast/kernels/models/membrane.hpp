@@ -1,6 +1,6 @@
 // Defines what all membrane models share: a triangle's rest data, F = Σ x_k ∇N_kᵀ (3×2), Green's strain G = (FᵀF −
-// I)/2, and the damping (k_d/h) ψ(G − Gᵗ) with the quadratic ψ (method.md §4.6, §4.9). All formulas use differences to
-// the corner that is solved, so that only relative coordinates are rounded.
+// I)/2, and the damping energy (k_d/h) ψ(G − Gᵗ) with the quadratic ψ (method.md §4.6, §4.9). All formulas use
+// differences to the corner that is updated, so that rounding errors are relative to edges, not to coordinates.
 #pragma once
 
 #include "fast/kernels/arithmetic/accumulator.hpp"
@@ -40,8 +40,8 @@ OGC_HD DeformationGradientOf<T> deformation_gradient(const Vector<T>& to_b, cons
   return {gradient_b[0] * to_b + gradient_c[0] * to_c, gradient_b[1] * to_b + gradient_c[1] * to_c};
 }
 
-/// Returns G = (FᵀF − I)/2. Its error is u, and that of the stress u times the stiffness λ. (‖f‖ − 1)(‖f‖ + 1)/2 would
-/// be more accurate but needs a root.
+/// Returns G = (FᵀF − I)/2. It errs by about 2⁻²⁴, so the stress errs by 2⁻²⁴ λ. (‖f‖ − 1)(‖f‖ + 1)/2 for the diagonal
+/// would be more accurate but needs a root.
 template <class T>
 OGC_HD Symmetric2Of<T> green_strain(const DeformationGradientOf<T>& f) {
   return {0.5f * (dot(f.first, f.first) - 1.0f), 0.5f * dot(f.first, f.second),
@@ -64,8 +64,8 @@ struct MembraneStencilOf {
 };
 using MembraneStencil = MembraneStencilOf<float>;
 
-/// Adds −∂/∂x_a of A (k_d/h) (λ/2 tr(ΔG)² + μ ‖ΔG‖²), ΔG = G − Gᵗ, and the material part of its block.
-/// `strain_start` is Gᵗ.
+/// Adds damping of strains: the force −∂/∂x_a of A (k_d/h) (λ/2 tr(ΔG)² + μ ‖ΔG‖²), ΔG = G − Gᵗ, and the material part
+/// of its second derivative. `strain_start` is Gᵗ.
 template <class T>
 OGC_HD void add_strain_damping(const MembraneStencilOf<T>& stencil, const SurfaceMaterial& material,
                                const Vector<T>& to_b, const Vector<T>& to_c, const Symmetric2Of<T>& strain_start,

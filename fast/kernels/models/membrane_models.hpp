@@ -1,5 +1,4 @@
-// Selects a membrane model by its name. The `switch` has no `default`, so a new model does not compile until it is
-// added here.
+// Selects a membrane model. The `switch` has no `default`, so a new model does not compile until it is added here.
 #pragma once
 
 #include "fast/kernels/models/st_venant_kirchhoff.hpp"
@@ -7,7 +6,7 @@
 
 namespace ogc::fast {
 
-/// Computes MembraneModel::none: triangles without energy. No rest state holds such triangles.
+/// Implements MembraneModel::none, whose triangles have no energy. No rest state holds such triangles.
 struct NoMembrane {
   template <class T>
   OGC_HD static void add(const MembraneStencilOf<T>&, const SurfaceMaterial&, const Vector<T>&, const Vector<T>&,
@@ -28,10 +27,10 @@ OGC_HD auto with_membrane(compare::MembraneModel model, const Use& use) {
   __builtin_unreachable();
 }
 
-/// Adds a triangle with damping of strains, for the functor of its model.
+/// Adds a triangle with damping of strains; the argument is the functor of the membrane model.
 template <class T>
 struct AddDampedMembrane {
-  /// Arguments of a model's `add`.
+  /// Arguments of the model's `add`.
   const MembraneStencilOf<T>& stencil;
   const SurfaceMaterial& material;
   const Vector<T>&to_b, &to_c;
@@ -44,7 +43,7 @@ struct AddDampedMembrane {
   }
 };
 
-/// Returns whether UsualTriangles compute the body's membrane, which may be any model, and its damping.
+/// Returns whether UsualTriangles computes the body's membrane: its damping is of strains; the model may be any.
 OGC_HD inline bool has_default_membrane(const SurfaceModels& models) { return damps_strain(models.damping); }
 
 }  // namespace ogc::fast

@@ -1,5 +1,6 @@
-// Computes the exact update of a segment's quaternion, given its neighbours (compare/rods.md). The unknown is ν = μ −
-// σ: with a stiff stretch, rounding of μ would lose the neighbours' part.
+// Computes the quaternion of a segment that minimises the energy, given the neighbours' quaternions (compare/rods.md,
+// The stage `orientation`). The unknown is ν = μ − σ: for a stiff stretch, μ would be so large that rounding loses the
+// part of the neighbours.
 #pragma once
 
 #include <cmath>
@@ -8,26 +9,27 @@
 
 namespace ogc::fast {
 
-/// A neighbour across one end.
+/// A neighbour of a segment across one end.
 struct NeighbourRest {
   float weight = 0;  ///< w = 4 k_b/l̄ [N m]; 0: no neighbour
-  Quat rest;         ///< p° = q̄° q°_f for a neighbour ahead, q̄°_f q° for a neighbour behind
+  /// relative rotation at rest: p° = q̄° q°_f if neighbour f follows the segment, q̄°_f q° if it precedes it
+  Quat rest;
 };
 
-/// Returns the orientation t towards which a neighbour with quaternion `q` pulls, given the relative rotation p: q p̄
-/// if it is ahead, q p if behind.
+/// Returns the quaternion t of the segment for which a neighbour with quaternion `q` has the relative rotation p: q p̄
+/// if the neighbour follows the segment, q p if it precedes it.
 template <class T>
 OGC_HD QuatOf<T> asked_orientation(bool is_ahead, const QuatOf<T>& q, const QuatOf<T>& relative) {
   return q * (is_ahead ? conjugate(relative) : relative);
 }
 
-/// Returns w s t with the sign s that brings t nearer to the old q.
+/// Returns w s t, where w is the weight, t is `asked`, and the sign s = ±1 makes s t·old ≥ 0.
 template <class T>
 OGC_HD QuatOf<T> pull_towards(const T& weight, const QuatOf<T>& asked, const QuatOf<T>& old) {
   return select(dot(asked, old) < T(0.0f), -weight, weight) * asked;
 }
 
-/// Adds w s t to b.
+/// Adds the elastic pull w s t of a neighbour to b, the linear term of the energy.
 template <class T>
 OGC_HD void add_undamped_neighbour(const T& weight, bool is_ahead, const QuatOf<T>& now, const QuatOf<T>& relative,
                                    const QuatOf<T>& old, QuatOf<T>& b) {
@@ -36,7 +38,8 @@ OGC_HD void add_undamped_neighbour(const T& weight, bool is_ahead, const QuatOf<
   b = select(is_there, b + pull_towards(weight, asked_orientation(is_ahead, now, relative), old), b);
 }
 
-/// Adds w (s t + k sᵗ tᵗ) to b. `now` and `start` are the neighbour's, `own_start` is the segment's.
+/// Adds the elastic and the damping pull w (s t + k sᵗ tᵗ) of a neighbour to b. `now` and `start` are the neighbour's
+/// quaternions, `own_start` is qᵗ of the segment.
 OGC_HD inline void add_neighbour(const NeighbourRest& neighbour, bool is_ahead, float damping, const Quat& now,
                                  const Quat& start, const Quat& own_start, const Quat& old, Quat& b) {
   add_undamped_neighbour(neighbour.weight, is_ahead, now, neighbour.rest, old, b);
@@ -45,8 +48,8 @@ OGC_HD inline void add_neighbour(const NeighbourRest& neighbour, bool is_ahead, 
   b = b + pull_towards(damping * neighbour.weight, asked_orientation(is_ahead, now, relative), old);
 }
 
-/// Returns the larger root ν of (β₊/ν)² + (β₋/(ν + 2σ))² = 1, β₊ > 0. Newton's method on 1/√(left side) rises to it
-/// from below. Mostly it takes one step; up to twenty if β₋ is about 2 σ and β₊ vanishes.
+/// Returns the larger root ν of (β₊/ν)² + (β₋/(ν + 2σ))² = 1 for β₊ > 0. Newton's method on 1/√(left side) converges
+/// from below. It usually needs one step, and up to twenty if β₋ is about 2σ and β₊ is nearly 0.
 template <class T>
 OGC_HD T secular_root(const T& upper, const T& lower, const T& sigma) {
   constexpr int most_steps = 32;
@@ -64,14 +67,14 @@ OGC_HD T secular_root(const T& upper, const T& lower, const T& sigma) {
   return nu;
 }
 
-/// Applies M/σ to q: −D q c with unit vectors, which is its own inverse.
+/// Computes M q/σ = −D q c with unit vectors D and c; this map is its own inverse.
 template <class T>
 struct ReflectedFrameOf {
   QuatOf<T> apart, direction;  ///< D/‖D‖, c/‖c‖
 
   OGC_HD QuatOf<T> operator()(const QuatOf<T>& q) const { return T(-1.0f) * (apart * q * direction); }
-  /// Returns the part of q in the eigenspace of 1, whose directors are along D. It projects twice: after one projection
-  /// a rounding error of the whole q is left outside, which would spoil a small part.
+  /// Returns the part of q in the eigenspace of eigenvalue 1, whose directors are along D. It projects twice: one
+  /// projection leaves a rounding error of the whole q outside the eigenspace, which could exceed a small part.
   OGC_HD QuatOf<T> upper(const QuatOf<T>& q) const {
     const QuatOf<T> once = T(0.5f) * (q + (*this)(q));
     return T(0.5f) * (once + (*this)(once));
@@ -79,12 +82,13 @@ struct ReflectedFrameOf {
 };
 using ReflectedFrame = ReflectedFrameOf<float>;
 
-/// Largest share of the whole that counts as rounding for the part in the upper eigenspace. Two products of quaternions
-/// and half a sum err by 17 u (compare/stages/orientation.hpp); twice that leaves room.
+/// Largest ‖P₊b‖/‖b‖ that counts as rounding error; P₊b is the part of b in the eigenspace of eigenvalue 1. Two
+/// products of quaternions and half a sum err by 17 · 2⁻²⁴ (compare/stages/orientation.hpp); this is about twice as
+/// much.
 inline constexpr float lost_part = 0x1p-19f;
 
-/// Returns the unit vector of the upper eigenspace nearest to the old q; if the old q has no part in it, nearest to 1,
-/// i or j. If 1 has none, c is antiparallel to D, and the eigenspace holds the pure quaternions across D.
+/// Returns the unit vector of the eigenspace of eigenvalue 1 nearest to the old q. If the old q is perpendicular to
+/// this space, returns the vector nearest to 1, i or j instead. 1 may be perpendicular, too: if c is antiparallel to D.
 OGC_HD inline Quat nearest_upper(const ReflectedFrame& frame, const Quat& old) {
   constexpr float lost = lost_part * lost_part;
   Quat part = frame.upper(old);
@@ -94,8 +98,8 @@ OGC_HD inline Quat nearest_upper(const ReflectedFrame& frame, const Quat& old) {
   return unit(part);
 }
 
-/// Returns the minimiser of rod_orientation if `is_usual`: neighbours and stretch pull, and the neighbours do not pull
-/// towards a reversed director.
+/// Returns the minimiser of rod_orientation in the usual case, and sets `is_usual`: σ > 0, b is not 0, and its part P₊b
+/// is not only rounding.
 template <class T>
 OGC_HD QuatOf<T> usual_orientation(const T& stretch, const Vector<T>& apart, const Vector<T>& direction,
                                    const QuatOf<T>& b, Mask<T>& is_usual) {
@@ -109,8 +113,8 @@ OGC_HD QuatOf<T> usual_orientation(const T& stretch, const Vector<T>& apart, con
   return unit(T(1.0f / nu) * upper + T(1.0f / (nu + 2.0f * sigma)) * lower);
 }
 
-/// Returns the minimiser of −½ qᵀMq − b·q on the unit sphere, M q = −2 k_s D q c; of several the one nearest to the old
-/// q. `apart` is D [m], `direction` is c of rod_rest_direction.
+/// Returns the minimiser q of −½ qᵀMq − b·q on the unit sphere, with M q = −2 k_s D q c. If there are several, returns
+/// the one nearest to the old q. `apart` is D [m]; `direction` is c of rod_rest_direction.
 OGC_HD inline Quat rod_orientation(float stretch, const Vec& apart, const Vec& direction, const Quat& b,
                                    const Quat& old) {
   bool is_usual = false;
@@ -121,7 +125,7 @@ OGC_HD inline Quat rod_orientation(float stretch, const Vec& apart, const Vec& d
   if (!(sigma > 0)) return pull > 0 ? unit((1.0f / pull) * b) : old;
   const ReflectedFrame frame{pure((1.0f / length) * apart), pure((1.0f / size) * direction)};
   if (!(pull > 0)) return nearest_upper(frame, old);
-  // the neighbours pull towards a reversed director
+  // b has no part in the eigenspace of eigenvalue 1: the neighbours favour a reversed director
   const Quat lower = b - frame.upper(b);
   const float beta_lower = sqrtf(dot(lower, lower));
   if (beta_lower > 2.0f * sigma) return unit((1.0f / beta_lower) * lower);

@@ -1,4 +1,4 @@
-// Adds a segment of a rod as one of its ends sees it: k_s l/2 ‖D/l − R(q) e₃‖² of stretch and shear (compare/rods.md).
+// Adds the stretch and shear of a segment as one of its ends sees it: k_s l/2 ‖D/l − R(q) e₃‖² (compare/rods.md).
 #pragma once
 
 #include "fast/kernels/arithmetic/accumulator.hpp"
@@ -13,14 +13,15 @@ struct SegmentRest {
   float stretch = 0, damping = 0;  ///< k_s [N], k_d/h [1]
 };
 
-/// Returns c = e₃ + k R(qᵗ)ᵀ Dᵗ/l. The segment has no force if (1 + k) D/l in the segment's frame is c. `apart`: Dᵗ
-/// [m].
+/// Returns c = e₃ + k R(qᵗ)ᵀ Dᵗ/l, the direction of zero force: a segment has no force if (1 + k) D/l = R(q) c. `apart`
+/// is Dᵗ [m], `damping` is k = k_d/h.
 OGC_HD inline Vec rod_rest_direction(const SegmentRest& segment, float damping, const Quat& start, const Vec& apart) {
   const Vec axis{0.0f, 0.0f, 1.0f};
   return damping > 0 ? axis + (damping / segment.length) * turned_back(start, apart) : axis;
 }
 
-/// Adds force and block of an end (0 or 1). `apart`: D [m]; `direction`: c of rod_rest_direction with the same damping.
+/// Adds the force and block of an end (0 or 1). `apart` is D [m]; `direction` is c of rod_rest_direction with the same
+/// damping.
 OGC_HD inline void add_rod(const SegmentRest& segment, float damping, int end, const Vec& apart, const Quat& q,
                            const Vec& direction, ForceAndBlock& sum) {
   const float over_length = (1.0f + damping) / segment.length;

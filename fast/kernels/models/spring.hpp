@@ -1,5 +1,5 @@
-// Adds a spring as one of its ends sees it: k_s/2 (l − l₀)² and damping (k_d/h) k_s/2 (l − lᵗ)², l = ‖x₀ − (1 − s) x₁ −
-// s x₂‖ (compare/stages/spring.hpp).
+// Adds a spring as one of its ends sees it: the energy k_s/2 (l − l₀)² and the damping (k_d/h) k_s/2 (l − lᵗ)², with l
+// = ‖x₀ − (1 − s) x₁ − s x₂‖ (compare/stages/spring.hpp).
 #pragma once
 
 #include <cmath>
@@ -27,7 +27,7 @@ OGC_HD inline Vec spring_apart(const SpringRest& spring, const Vec* end) {
   return spring.ratio > 0 ? apart - spring.ratio * (end[2] - end[1]) : apart;
 }
 
-/// Returns the weight w of an end: 1, s − 1 or −s.
+/// Returns the weight w of an end in l: 1, s − 1 or −s.
 OGC_HD inline float spring_weight(const SpringRest& spring, int end) {
   return end == 0 ? 1.0f : end == 1 ? spring.ratio - 1.0f : -spring.ratio;
 }
@@ -38,12 +38,12 @@ OGC_HD inline float spring_length(const Vec& apart) {
   return squared >= 0x1p-126f ? sqrtf(squared) : 0.0f;
 }
 
-/// Adds force and block of the end with weight w. `apart`: the result of spring_apart; `length_start`: lᵗ.
+/// Adds the force and block of the end with weight w. `apart` is x₀ − (1 − s) x₁ − s x₂, `length_start` is lᵗ.
 OGC_HD inline void add_spring(const SpringRest& spring, float weight, float damping, const Vec& apart,
                               float length_start, ForceAndBlock& sum) {
   const float length = spring_length(apart), stiffness = weight * weight * spring.stiffness;
-  // There is no direction. w² k_s I majorises the energy for every l₀. For a stitch, a length that rounding lost may
-  // exceed l₀ = 0.
+  // Without a length there is no direction and no force. The block w² k_s I majorises the energy for every l₀. It is
+  // also needed for a stitch with l₀ = 0, whose length may have been lost to rounding.
   if (!(length > 0)) {
     sum.add_identity(stiffness);
     return;
@@ -56,7 +56,7 @@ OGC_HD inline void add_spring(const SpringRest& spring, float weight, float damp
   sum.add_outer(stiffness * (1.0f - across) + resistance, (1.0f / length) * apart);
 }
 
-/// Returns the energy [J], in double: energies are only reported.
+/// Returns the energy [J], in double because it is only reported.
 OGC_HD inline double spring_energy(const SpringRest& spring, float length) {
   const double change = static_cast<double>(length) - spring.rest_length;
   return 0.5 * spring.stiffness * change * change;

@@ -1,4 +1,4 @@
-// Adds a St. Venant–Kirchhoff membrane as one corner sees it, in plane stress: ψ = A (λ/2 tr(G)² + μ ‖G‖²) (method.md
+// Adds a St. Venant–Kirchhoff membrane in plane stress as one corner sees it: ψ = A (λ/2 tr(G)² + μ ‖G‖²) (method.md
 // §4.6).
 #pragma once
 
@@ -6,10 +6,10 @@
 
 namespace ogc::fast {
 
-/// Computes MembraneModel::st_venant_kirchhoff.
+/// Implements MembraneModel::st_venant_kirchhoff.
 struct StVenantKirchhoff {
-  /// Adds −∂ψ/∂x_a with damping and the 3×3 block: A (1 + k_d/h) ((λ+μ) (F∇N_a)(F∇N_a)ᵀ + μ ‖∇N_a‖² F Fᵀ) + A max(0,
-  /// ∇N_aᵀ S ∇N_a) I. `strain_start` is Gᵗ.
+  /// Adds the force −∂ψ/∂x_a with damping of strains, and the 3×3 block A (1 + k_d/h) ((λ+μ) (F∇N_a)(F∇N_a)ᵀ + μ
+  /// ‖∇N_a‖² F Fᵀ) + A max(0, ∇N_aᵀ S ∇N_a) I. `strain_start` is Gᵗ.
   template <class T>
   OGC_HD static void add(const MembraneStencilOf<T>& stencil, const SurfaceMaterial& material, const Vector<T>& to_b,
                          const Vector<T>& to_c, const Symmetric2Of<T>& strain_start, ForceAndBlockOf<T>& sum) {
@@ -42,7 +42,7 @@ struct StVenantKirchhoff {
     add(stencil, material, to_b, to_c, {}, sum);
   }
 
-  /// Returns ψ [J], in double: energies are only reported. The edges lead from corner 0 to corners 1 and 2.
+  /// Returns ψ [J], in double because it is only reported. The edges go from corner 0 to corners 1 and 2.
   OGC_HD static double energy(const TriangleRest& rest, const SurfaceMaterial& material, const Vec& to_b,
                               const Vec& to_c) {
     const Symmetric2 strain = green_strain(deformation_gradient(to_b, to_c, rest.gradient[1], rest.gradient[2]));

@@ -14,7 +14,7 @@
 
 namespace ogc::fast {
 
-/// Holds J, n and q; `ratio` is 0 if the triangle has collapsed in single precision.
+/// Holds J, n and q of a triangle. `ratio` is 0 if the triangle has collapsed in single precision.
 template <class T>
 struct AreaRatioOf {
   Vector<T> normal;      ///< n, a unit vector; 0 if the triangle has collapsed
@@ -28,7 +28,7 @@ OGC_HD AreaRatioOf<T> area_ratio(const Vector<T>& to_b, const Vector<T>& to_c, c
   Vector<T> normal = cross(to_b, to_c);
   T scale = absolute(gradient_b[0] * gradient_c[1] - gradient_b[1] * gradient_c[0]);
   const T density = scale;
-  // If edges are a millionth as long, the square of the area underflows.
+  // Scales the edges by 2⁴⁰ if the square of the area might underflow.
   const Mask<T> is_tiny = dot(normal, normal) < 0x1p-90f;
   if (!is_false(is_tiny)) {
     const T large = T{} + 0x1p40f;
@@ -41,10 +41,10 @@ OGC_HD AreaRatioOf<T> area_ratio(const Vector<T>& to_b, const Vector<T>& to_c, c
   return {select(is_flat, Vector<T>{}, (1.0f / length) * normal), select(is_flat, zero, scale * length), density};
 }
 
-/// Computes MembraneModel::stable_neo_hookean.
+/// Implements MembraneModel::stable_neo_hookean.
 struct StableNeoHookean {
-  /// Adds −∂ψ/∂x_a and the block, whose eigenvalue along the normal is replaced by 0 if it is negative. A collapsed
-  /// triangle has no J: its normal is 0, so the terms of J vanish.
+  /// Adds −∂ψ/∂x_a and the block. If the block's eigenvalue along the normal is negative, it is replaced by 0. A
+  /// collapsed triangle has n = 0, so all terms with J vanish.
   template <class T>
   OGC_HD static void add_elastic(const MembraneStencilOf<T>& stencil, const SurfaceMaterial& material,
                                  const Vector<T>& to_b, const Vector<T>& to_c, ForceAndBlockOf<T>& sum) {
@@ -64,7 +64,7 @@ struct StableNeoHookean {
     sum.add_outer(area * select(lift > -around, lift, -around), at.normal);
   }
 
-  /// Adds the same and the damping of strains. `strain_start` is Gᵗ.
+  /// Adds the same as add_elastic, and the damping of strains. `strain_start` is Gᵗ.
   template <class T>
   OGC_HD static void add(const MembraneStencilOf<T>& stencil, const SurfaceMaterial& material, const Vector<T>& to_b,
                          const Vector<T>& to_c, const Symmetric2Of<T>& strain_start, ForceAndBlockOf<T>& sum) {
@@ -72,7 +72,7 @@ struct StableNeoHookean {
     if (material.membrane_damping > 0) add_strain_damping(stencil, material, to_b, to_c, strain_start, sum);
   }
 
-  /// Returns ψ [J], in double: energies are only reported. The edges lead from corner 0 to corners 1 and 2.
+  /// Returns ψ [J], in double because it is only reported. The edges go from corner 0 to corners 1 and 2.
   OGC_HD static double energy(const TriangleRest& rest, const SurfaceMaterial& material, const Vec& to_b,
                               const Vec& to_c) {
     const DeformationGradient f = deformation_gradient(to_b, to_c, rest.gradient[1], rest.gradient[2]);

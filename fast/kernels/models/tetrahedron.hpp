@@ -1,6 +1,6 @@
 // Adds a stable Neo-Hookean tetrahedron as one corner sees it (compare/stages/tetrahedron.hpp). a, b, c are the vectors
-// to the other corners, in an order with det(a, b, c) > 0 at rest. With n = (b − a) × (c − a), w_k = V ∇N_k·∇N and i =
-// 1/(6V):
+// to the other corners, ordered so that det(a, b, c) > 0 at rest. ∇N belongs to the corner itself, ∇N_k to the others.
+// With n = (b − a) × (c − a), w_k = V ∇N_k·∇N and i = 1/(6V):
 //
 //   J = i n·a,   V ∂J/∂x = −n/6,   force −μ (w₁ a + w₂ b + w₃ c) + ((λ + μ)(J − 1) − μ) n/6,
 //   block −μ (w₁ + w₂ + w₃) I + (λ + μ) i/6 n nᵀ
@@ -39,10 +39,10 @@ struct TetrahedronStencilOf {
 };
 using TetrahedronStencil = TetrahedronStencilOf<float>;
 
-/// A symmetric 3×3 strain [1] or stress [Pa].
+/// A symmetric 3×3 strain [1].
 using SolidStrain = Symmetric3;
 
-/// Holds the further data for damping of strains: ∇N of the other corners, and V. ∇N of the corner itself is minus
+/// Holds the data that only damping of strains needs: V, and ∇N of the other corners. ∇N of the corner itself is minus
 /// their sum.
 struct TetrahedronGradients {
   Vec other[3];      ///< ∇N [1/m]
@@ -63,9 +63,9 @@ OGC_HD void add_tetrahedron(const TetrahedronStencilOf<T>& stencil, const SolidM
   sum.add_outer((bulk / 6.0f) * stencil.inverse, normal);
 }
 
-/// Holds the columns of F.
+/// Holds the columns of the deformation gradient F.
 struct SolidDeformation {
-  Vec column[3];  ///< ∂x along the axes of the rest shape [1]
+  Vec column[3];  ///< derivatives of x along the axes of the rest shape [1]
 };
 
 /// Returns F = Σ x_k ∇N_kᵀ, with a, b and c the vectors to the other corners.
@@ -83,13 +83,14 @@ OGC_HD inline SolidStrain solid_strain(const SolidDeformation& f) {
           0.5f * (dot(*y, *y) - 1.0f), 0.5f * dot(*y, *z), 0.5f * (dot(*z, *z) - 1.0f)};
 }
 
-/// Returns F times a vector of the rest shape.
+/// Returns F v for a vector v of the rest shape.
 OGC_HD inline Vec along_columns(const SolidDeformation& f, const Vec& by) {
   return by.x * f.column[0] + by.y * f.column[1] + by.z * f.column[2];
 }
 
-/// Adds −∂/∂x of V (k_d/h) (λ/2 tr(ΔG)² + μ ‖ΔG‖²), ΔG = G − Gᵗ, and its material part, V (k_d/h) ((λ + μ)(F∇N)(F∇N)ᵀ +
-/// μ ‖∇N‖² F Fᵀ), with ∇N of the corner from which a, b and c are seen.
+/// Adds damping of strains: the force −∂/∂x of V (k_d/h) (λ/2 tr(ΔG)² + μ ‖ΔG‖²), ΔG = G − Gᵗ, and the block V (k_d/h)
+/// ((λ + μ)(F∇N)(F∇N)ᵀ + μ ‖∇N‖² F Fᵀ), its material part. x and ∇N are those of the corner from which a, b and c are
+/// seen.
 OGC_HD inline void add_solid_damping(const TetrahedronGradients& gradients, const SolidMaterial& material, const Vec& a,
                                      const Vec& b, const Vec& c, const SolidStrain& start, ForceAndBlock& sum) {
   const SolidDeformation f = solid_deformation(gradients, a, b, c);
@@ -108,14 +109,14 @@ OGC_HD inline void add_solid_damping(const TetrahedronGradients& gradients, cons
   for (const Vec& column : f.column) sum.add_outer(around, column);
 }
 
-/// Returns J = i det(a, b, c), in double: J and the energy are only reported.
+/// Returns J = i det(a, b, c), in double because it is only reported.
 OGC_HD inline double volume_ratio(const TetrahedronRest& rest, const Vec& a, const Vec& b, const Vec& c) {
   const Vector<double> p{a.x, a.y, a.z}, q{b.x, b.y, b.z}, r{c.x, c.y, c.z};
   return rest.inverse * dot(p, cross(q, r));
 }
 
-/// Returns V ψ [J]. Computed from positions, V (‖F‖² − 3) errs by about 2⁻²² V. From displacements, D = F − I, nothing
-/// would cancel.
+/// Returns V ψ [J]. The term V (‖F‖² − 3) is computed from positions, so it errs by about 2⁻²² V. With displacements, F
+/// − I, no digits would cancel.
 OGC_HD inline double solid_energy(const TetrahedronRest& rest, const SolidMaterial& material, const Vec& a,
                                   const Vec& b, const Vec& c) {
   const auto squared = [](const Vec& p) {

@@ -1,15 +1,15 @@
-// Computes the smallest distance of contacts that act, for the rows of scenes with rods. d_min would not do: for a
-// segment it is mostly the length of the segment between it and the next but one.
+// Computes the smallest distance among the contacts that exert a force, for the reports of scenes with rods. d_min is
+// no measure there: it is usually one segment's length, the distance between a segment and the next but one.
 #pragma once
 
 #include "fast/kernels/contact_stream.hpp"
 
 namespace ogc::fast {
 
-/// Returns the distance of a record's contact if the contact acts, else a larger number.
+/// Returns the distance of the contact in record i if it exerts a force (0 < d < r); otherwise the largest float.
 template <class Record>
 struct ActiveDistance {
-  const Record* records;  ///< of the last detection
+  const Record* records;  ///< from the last detection
   ContactTables tables;
   const Vec* position;   ///< x by vertex [m]
   float contact_radius;  ///< r [m]

@@ -1,4 +1,4 @@
-// Adds a row's sums over rods. Terms are in double; no position depends on them.
+// Adds the energy and the stretch of rods to a step's sums. Terms are in double; no position depends on them.
 #pragma once
 
 #include "fast/kernels/metrics.hpp"
@@ -6,7 +6,7 @@
 
 namespace ogc::fast {
 
-/// Returns q in double, because energies of small angles are differences of numbers near 1.
+/// Returns q in double, because energies of small angles are small differences of numbers near 1.
 OGC_HD inline QuatOf<double> wide(const Quat& q) { return {q.x, q.y, q.z, q.w}; }
 /// Returns ‖a − s b‖² for the sign s that makes it smaller.
 OGC_HD inline double squared_apart(const QuatOf<double>& a, const QuatOf<double>& b) {
@@ -14,8 +14,8 @@ OGC_HD inline double squared_apart(const QuatOf<double>& a, const QuatOf<double>
   return dot(apart, apart);
 }
 
-/// Adds the term of a segment; each of the two segments at a vertex adds half of the bend and twist there. Returns
-/// ‖D‖/l; 0 if it is not finite.
+/// Adds a segment's energy and ‖D‖/l − 1 to the sums. The energy of bend and twist between two segments is added in two
+/// halves, one by each segment. Returns ‖D‖/l; 0 if it is not finite.
 struct SegmentTerm {
   const SegmentRest* segments;          ///< by segment
   const SegmentNeighbours* neighbours;  ///< by segment
@@ -37,7 +37,7 @@ struct SegmentTerm {
     const SegmentNeighbours& seen = neighbours[e];
     for (int k = 0; k < 2; ++k) {
       if (!(seen.rest[k].weight > 0)) continue;
-      // half of w/2 ‖…‖², w/2 = 2 k_b/l̄
+      // half of the energy w/2 ‖…‖² of bend and twist between two segments; w = 4 k_b/l̄
       const QuatOf<double> other = wide(orientation[seen.number[k]]);
       const QuatOf<double> relative = k == 1 ? conjugate(q) * other : conjugate(other) * q;
       sum[sum_rod] += 0.25 * static_cast<double>(seen.rest[k].weight) *

@@ -1,5 +1,5 @@
-// Holds the segments of rods as the kernels read them: rest data, and streams in the order of the sweep. All are empty
-// in a scene without rods.
+// Holds the segments of rods in the form that kernels read: rest data, and streams in the order of the sweep. All are
+// empty in a scene without rods.
 #pragma once
 
 #include "fast/kernels/models/orientation.hpp"
@@ -7,17 +7,18 @@
 
 namespace ogc::fast {
 
-/// Motion of a segment: free, fixed with its body, or (from 0 on) the number of the motion of both ends.
+/// Motion of a segment. It is free, or fixed with its body; any number from 0 on is the prescribed motion of both its
+/// ends.
 inline constexpr int segment_free = -1, segment_fixed = -2;
 
-/// Neighbours of a segment across its ends.
+/// Holds the neighbours of a segment across its ends: first the segment before it, then the segment after it.
 struct alignas(16) SegmentNeighbours {
-  NeighbourRest rest[2];   ///< behind, ahead; weight 0: no neighbour
-  int number[2] = {0, 0};  ///< numbers of these segments; its own number if there is no neighbour
+  NeighbourRest rest[2];   ///< weight 0: there is no neighbour
+  int number[2] = {0, 0};  ///< segment numbers; the segment's own number if there is no neighbour
 };
 
-/// A free segment in the order of the sweep. Ends are encoded as in fast/kernels/sweep_view.hpp: prescribed and fixed
-/// ends are read at their new positions, free ones at their old ones.
+/// A free segment in the order of the sweep. Its ends are encoded as in fast/kernels/sweep_view.hpp: prescribed and
+/// fixed ends are read at their new positions, free ends at their old positions.
 struct alignas(16) SegmentSlot {
   SegmentRest rest{};
   int segment = -1;

@@ -1,4 +1,4 @@
-// Turns the frames of segments at the start of a step, and commits them at its end (compare/rods.md).
+// Turns the frames of segments after the guess loop of a step, and commits them at the step's end (compare/rods.md).
 #pragma once
 
 #include "fast/kernels/control.hpp"
@@ -6,15 +6,17 @@
 
 namespace ogc::fast {
 
-/// Returns q after half a turn about its own first axis, which reverses its director.
+/// Returns q after half a turn about the frame's own first axis, which reverses its director.
 OGC_HD inline Quat turned_round(const Quat& q) { return {q.w, q.z, -q.y, -q.x}; }
 
-/// Returns q after the smallest rotation from one direction to another. For opposite directions this is half a turn
-/// about the first axis of q; if a direction is 0, q itself. (a × b, 1 + a·b) is the rotation times 2 cos θ/2.
+/// Returns q after the smallest rotation that takes the direction `from` to `to`. For opposite directions this is half
+/// a turn about the first axis of q. Returns q if a direction is 0. With unit vectors a, b at the angle θ, (a × b, 1 +
+/// a·b) is the quaternion of this rotation times 2 cos θ/2.
 OGC_HD inline Quat turned_along(const Vec& from, const Vec& to, const Quat& q) {
   const float first = sqrtf(dot(from, from)), second = sqrtf(dot(to, to));
   if (!(first > 0 && second > 0)) return q;
-  // Rounding of unit vectors leaves u in 1 + a·b after a rotation by π; this is its square, with room.
+  // For opposite directions `twice` is 0 except for rounding errors of about 2⁻²⁴, whose squares stay far below this
+  // limit.
   constexpr float lost = 0x1p-40f;
   const Vec a = (1.0f / first) * from, b = (1.0f / second) * to, axis = cross(a, b);
   const Quat twice{axis.x, axis.y, axis.z, 1.0f + dot(a, b)};
@@ -22,7 +24,8 @@ OGC_HD inline Quat turned_along(const Vec& from, const Vec& to, const Quat& q) {
   return unit(unit(twice) * q);
 }
 
-/// Computes c of rod_rest_direction. Index over segments; only launched if strains are damped.
+/// Computes the direction c of rod_rest_direction for each segment. Index over segments; launched only if strains are
+/// damped.
 struct SetDirection {
   const SegmentRest* segments;    ///< by segment
   const Vec* start;               ///< xᵗ by vertex [m]
@@ -36,15 +39,16 @@ struct SetDirection {
   }
 };
 
-/// Sets q for the step after the guess loop, by turning each frame with its segment. Index over segments.
+/// Sets q after the guess loop: turns each frame from qᵗ with its segment, or with its prescribed motion. Index over
+/// segments.
 struct TurnSegment {
   const SegmentRest* segments;  ///< by segment
   const int* motion;            ///< by segment: motion, as in segments.hpp
-  /// [step of the frame][motion]: rotation of the motion in the step; w = 2: the motion has no rotation
+  /// [step of the frame][motion]: rotation of a prescribed motion in the step; w = 2: the motion has no rotation
   const Quat* motion_turns;
-  int motions;                    ///< motions in a row of turns
+  int motions;                    ///< prescribed motions: length of a row of motion_turns
   const Vec* start;               ///< xᵗ by vertex [m]
-  const Vec* position;            ///< x by vertex [m], after the guess
+  const Vec* position;            ///< x by vertex [m], after the guess loop
   const Quat* orientation_start;  ///< qᵗ by segment
   Quat* orientation;              ///< q by segment, written
   bool turns;                     ///< false: free frames keep qᵗ (rod_start=kept)

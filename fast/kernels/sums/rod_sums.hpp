@@ -1,4 +1,4 @@
-// Adds the sums of a step of a scene with rods, and finds the extremes for its row.
+// Adds up the sums of a step of a scene with rods, and finds the longest segment and the smallest contact distance.
 #pragma once
 
 #include "fast/kernels/rods/contact_distance.hpp"
@@ -7,18 +7,18 @@
 
 namespace ogc::fast {
 
-/// Sums of `Others` and of rods.
+/// Sums all that `Others` sums, and the energy and stretch of rods.
 template <class Others>
 struct RodSums {
   Others others;
   SegmentTerm segment;
   int segments;
-  ActiveDistance<VertexFacetRecord> vertex_facet;  ///< of each record; only the device knows their number
-  ActiveDistance<EdgeEdgeRecord> edge_edge;        ///< of each record
+  ActiveDistance<VertexFacetRecord> vertex_facet;  ///< distance by record; only the device knows the number of records
+  ActiveDistance<EdgeEdgeRecord> edge_edge;        ///< distance by record
   const int *vertex_facet_count, *edge_edge_count;
-  StepControl* control;  ///< on the backend: extremes are written
+  StepControl* control;  ///< on the backend: longest_segment and nearest_contact are written
 
-  /// Adds the terms of one chunk.
+  /// Adds the terms i = chunk, chunk + chunks, … of each kind.
   OGC_HD void add(int chunk, int chunks, double* sums) const {
     others.add(chunk, chunks, sums);
     float longest = 0, nearest = 3.40282347e38f;

@@ -1,4 +1,4 @@
-// Adds the sums of a step for its row: one functor for each launch of fast/stages/reduce.hpp.
+// Adds up the sums that a step reports. Each functor here is one launch of fast/stages/reduce.hpp.
 #pragma once
 
 #include "fast/kernels/contact_stream.hpp"
@@ -7,27 +7,27 @@
 
 namespace ogc::fast {
 
-/// Adds term(i, sums) for every `chunks`-th i from `chunk` on.
+/// Adds term(i, sums) for i = chunk, chunk + chunks, … < count.
 template <class Term>
 OGC_HD void add_terms(const Term& term, int count, int chunk, int chunks, double* sums) {
   for (int i = chunk; i < count; i += chunks) term(i, sums);
 }
 
-/// Sums momenta, kinetic and gravity energy.
+/// Sums momenta, kinetic energy and gravity's energy over the vertices.
 struct VertexSums {
   VertexTerm term;
   int count;  ///< vertices
 
-  /// Adds the terms of one chunk.
+  /// Adds every `chunks`-th term, from number `chunk` on.
   OGC_HD void add(int chunk, int chunks, double* sums) const { add_terms(term, count, chunk, chunks, sums); }
 };
 
-/// Sums the forces that a step leaves, over free vertices.
+/// Sums the forces that a step leaves on free vertices (LeftForce).
 struct LeftSums {
   const LeftForce* left;  ///< by slot
   int count;              ///< slots
 
-  /// Adds the terms of one chunk, by LeftColumn.
+  /// Adds every `chunks`-th term, from number `chunk` on; `sums` by LeftColumn.
   OGC_HD void add(int chunk, int chunks, double* sums) const {
     for (int i = chunk; i < count; i += chunks) {
       const LeftForce own = left[i];
@@ -40,12 +40,12 @@ struct LeftSums {
   }
 };
 
-/// Holds the elements of all kinds of a list.
+/// Holds the elements of all kinds in a KindList.
 template <class List>
 struct AllElements;
 template <class... All>
 struct AllElements<KindList<All...>> : ElementsView<All>... {
-  /// Adds the energies of one chunk, kind by kind. Without `all` it adds only the kinds that each step reports.
+  /// Adds every `chunks`-th energy, kind by kind. If `all` is false, only the kinds with `reports_state` are added.
   template <bool all>
   OGC_HD void add(int chunk, int chunks, double* sums) const {
     (add_kind<all, All>(chunk, chunks, sums), ...);
@@ -60,12 +60,12 @@ struct AllElements<KindList<All...>> : ElementsView<All>... {
   }
 };
 
-/// Sums what each step reports.
+/// Sums what every step reports: the sums over vertices, and the kinds of elements with `reports_state`.
 struct StateSums {
   VertexSums vertices;
   AllElements<Kinds> elements;
 
-  /// Adds the terms of one chunk.
+  /// Adds every `chunks`-th term, from number `chunk` on.
   OGC_HD void add(int chunk, int chunks, double* sums) const {
     vertices.add(chunk, chunks, sums);
     elements.add<false>(chunk, chunks, sums);
@@ -75,10 +75,10 @@ struct StateSums {
 /// Sums what StateSums sums, and the energies of all elements and contacts.
 struct EnergySums {
   StateSums state;
-  VertexFacetTerm vertex_facet;  ///< its view holds the number of records, which only the device knows
-  EdgeEdgeTerm edge_edge;        ///< its view holds the number of records
+  VertexFacetTerm vertex_facet;  ///< energies by record; only the device knows the number of records
+  EdgeEdgeTerm edge_edge;        ///< energies by record
 
-  /// Adds the terms of one chunk.
+  /// Adds every `chunks`-th term, from number `chunk` on.
   OGC_HD void add(int chunk, int chunks, double* sums) const {
     state.vertices.add(chunk, chunks, sums);
     state.elements.add<true>(chunk, chunks, sums);

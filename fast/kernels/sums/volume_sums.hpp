@@ -1,4 +1,4 @@
-// Adds the sums of a step of a scene with volumes.
+// Adds up the sums of a step of a scene with volumes.
 #pragma once
 
 #include "fast/kernels/sums/step_sums.hpp"
@@ -12,7 +12,7 @@ struct VolumeSums {
   VolumeTerm volume;
   int rows;  ///< rows of contacts with volumes
 
-  /// Adds the terms of one chunk.
+  /// Adds every `chunks`-th term, from number `chunk` on.
   OGC_HD void add(int chunk, int chunks, double* sums) const {
     energies.add(chunk, chunks, sums);
     add_terms(volume, rows, chunk, chunks, sums);

@@ -1,4 +1,4 @@
-// Contacts in the sum of a vertex. The same formulas read, weigh and add one contact or several side by side.
+// Adds contacts to the sum of a vertex. The formulas handle one contact, or several side by side.
 #pragma once
 
 #include "fast/kernels/friction_force.hpp"
@@ -7,16 +7,17 @@
 
 namespace ogc::fast {
 
-/// Returns the weights of the closest points of a contact whose slots are at x.
+/// Returns the weights of the closest points of a contact; `x` are the positions of its vertices by slot.
 template <PairKind pairs>
 OGC_HD ContactWeights closest_weights(const OneItem<ContactIncidence>& one, const Vec* x) {
   return contact_weights<pairs>(one.item.kind, x);
 }
-/// Returns the weight of the vertex itself.
+/// Returns the weight of the vertex that is updated.
 OGC_HD inline float own_weight(const OneItem<ContactIncidence>& one, const ContactWeights& weights) {
   return weights.of(one.item.own);
 }
-/// Returns |w| Σ |w_u| over the contact's vertices u of the same colour, the vertex itself included. Mostly this is w².
+/// Returns |w| Σ |w_u|, with the sum over all vertices u of the contact that have the colour of the updated vertex,
+/// itself included. If there is no other one, this is w².
 OGC_HD inline float majorant_of(const OneItem<ContactIncidence>& one, const ContactWeights& weights) {
   const float own = fabsf(own_weight(one, weights));
   float together = own;
@@ -24,17 +25,18 @@ OGC_HD inline float majorant_of(const OneItem<ContactIncidence>& one, const Cont
   return own * together;
 }
 
-/// Holds contacts at the positions that an update reads.
+/// Holds one contact, or several side by side, at the positions that a vertex update reads.
 template <class N>
 struct ContactAtOf {
   Vector<N> x[4], start[4];     ///< by slot: x, and with friction xᵗ [m]
   N friction{};                 ///< μ
   ContactWeightsOf<N> weights;  ///< w by slot
   ContactShapeOf<N> shape;
-  N weight{};    ///< of the vertex itself
+  N weight{};    ///< w of the vertex that is updated
   N majorant{};  ///< replaces w² in the block
 
-  /// Returns whether the contact adds to force or block: the points do not coincide, and the vertex has a weight.
+  /// Returns whether the contact adds to force or block: the closest points do not coincide, and the vertex's weight is
+  /// not 0.
   OGC_HD Mask<N> acts() const { return shape.distance > N(0.0f) && (weight > N(0.0f) || weight < N(0.0f)); }
 };
 
@@ -62,7 +64,7 @@ OGC_HD ContactAtOf<typename Items::Number> contacts_at(const SweepShared& view, 
   return at;
 }
 
-/// Adds the friction of contacts that act with the normal force λ.
+/// Adds friction; `normal_force` is λ of the same contact.
 template <class N>
 OGC_HD void add_contact_friction(const ContactAtOf<N>& at, const N& normal_force, float limit,
                                  ForceAndBlockOf<N>& sum) {
@@ -75,7 +77,7 @@ OGC_HD void add_contact_friction(const ContactAtOf<N>& at, const N& normal_force
   });
 }
 
-/// Returns force and block of contacts on one vertex each, friction included.
+/// Returns the force and block of a contact on the vertex that is updated, friction included.
 template <PairKind pairs, class Activation, class Items>
 OGC_HD ForceAndBlockOf<typename Items::Number> contact_term(const SweepShared& view, const Activation& activation,
                                                             const Items& items) {
@@ -91,15 +93,17 @@ OGC_HD ForceAndBlockOf<typename Items::Number> contact_term(const SweepShared& v
   return term;
 }
 
-/// Makes two parts of a vertex's sum, one for each kind of contacts. A vertex may have fifty contacts and its
-/// neighbours none, so teams share the work. `Activation` is a functor of models/activation.hpp.
+/// Makes the two parts of a vertex's sum for its vertex–facet and its edge–edge contacts. They are PooledParts: a
+/// vertex may have fifty contacts and its neighbours none, so teams share the work. `Activation` is a functor of
+/// models/activation.hpp.
 template <class Activation>
 struct ContactParts {
   const SweepShared& view;
   ContactRow row;  ///< contacts of the vertex
   Activation activation;
 
-  /// Return the part of the first row.vertex_facet contacts, and the part of the others.
+  /// Return the part of the vertex–facet contacts, and the part of the edge–edge contacts, which follow them in the
+  /// row.
   OGC_HD auto vertex_facet() const { return range<PairKind::vertex_facet>(row.begin, row.vertex_facet); }
   OGC_HD auto edge_edge() const {
     return range<PairKind::edge_edge>(row.begin + row.vertex_facet, row.count - row.vertex_facet);

@@ -1,5 +1,6 @@
-// The sum over the stencils of a vertex without inertia: one template over kinds of elements. A part without items
-// changes no bit (team.hpp), so the choice of a scene's sum only changes the time.
+// Sums force and block over the stencils of a vertex, without inertia. The template parameters are the parts, one for
+// each kind of element. A part without items changes no bit (team.hpp), so a scene may use any sum that has all of its
+// kinds: the choice only changes the time.
 #pragma once
 
 #include <type_traits>
@@ -10,13 +11,13 @@
 
 namespace ogc::fast {
 
-/// Adds up these parts in this order, then vertex–facet contacts, then edge–edge contacts. A part's `gives` has the
-/// bits of what it adds; `part_of` makes the part of a vertex.
+/// Adds the parts in this order, then vertex–facet contacts, then edge–edge contacts. Each type in `Parts` has the bits
+/// of the features that it computes (`gives`) and a function `part_of` that makes the part of a vertex.
 template <class Activation, class... Parts>
 struct Gather {
-  /// number of parts: warps of a block if teams are spread (fast/cuda/team.cuh)
+  /// number of parts, and so of warps in a block if each part has its own warp (fast/cuda/team.cuh)
   static constexpr int parts = sizeof...(Parts) + 2;
-  /// The features that this sum gives (bits of sweep_view.hpp). It gives `any_model` only if all of its parts do.
+  /// Features that this sum computes (bits of sweep_view.hpp). It has asks_any_model only if all parts have it.
   static constexpr unsigned gives = ((Parts::gives | ...) & ~asks_any_model) | (Parts::gives & ... & asks_any_model) |
                                     (std::is_same_v<Activation, AnyActivation> ? asks_any_activation : 0u);
   /// Whether the sum adds contacts with volumes.
@@ -39,7 +40,7 @@ struct Gather {
     (prefetch(team, parts), ...);
     return team.template sum<ForceAndBlock>(parts...);
   }
-  /// Prefetches the row of a vertex, which the sum reads next.
+  /// Prefetches the incidences that the sum reads next.
   template <class Team, class AnyPart>
   OGC_HD static void prefetch(const Team& team, const AnyPart& part) {
     if constexpr (requires { part.load.first; })
@@ -47,7 +48,7 @@ struct Gather {
   }
 };
 
-/// The sum that serves any scene.
+/// The sum for any scene.
 using GatherAll = Gather<AnyActivation, Triangles, Hinges, Springs, Tetrahedra, VolumeContacts, Segments>;
 
 }  // namespace ogc::fast

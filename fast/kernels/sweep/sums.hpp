@@ -8,7 +8,7 @@
 
 namespace ogc::fast {
 
-/// Lists sums, from the most special one to one that gives everything.
+/// Lists sums from the most special one to the most general one.
 template <class... Sums>
 struct SumList {
   static constexpr int count = sizeof...(Sums);
@@ -16,13 +16,13 @@ struct SumList {
   template <std::size_t number>
   using At = std::tuple_element_t<number, std::tuple<Sums...>>;
 
-  /// Returns the number of the first sum that gives all features in `asked`; `count` if there is none.
+  /// Returns the number of the first sum that computes all features in `asked`; `count` if there is none.
   static constexpr int first_that_gives(unsigned asked) {
     int number = 0, found = count;
     ((found = found == count && (asked & ~Sums::gives) == 0 ? number : found, ++number), ...);
     return found;
   }
-  /// Calls use(the sum with this number).
+  /// Calls use(sum) with the sum of this number.
   template <class Use>
   static void with(int number, const Use& use) {
     int next = 0;
@@ -30,17 +30,18 @@ struct SumList {
   }
 };
 
-/// The sums of scenes with only surfaces of default models, and of scenes with only solids.
+/// Sum for scenes that have only surfaces of the default models, and sum for scenes that have only solids.
 using GatherSurfaces = Gather<OgcActivation, UsualTriangles, UsualHinges>;
 using GatherSolids = Gather<OgcActivation, UsualTetrahedra>;
 
-/// The sums of a device. Parts that a scene lacks cost registers and a warp of each block there, so each special sum
-/// makes some scene at least 5 % faster (fast/PERFORMANCE.md, Sums).
+/// Sums that are compiled for a device. A part that a scene does not need costs registers, and a warp of each block.
+/// Each special sum makes some scene at least 5 % faster (fast/PERFORMANCE.md, Sums).
 using DeviceSums = SumList<GatherSurfaces, Gather<OgcActivation, UsualTriangles, UsualHinges, Springs, VolumeContacts>,
                            GatherSolids, Gather<OgcActivation, Springs, UsualSegments>,
                            Gather<AnyActivation, Triangles, Hinges, Springs, Tetrahedra>,
                            Gather<AnyActivation, Triangles, Hinges, Springs, Tetrahedra, VolumeContacts>, GatherAll>;
-/// The sums of the host, whose packs omit the parts that a vertex lacks.
+/// Sums that are compiled for the host. One suffices, because the host skips the kinds of elements that a vertex does
+/// not have.
 using HostSums = SumList<GatherAll>;
 
 }  // namespace ogc::fast

@@ -1,12 +1,13 @@
 // Updates a segment's quaternion. Segments are updated colour by colour before the vertices. Neighbouring segments
-// never share a colour, so one array is read and written.
+// never share a colour, so a launch may read and write the same array.
 #pragma once
 
 #include "fast/kernels/kinds/kinds.hpp"
 
 namespace ogc::fast {
 
-/// Returns the quaternion as Hsu et al. 2025 compute it: μ = σ + ‖b‖, q ∝ (μ + M) b.
+/// Returns the quaternion as Hsu et al. 2025 compute it: the unit vector along (μ + M) b with μ = σ + ‖b‖
+/// (compare/rods.md).
 OGC_HD inline Quat published_orientation(float stretch, const Vec& apart, const Vec& direction, const Quat& b,
                                          const Quat& old) {
   const float length = sqrtf(dot(apart, apart)), size = sqrtf(dot(direction, direction)), pull = sqrtf(dot(b, b));
@@ -17,17 +18,17 @@ OGC_HD inline Quat published_orientation(float stretch, const Vec& apart, const 
   return dot(q, q) > 0 ? unit(q) : nearest_upper(frame, old);
 }
 
-/// Updates the free segments of a colour. Index over them.
+/// Updates the free segments of a colour. Index over these segments.
 struct UpdateSegment {
-  /// Holds what is read ahead, because the preceding launch does not write it.
+  /// Holds data that are read before the preceding launch has ended, because that launch does not write them.
   struct Ahead {
     SegmentSlot slot;
-    bool is_off = false;  ///< whether it is another iteration's turn
+    bool is_off = false;  ///< whether another iteration is next
   };
 
   SweepView view;
   int first_slot = 0;      ///< first slot of the colour
-  bool asks_late = false;  ///< true: the preceding launch may decide whose turn it is
+  bool asks_late = false;  ///< true: the preceding launch may still change the turn
 
   OGC_HD Ahead ahead(int i) const { return {view.rods.slots[first_slot + i], !asks_late && view.is_off()}; }
   OGC_HD void operator()(int i) const { (*this)(i, ahead(i)); }

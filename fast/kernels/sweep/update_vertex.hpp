@@ -1,6 +1,6 @@
-// Updates of an iteration (Alg. 4). A free vertex gathers its energies (gather.hpp), solves a 3×3 system, and is
-// truncated and written. A prescribed vertex moves to its target; a rod's segment gets its quaternion of least energy
-// (update_segment.hpp).
+// Updates the vertices in an iteration (Alg. 4). A free vertex sums its forces and blocks (gather.hpp), solves a 3×3
+// system, truncates the result and writes it. A prescribed vertex moves towards its target. update_segment.hpp updates
+// the segments of rods.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace ogc::fast {
 
 /// Truncates the proposal to the vertex's region. The leader writes the position, counts a cut and returns the
 /// position; other threads return `stay`. If the proposal is not finite, the vertex stays and the step fails. All
-/// threads that hold the team's total call this together.
+/// threads for which holds_total() is true must call this together.
 template <class Metric, class Team>
 OGC_HD Vec write_held(const SweepView& view, int v, const Vec& proposal, const Vec& stay, const FeasibleRegion& region,
                       const Metric& metric, const Team& team) {
@@ -27,13 +27,13 @@ OGC_HD Vec write_held(const SweepView& view, int v, const Vec& proposal, const V
   return kept.position;
 }
 
-/// Updates the vertices of a colour. One team for each slot.
+/// Updates the free vertices of a colour. One team for each slot.
 template <class Gather>
 struct UpdateVertex {
-  static constexpr int parts = Gather::parts;  ///< number of parts of its sum
+  static constexpr int parts = Gather::parts;  ///< number of parts of the vertex's sum
   SweepView view;
   int first_slot = 0;  ///< first slot of the colour
-  /// true: runs while the preceding launch may decide whose turn it is, so it checks the turn only after its sum
+  /// true: the preceding launch may still change the turn, so the turn is checked only after the sum
   bool asks_late;
 
   template <class Team>
@@ -55,7 +55,7 @@ struct UpdateVertex {
   }
 };
 
-/// Updates the prescribed vertices before the first colour of an iteration. Index over them.
+/// Moves the prescribed vertices before the first colour of an iteration. Index over these vertices.
 struct UpdatePrescribed {
   SweepView view;
   const int* prescribed = nullptr;  ///< numbers of the prescribed vertices
@@ -76,14 +76,14 @@ struct UpdatePrescribed {
   }
 };
 
-/// Measures the force on each free vertex at the current positions. One team for each slot. The view has only one
-/// buffer, to_fresh = 0; nothing is written there.
+/// Measures the force on each free vertex at the current positions. One team for each slot. In `view` the fresh buffer
+/// is the old one (to_fresh = 0), and neither is written.
 template <class Gather>
 struct MeasureVertex {
-  static constexpr int parts = Gather::parts;  ///< number of parts of its sum
+  static constexpr int parts = Gather::parts;  ///< number of parts of the vertex's sum
   SweepView view;
   LeftForce* left;  ///< by slot
-  bool is_end;      ///< true: end of the step; false: the reference is written
+  bool is_end;  ///< true: measures the force at the end of the step; false: measures the reference after the guess loop
 
   template <class Team>
   OGC_HD void operator()(int slot, const Team& team) const {
@@ -106,9 +106,9 @@ struct MeasureVertex {
   }
 
  private:
-  /// Returns a bound of the force that rounded positions cause. A stored coordinate errs by at most u |x|, u = 2⁻²⁴,
-  /// and the force by the block times that. The blocks of neighbours add up to about the vertex's own, which doubles
-  /// the error.
+  /// Returns a bound of the force that rounded positions cause. A stored coordinate errs by at most 2⁻²⁴ |x|, so the
+  /// force errs by the block times this. The blocks between the vertex and its neighbours add up to about the vertex's
+  /// own block, which doubles the error.
   OGC_HD static float rounding_of_force(const Symmetric3& block, const Vec& x) {
     const float largest = fmaxf(fmaxf(fabsf(x.x), fabsf(x.y)), fabsf(x.z));
     return 2 * 0x1p-24f * largest * (block.xx + block.yy + block.zz);

@@ -1,14 +1,14 @@
 // Finds contacts with volumes at each detection; they are frozen until the next one (§3.9, method.md §9). An asker is a
-// vertex that is tested against volumes. Each asker has a row: first come the slots of the sweep (−1 if a slot's vertex
-// is not tested), then prescribed vertices.
+// vertex that is tested against volumes. Each asker has a row. The first rows belong to the slots of the sweep (asker
+// −1 if the slot's vertex is not tested), the others to prescribed vertices.
 //
-//   AskVolumes          each row and each part of triangles: whether the vertex is inside, nearer than r, or far. The
-//                       answer is stored with the nearest facet, where the next search begins. With an answer `far` a
-//                       ball may be stored: no vertex within it is tested again before the volumes move
-//   ListVolumeContacts  each row: its contacts, part by part, in a row of fixed length. If a row is too short, the step
-//                       is repeated with longer rows (fast/stages/lists.hpp)
-//   FillCorners         free volumes, each row: its contacts into the rows of their corners, also of fixed length
-//   SortCorners         each slot: its row of corners in ascending order, so that the order of filling has no effect
+//   AskVolumes          for each row and each part of triangles: finds whether the vertex is inside, nearer than r, or
+//                       far. Stores this answer with the nearest facet, where the next search begins. For `far` it may
+//                       also store a ball of far points: a vertex in it is not tested until the volumes move
+//   ListVolumeContacts  for each row: lists its contacts, part by part, in a row of fixed length. If a row is too
+//                       short, the step is repeated with longer rows (fast/stages/lists.hpp)
+//   FillCorners         for each row, if volumes are free: enters its contacts in the rows of their corners
+//   SortCorners         for each slot: sorts its row of corners, so that the order of filling has no effect
 #pragma once
 
 #include "fast/kernels/contact_stream.hpp"
@@ -18,20 +18,21 @@
 
 namespace ogc::fast {
 
-/// Packs the nearest facet of a part and the side of a point into one number: facet · 4 + VolumeSide.
+/// Packs the nearest facet of a part and the side of a point into one integer, an answer: facet · 4 + VolumeSide.
 OGC_HD inline int answer_of(const NearestFacet& nearest) { return nearest.facet << 2 | static_cast<int>(nearest.side); }
-/// Unpacks a number of answer_of.
+/// Returns the facet and the side that answer_of packed.
 OGC_HD inline NearestFacet nearest_in(int answer) { return {answer >> 2, static_cast<VolumeSide>(answer & 3)}; }
 
 /// Copies positions into aligned vectors, for queries of free volumes. Index over vertices.
 struct PlaceVolumes {
-  const Vec* position;  ///< of the detection, by vertex [m]
+  const Vec* position;  ///< x at the detection, by vertex [m]
   PaddedVec* padded;    ///< written
 
   OGC_HD void operator()(int v) const { padded[v] = PaddedVec(position[v]); }
 };
 
-/// Forgets all clear balls after driven volumes have moved. Index over the items of AskVolumes.
+/// Discards all known balls of far points (ClearBall), because driven volumes have moved. Index over the items of
+/// AskVolumes.
 struct ForgetClearBalls {
   ClearBall* clear;  ///< by item
 
@@ -44,16 +45,17 @@ struct AskVolumes {
   VolumeView volume;  ///< with refitted trees
   const int* askers;  ///< by row: the vertex, or −1
   int rows;
-  const Vec* position;         ///< of the detection, by vertex [m]
+  const Vec* position;         ///< x at the detection, by vertex [m]
   const StepControl* control;  ///< if it is not active nothing is searched
   int* answers;                ///< by item: answer of the last detection, or any facet of the part; replaced
-  ClearBall* clear;            ///< by item: ball within which the answer `far` holds; null if volumes are free and move
+  ClearBall* clear;  ///< by item: ball of far points; null if volumes are free, because they move in every iteration
 
   OGC_HD void operator()(int i) const {
     if (control->active == 0) return;
     const int part = i / rows, v = askers[i - part * rows];
     if (v < 0 || volume.parts[part].is_solid()) return;
-    // Many steps test a vertex only once. So a ball is sought at the second test, and not again if there is none.
+    // Seeks a ball only at the second test, because many steps test a vertex only once. If there is no ball, later
+    // tests seek none.
     const ClearBall old = clear != nullptr ? clear[i] : ClearBall{};
     if (old.holds(position[v])) return;
     const bool seeks = old.radius != ClearBall::unasked && old.radius != ClearBall::refused;
@@ -64,25 +66,25 @@ struct AskVolumes {
   }
 };
 
-/// Lists each asker's contacts. A facet without area has no direction and gives no contact. `has_solids`: there are
-/// parts of tetrahedra. They are searched here, without an earlier answer, so that a continued run has the same bits.
-/// Index over rows.
+/// Lists each asker's contacts. A facet without area has no direction and gives no contact. `has_solids`: some parts
+/// consist of tetrahedra. Their searches start without an earlier answer, so that a run continued from a stored state
+/// has the same bits. Index over rows.
 template <bool has_solids>
 struct ListVolumeContacts {
   VolumeView volume;
   const int* askers;  ///< as in AskVolumes
   int rows;
-  const Vec* position;         ///< of the detection, by vertex [m]
+  const Vec* position;         ///< x at the detection, by vertex [m]
   const StepControl* control;  ///< if it is not active the old rows stay
-  const int* answers;          ///< by item, as AskVolumes leaves them
+  const int* answers;          ///< by item, from AskVolumes
   ContactTables tables;        ///< k and μ of the bodies that meet
   int capacity;                ///< contacts that fit in a row
   int* counts;                 ///< by row, at most `capacity`, written
   VolumeIncidence* stream;     ///< row by row, written
   FoundVolumeContact* found;   ///< the same contacts before conversion, written
-  int* unresolved;             ///< by row: sheets without any way, written if there are solids
-  int* longest;                ///< raised to the length that a row needs
-  int* overflow;               ///< set if that exceeds `capacity`
+  int* unresolved;             ///< by row: number of sheets without a way (solids.hpp); written if there are solids
+  int* longest;                ///< raised to the number of contacts of the longest row
+  int* overflow;               ///< set if a row has more contacts than `capacity`
 
   OGC_HD void operator()(int row) const {
     if (control->active == 0) return;
@@ -130,12 +132,12 @@ struct ListVolumeContacts {
   }
 };
 
-/// Holds the rows of contacts by their corners.
+/// Holds for each slot the contacts in which the slot's vertex is a corner of the triangle.
 struct CornerRows {
   const int* slot_of;  ///< by vertex; −1: not free
   int capacity;        ///< contacts that fit in a row
   int* counts;         ///< by slot
-  int* codes;          ///< row by row, as VolumeStream::corner_codes
+  int* codes;          ///< row by row, packed as VolumeStream::corner_codes
 };
 
 /// Empties the rows of corners before FillCorners. Index over slots.
@@ -148,11 +150,11 @@ struct ForgetCorners {
   }
 };
 
-/// Enters each contact in the rows of its free corners with a weight other than 0. Index over rows.
+/// Enters each contact in the rows of those corners that are free and have a weight other than 0. Index over rows.
 struct FillCorners {
   const StepControl* control;       ///< as in ForgetCorners
-  const int* counts;                ///< by row, as ListVolumeContacts leaves them
-  const VolumeIncidence* contacts;  ///< row by row, as ListVolumeContacts leaves them
+  const int* counts;                ///< by row, from ListVolumeContacts
+  const VolumeIncidence* contacts;  ///< row by row, from ListVolumeContacts
   int capacity;                     ///< contacts that fit in a row of `contacts`
   CornerRows corners;
 
@@ -174,8 +176,8 @@ struct FillCorners {
 struct SortCorners {
   const StepControl* control;  ///< as in ForgetCorners
   CornerRows corners;
-  int* longest;   ///< raised to the length that a row needs
-  int* overflow;  ///< set if that exceeds the capacity
+  int* longest;   ///< raised to the number of contacts of the longest row
+  int* overflow;  ///< set if a row has more contacts than the capacity
 
   OGC_HD void operator()(int slot) const {
     if (control->active == 0) return;
@@ -195,7 +197,8 @@ struct SortCorners {
   }
 };
 
-/// Adds the counts of contacts with volumes for the row of metrics, at the end of a step. Index over rows.
+/// Adds a row's contacts, depth and unresolved sheets to the counts that the step reports; runs at the end of a step.
+/// Index over rows.
 struct CountVolumeContacts {
   const int* counts;                ///< by row
   const FoundVolumeContact* found;  ///< row by row

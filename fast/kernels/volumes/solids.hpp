@@ -1,18 +1,18 @@
 // Finds contacts with volumes of tetrahedra (§3.9, method.md §9, after Chen, Diaz and Yuksel 2023, "Shortest Path to
-// Boundary for Self-Intersecting Meshes"). A point x may lie in several sheets of one body. Each sheet has one contact,
-// at the end of its way. A way is a segment from x to the closest point c of a boundary triangle that can be traversed
-// through tetrahedra; the shortest one counts.
+// Boundary for Self-Intersecting Meshes"). A point x may lie in several sheets of one body. A *way* of a sheet is the
+// segment from x to the closest point c of a boundary triangle, if it can be traversed through tetrahedra. Each sheet
+// has one contact, at the point c of its shortest way.
 //
-//   sheets   the tree of tetrahedra offers those whose boxes hold x. Signs of exact determinants decide which of them
-//            hold x, and which of their simplices holds x in its interior. The lowest-numbered tetrahedron of a sheet
-//            represents the sheet
-//   ways     the nearest triangle of all is mostly the right one. If it has no way, the tree of facets offers all
-//            triangles that are nearer than the shortest way so far, and each of them is tried
-//   passing  from c to x, from tetrahedron to tetrahedron, in rounded double. Heights over the sides of a tetrahedron
-//            are affine along the segment. A height below 2⁻³⁶ of the moduli of its terms counts as zero: this is far
-//            above its rounding error, and far below the precision of the coordinates. If the segment leaves by one
-//            side, the tetrahedron behind this side is next. If it leaves by an edge or a vertex, all tetrahedra ahead
-//            that have this edge or vertex are next, so that no ray is lost
+//   sheets   the tree of tetrahedra offers all tetrahedra whose boxes hold x. Signs of exact determinants decide which
+//            of them hold x, and which of their simplices holds x in its interior. The lowest-numbered tetrahedron of
+//            a sheet represents the sheet
+//   ways     the nearest boundary triangle is tried first and usually has a way. If not, all triangles nearer than the
+//            shortest way so far are tried
+//   passing  goes from c to x, from tetrahedron to tetrahedron, in rounded double. Heights over the sides of a
+//            tetrahedron are affine along the segment. A height below 2⁻³⁶ of the moduli of its terms counts as zero:
+//            this is far above its rounding error, and far below the precision of the coordinates. If the segment
+//            leaves through one side, the tetrahedron behind this side is next. If it leaves through an edge or a
+//            vertex, all tetrahedra ahead that have this edge or vertex are next
 //
 // Tetrahedra without positive volume hold no point and are never traversed, and no way ends at their sides.
 #pragma once
@@ -21,7 +21,7 @@
 
 namespace ogc::fast {
 
-/// Is positive if d lies on the side of the normal of abc (right hand).
+/// Holds four points; value() is positive if d lies on the side of triangle abc to which its right-hand normal points.
 struct Orientation {
   /// ((b − a) × (c − a))·(d − a) [m³].
   static constexpr int degree = 3;
@@ -32,17 +32,19 @@ struct Orientation {
   }
 };
 
-/// Returns the corner at place i of the side opposite to corner k, outward if the volume is positive.
+/// Returns corner i of the side opposite to corner k of a tetrahedron. The side's corners are ordered so that its
+/// normal points outward if the volume is positive.
 OGC_HD inline int side_corner(int k, int i) {
   constexpr int sides[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   return sides[k][i];
 }
 
-/// Holds the result of testing a point against a solid part.
+/// Holds the result of a test of a point against a part of tetrahedra.
 struct SolidAnswer {
-  int facet = -1;  ///< facet at the end of the first sheet's way, or −1; the next search may begin there
-  VolumeSide side = VolumeSide::far;  ///< inside: some sheet holds the point
-  int unresolved = 0;                 ///< sheets without any way
+  /// facet at the end of the first sheet's way, where the next search may begin; −1 if there is no way
+  int facet = -1;
+  VolumeSide side = VolumeSide::far;  ///< inside: at least one sheet holds the point
+  int unresolved = 0;                 ///< number of sheets without a way
 };
 
 /// Finds where a point lies relative to a volume's parts of tetrahedra.
@@ -52,9 +54,9 @@ class SolidQuestion {
   OGC_HD SolidQuestion(const VolumeView& volume, const Vec& point, int own)
       : volume_(volume), solids_(volume.solids), faces_(volume, point), x_(point), own_(own) {}
 
-  /// Calls visit(contact) for each contact with a part. A point in sheets has one contact for each sheet with a way.
-  /// Any other point has one with each face in whose outward block it lies nearer than r. `first` is a facet where the
-  /// search begins, or −1; it only changes the time.
+  /// Calls visit(contact) for each contact with a part. If x lies in sheets, there is one contact for each sheet with a
+  /// way. Otherwise there is one contact for each face in whose outward block x lies nearer than r. The search begins
+  /// at facet `first`, or without a start if it is −1; this only changes the time.
   template <class Visit>
   OGC_HD SolidAnswer visit_contacts(int part, int first, Visit visit) const {
     SolidAnswer answer;
@@ -84,22 +86,22 @@ class SolidQuestion {
   }
 
  private:
-  /// Number of remembered faces. A remembered face gives one contact, even if several sheets have ways to it.
+  /// Number of faces that are remembered, so that several sheets whose ways end at the same face give only one contact.
   static constexpr int most_known = 8;
 
-  /// The shortest way of a sheet so far.
+  /// The shortest way found so far: the distance, and the face and facet at its end.
   struct Way {
     double length = infinity;
     int face = -1, facet = -1;
   };
 
-  /// A segment through a tetrahedron. For each side: the segment's heights over it at both ends, inward and times twice
-  /// the side's area, and the limit below which they count as zero.
+  /// Holds the heights of a segment's ends c and x over each side of a tetrahedron: inward, times twice the side's
+  /// area. `zero`: limit below which a height counts as zero.
   struct Passage {
     double at_foot[4], at_x[4], zero[4];
 
     OGC_HD double at(int k, double s) const { return add(at_foot[k], mul(s, sub(at_x[k], at_foot[k]))); }
-    /// Returns whether the height over side k does not fall on the way to x.
+    /// Returns whether the height over side k does not decrease from c to x.
     OGC_HD bool rises(int k) const { return sub(at_x[k], at_foot[k]) >= -zero[k]; }
   };
 
@@ -129,8 +131,8 @@ class SolidQuestion {
     return corner[0] == own_ || corner[1] == own_ || corner[2] == own_;
   }
 
-  /// Returns the corners with positive weight at x, one bit each: the simplex that holds x in its interior; 0 if the
-  /// tetrahedron does not hold x.
+  /// Returns a bit for each corner whose weight at x is positive. These corners span the simplex that holds x in its
+  /// interior. Returns 0 if the tetrahedron does not hold x.
   OGC_HD unsigned carrier(int element) const {
     const int* corner = solids_.elements[element].corner;
     unsigned inside = 0;
@@ -144,7 +146,7 @@ class SolidQuestion {
     return inside;
   }
 
-  /// Calls visit(element) for each sheet, with the lowest-numbered of its tetrahedra.
+  /// Calls visit(element) once for each sheet that holds x; `element` is the sheet's lowest-numbered tetrahedron.
   template <class Visit>
   OGC_HD void for_each_sheet(int part, Visit visit) const {
     const float limit = 0;
@@ -166,7 +168,7 @@ class SolidQuestion {
 
   OGC_HD Way shortest_way(int part, int element, int first) const {
     Way way;
-    int failed = -1;  // a face that is known to have no way
+    int failed = -1;  // face whose segment is known not to pass
     if (first < 0) {
       const Way nearest = search(part, element, way, first, false, failed);
       if (nearest.facet < 0) return way;
@@ -176,9 +178,10 @@ class SolidQuestion {
     return search(part, element, way, first, true, failed);
   }
 
-  /// Returns the shortest of all ways, or of all segments if `must_pass` is false.
+  /// Returns the shortest way. If `must_pass` is false, returns the shortest segment to a facet, even if it does not
+  /// pass.
   OGC_HD Way search(int part, int element, Way way, int first, bool must_pass, int failed) const {
-    float limit = 0x1p126F;  // no limit, except that empty children, at infinity, lie beyond it
+    float limit = 0x1p126F;  // excludes only empty children, whose boxes lie at infinity
     const auto meet = [&](int t) {
       if (solids_.is_positive[solids_.owner[t]] == 0) return;
       const Distance d = point_triangle_distance(x_, faces_.corners(t));
@@ -226,9 +229,9 @@ class SolidQuestion {
     return passage;
   }
 
-  /// Holds the tetrahedra that a segment has reached but not left, and the tetrahedra that it met last.
+  /// Holds the tetrahedra that are still to be traversed (`waiting`), and the last ones that were reached (`met`).
   struct Front {
-    static constexpr int most = 32;  ///< capacity: tetrahedra ahead of one point, and remembered ones
+    static constexpr int most = 32;  ///< capacity of both arrays
     int waiting[most], met[most], waiting_count = 0, met_count = 0;
 
     OGC_HD void reach(int element) {
@@ -240,7 +243,7 @@ class SolidQuestion {
     }
   };
 
-  /// Adds all tetrahedra that lie ahead and have all `count` vertices of `vertex` to the front.
+  /// Adds to the front the tetrahedra that contain all `count` vertices of `vertex` and lie ahead on the segment.
   OGC_HD void go_on(const int* vertex, int count, const Real& apart, Front& front) const {
     const Rows& rows = solids_.vertex_elements;
     for (int i = rows.offsets[vertex[0]]; i < rows.offsets[vertex[0] + 1]; ++i) {
@@ -259,14 +262,14 @@ class SolidQuestion {
     }
   }
 
-  /// Returns whether the segment from the closest point of facet t, which lies on `face`, to x can be traversed through
-  /// tetrahedra and ends in the sheet of a given tetrahedron.
+  /// Returns whether the segment from c to x can be traversed through tetrahedra and ends in the given sheet. c is the
+  /// point of facet t closest to x, and `face` holds it. `sheet` is the sheet's lowest-numbered tetrahedron.
   OGC_HD bool passes(int part, int sheet, int t, int face) const {
     const Real apart = from_facet(t);
     Front front;
     int vertex[4];
     go_on(vertex, vertices_of(face, vertex), apart, front);
-    // If the body has any thickness, each tetrahedron is met once and this limit is never reached.
+    // Limits the loop in case `met` forgets tetrahedra; if the body has any thickness, each one is met only once.
     const int most = 4 * volume_.parts[part].tetrahedra.tree.count + Front::most;
     while (front.waiting_count > 0 && front.met_count < most) {
       const int element = front.waiting[--front.waiting_count];
@@ -285,7 +288,8 @@ class SolidQuestion {
           high = smaller(high, root);
       }
       if (!(low <= high)) continue;
-      unsigned left_by = 0;  // sides by which the segment leaves, or on which x lies, as bits of their opposite corners
+      // bit k: at the segment's end in this tetrahedron, the height over the side opposite to corner k is zero
+      unsigned left_by = 0;
       for (int k = 0; k < 4; ++k)
         if (own.at(k, high) <= own.zero[k]) left_by |= 1U << k;
       const unsigned stays = ~left_by & 15U;

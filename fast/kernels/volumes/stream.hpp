@@ -1,5 +1,6 @@
-// Adds contacts with volumes to the sum over the stencils of a vertex: as the point, and, if volumes are free, also as
-// a corner of a triangle that other vertices touch. A driven volume stands still while a step is solved.
+// Adds contacts with volumes to the sum over the stencils of a vertex. The vertex may be the point of a contact. If
+// volumes are free, it may also be a corner of a touched triangle. A driven volume does not move while a step is
+// solved.
 #pragma once
 
 #include "compare/stages/volume_depth.hpp"
@@ -10,26 +11,26 @@
 
 namespace ogc::fast {
 
-/// A contact: the point, the vertices of the triangle, and what the detection froze.
+/// Holds the vertices of a contact, the point and a triangle, and the data that the detection froze.
 struct alignas(16) VolumeIncidence {
-  int corner[3] = {0, 0, 0};  ///< numbers in the mesh
+  int corner[3] = {0, 0, 0};  ///< vertices of the triangle
   VolumeContact contact;
-  int point = 0;  ///< number in the mesh
+  int point = 0;  ///< vertex that touches the triangle
 
-  /// Returns the vertex of a role: the point (0), a corner (1, 2, 3).
+  /// Returns the vertex with a role: the point (0) or a corner of the triangle (1, 2, 3).
   OGC_HD int vertex(int role) const { return role == 0 ? point : corner[role - 1]; }
 };
 
-/// A contact as one of its vertices sees it.
+/// Holds a contact as one of its vertices sees it.
 struct SeenVolumeContact {
   VolumeContact contact;
-  int index[4];  ///< by role, encoded as in sweep_view.hpp
-  int own = 0;   ///< the vertex' own role
-  int together;  ///< as in add_volume_contact
+  int index[4];  ///< vertices by role, encoded as in sweep_view.hpp
+  int own = 0;   ///< role of the vertex
+  int together;  ///< bit k: the vertex of role k has the same colour
 };
 
-/// Returns a contact as the vertex of role `own` sees it. `colour` is null if all volumes are driven: then corners
-/// count as colour −1.
+/// Returns a contact as its vertex of role `own` sees it. `colour` is null if all volumes are driven: then all vertices
+/// but `own` are read at their new positions.
 OGC_HD inline SeenVolumeContact seen_from(const VolumeIncidence& incidence, int own, const int* colour) {
   SeenVolumeContact seen;
   seen.contact = incidence.contact;
@@ -69,7 +70,7 @@ struct AddVolumeContact {
   }
 };
 
-/// Gives the part of a sum for contacts with volumes. The scene may have no volumes.
+/// Makes the part of a vertex's sum that adds contacts with volumes; empty if the scene has no volumes.
 struct VolumeContacts {
   static constexpr unsigned gives = asks_volumes | asks_any_model;
 
@@ -90,8 +91,8 @@ OGC_HD inline bool is_deep(const VolumeContact& contact, const Vec* x, float con
   return dot(contact.normal, volume_separation(contact, x)) < -deep_share * contact_radius;
 }
 
-/// Returns whether x, the position of a slot's vertex, lies deep inside a driven volume, whose corners stand still.
-/// Returns false if volumes are free: CountDeepInside tests them after the iteration.
+/// Returns whether x lies deep inside a driven volume, whose corners do not move; x is the position of the slot's
+/// vertex. Returns false if volumes are free: CountDeepInside tests them after the iteration.
 OGC_HD inline bool lies_deep_in_volume(const SweepShared& view, int slot, const Vec& x) {
   const VolumeStream& volumes = view.volumes;
   if (volumes.counts == nullptr || volumes.colour != nullptr) return false;
@@ -118,7 +119,7 @@ struct CountDeepInside {
   VolumeStream volumes;
   const Vec* position;   ///< by vertex [m]
   float contact_radius;  ///< r [m]
-  const int* turn;       ///< as in SweepView
+  const int* turn;       ///< as in SweepShared
   int iteration;
   StepControl* control;  ///< counts are added there
 

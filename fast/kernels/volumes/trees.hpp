@@ -1,24 +1,24 @@
-// Refits the trees of the parts of volumes. The order of primitives in a tree is never changed: neighbours on a body
-// remain neighbours while it moves.
+// Refits the trees of the parts of volumes. The order of primitives in a tree never changes, because neighbours on a
+// body remain neighbours while it moves.
 #pragma once
 
 #include "fast/kernels/volumes/solids.hpp"
 
 namespace ogc::fast {
 
-/// Computes the boxes of all facets, tetrahedra and nodes, and which tetrahedra have positive volume. Index over
-/// count() items; the 32 threads of a warp must call this together (RefitTrees).
+/// Computes the boxes of all facets, tetrahedra and nodes, and whether each tetrahedron has a positive volume. Index
+/// over count() items; the 32 threads of a warp must call this together (RefitTrees).
 struct RefitVolumes {
   SurfaceView surface;
-  SolidView solids;                        ///< signs are written
+  SolidView solids;                        ///< is_positive is written
   const Vec* positions;                    ///< by vertex [m]
   const PartTree* trees;                   ///< trees of facets, then trees of tetrahedra; their boxes are written
-  int facet_trees, count_of_trees, items;  ///< `items`: places of all trees, each filled up to whole warps
+  int facet_trees, count_of_trees, items;  ///< `items`: places of all trees, each tree padded to whole warps
 
   OGC_HD int count() const { return items; }
 
   OGC_HD void operator()(int i) const {
-    int tree = 0;  // the last tree whose first item is not behind i
+    int tree = 0;  // last tree with first_item ≤ i
     for (int end = count_of_trees; end - tree > 1;) {
       const int middle = (tree + end) / 2;
       if (trees[middle].first_item <= i)
