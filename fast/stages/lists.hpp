@@ -14,11 +14,11 @@
 
 namespace ogc::fast {
 
-/// Holds the lists of one surface.
+/// Holds the lists of one surface: noted pairs, contacts and incidences.
 template <class Backend>
 class Lists {
  public:
-  /// `capacity` > 0: contacts that fit at first.
+  /// `capacity` > 0: number of contacts for which the lists have room at first.
   Lists(const SurfaceView& surface, int capacity)
       : surface_(surface), buckets_(2 * surface.vertex_count + surface.edge_count) {
     const auto buckets = static_cast<std::size_t>(buckets_), vertices = static_cast<std::size_t>(surface.vertex_count);
@@ -67,7 +67,9 @@ class Lists {
   const int* overflow() const { return &status_.data()->overflow; }
   /// Returns the number of contacts for which the lists have room.
   int capacity() const { return capacity_; }
-  /// Returns the number of noted pairs for which the lists have room.
+  /// Makes records and incidences of the pairs that both searches noted. The first launch also computes `bounds`, which
+  /// need no list, for vertices 0 … `bounded` − 1. `distances`: see CollectContacts. `launches` runs the last launch
+  /// (see Detection::detect).
   int noted_capacity() const { return noted_capacity_; }
 
   /// Makes records and incidences of the pairs that both searches noted. The first launch also computes `bounds`, which
