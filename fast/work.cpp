@@ -26,7 +26,7 @@ namespace {
 /// 2 · (28 + 7 + 4 + 4), lengths 12, σ 3, ‖b‖ 8, frame 8, parts of b 128 + 4, their lengths 16, one step to the root
 /// 26, sum 16, unit 26.
 constexpr double orientation_flop = 336;
-/// Operations of its damping: two neighbours 2 · (28 + 1 + 43).
+/// Operations of the damping in a segment's update: two neighbours 2 · (28 + 1 + 43).
 constexpr double orientation_damping_flop = 144;
 /// Operations that all kinds of contacts share (fast/kernels/contact_force.hpp, friction_force.hpp): separation 24,
 /// normal and distance 10, activation 3, force 7, block 17; friction: moves 12, their sum 21, slip 11, strength 11,

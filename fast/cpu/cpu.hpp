@@ -10,7 +10,7 @@
 
 namespace ogc::fast {
 
-/// Describes the CPU backend: returns its number of threads.
+/// Returns the number of threads of the CPU backend.
 BackendInfo cpu_info();
 
 /// Returns a contestant that runs all stages on the host's threads.

@@ -12,7 +12,7 @@
 
 namespace ogc::fast {
 
-/// Returns the sizes of the levels of a tree over `count` primitives. The tree's pointers are null.
+/// Returns a tree over `count` primitives with the beginnings of its levels. Its pointers are null.
 inline TreeView shape_of_tree(int count) {
   TreeView tree;
   tree.count = count;

@@ -67,14 +67,12 @@ class Lists {
   const int* overflow() const { return &status_.data()->overflow; }
   /// Returns the number of contacts for which the lists have room.
   int capacity() const { return capacity_; }
-  /// Makes records and incidences of the pairs that both searches noted. The first launch also computes `bounds`, which
-  /// need no list, for vertices 0 … `bounded` − 1. `distances`: see CollectContacts. `launches` runs the last launch
-  /// (see Detection::detect).
+  /// Returns the number of noted pairs for which the lists have room.
   int noted_capacity() const { return noted_capacity_; }
 
   /// Makes records and incidences of the pairs that both searches noted. The first launch also computes `bounds`, which
-  /// need no list, for `bounded` vertices. `distances`: see CollectContacts. `launches` makes the last launch (see
-  /// Detection::detect).
+  /// need no list, for vertices 0 … `bounded` − 1. `distances`: see CollectContacts. `launches` runs the last launch
+  /// (see Detection::detect).
   template <class Launches>
   void assemble(Backend& backend, PaddedVecs positions, float contact_radius, int bounded,
                 const ConservativeBound& bounds, const float* distances, const Launches& launches) {

@@ -258,9 +258,9 @@ class Step {
   }
 
   /// Enqueues iterations `first` to `first` + `count` − 1, and a detection after each iteration that requires one. A
-  /// decision (`when`) takes as long as ten launches, a launch without work a tenth of a launch. So all iterations are
-  /// enqueued at once, and those after an iteration that requires a detection do nothing. As long as a detection is
-  /// due, it is made and the iterations are enqueued again.
+  /// decision (`when`) costs a device as much as ten launches that do nothing. So all iterations are enqueued at once,
+  /// and those after an iteration that requires a detection do nothing. As long as a detection is due, it is made and
+  /// the iterations are enqueued again.
   void iterate(int first, int count) {
     const int last = first + count - 1, *due = flag(&StepControl::detect);
     const auto end = [&](int i) { return EndIteration{control(), settings_.control, count > 1 ? i : -1}; };

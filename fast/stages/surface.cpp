@@ -123,7 +123,7 @@ Searched find_searched(const compare::Topology& topology) {
     searched.facets += take(t, topology.triangles[static_cast<std::size_t>(t)]);
   // A list is needed only if edges are left out: searches skip vertices inside solids by themselves.
   if (static_cast<std::size_t>(searched.edges) < topology.edges.size()) return searched;
-  // vertices search for facets
+  // If there is no facet, no vertex searches, because vertices search for facets.
   return {{}, topology.triangles.empty() ? 0 : topology.vertex_count, searched.edges, searched.facets};
 }
 

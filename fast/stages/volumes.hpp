@@ -190,10 +190,10 @@ class Volumes {
   /// solids). Both are on the backend.
   const int* askers() const { return askers_.data(); }
   const int* unresolved() const { return unresolved_.data(); }
-  /// Adds the numbers of contacts to the control's counters, at the end of a step.
+  /// Returns the number of rows of contacts; 0 if there are no volumes.
   int rows() const { return is_used() ? rows_ : 0; }
 
-  /// Counts contacts into the control, at the end of a step.
+  /// Adds the numbers of contacts to the control's counters, at the end of a step.
   void count(Backend& backend, float contact_radius, StepControl* control) const {
     backend.for_each(rows(), CountVolumeContacts{counts_.data(), found_.data(), unresolved_.data(), capacity_,
                                                  contact_radius, control});
