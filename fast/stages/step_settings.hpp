@@ -42,7 +42,8 @@ inline int iterations_in_group(std::int64_t redetections, std::int64_t steps, in
   return 4 * redetections < steps * iterations ? 5 : 1;
 }
 
-/// Returns the settings of a step. `moving`: K (compare::bounded_count).
+/// Returns the settings of a step. `moving`: K, the number of vertices that may move and have a bound
+/// (compare::bounded_count).
 inline StepSettings step_settings(const compare::Scene& scene, std::size_t moving, bool energies) {
   const compare::Settings& from = scene.settings;
   StepSettings to;
