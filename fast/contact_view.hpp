@@ -1,4 +1,4 @@
-// Holds the results of a detection that the sweep reads: plain pointers, valid until the lists grow.
+// Declares the results of a detection that the sweep reads. They are plain pointers, valid until the lists grow.
 #pragma once
 
 #include <cstdint>

@@ -12,9 +12,9 @@ namespace ogc::fast {
 enum class Backend { cpu, cuda };
 
 /// Sets how launches are divided into blocks. No result depends on it. Tests of determinism use it to launch on one
-/// device as another device would.
+/// device with the shape of another device.
 struct LaunchShape {
-  /// threads of a block in launches with one thread an item, or with one warp for some searches: 32, 64, 96 or 128
+  /// threads of a block: 32, 64, 96 or 128; in launches with one thread, or for some searches one warp, for each item
   int block_threads = 128;
   int multiprocessors = 0;  ///< multiprocessors for which launches are divided; 0: those of the device
 };

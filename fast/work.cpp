@@ -22,35 +22,40 @@ namespace {
 // Operations of recurring parts: difference or scaling of vectors 3, dot 5, cross 9, add_force 6, add_identity 3,
 // add_outer 15.
 
-/// fast/kernels/models/orientation.hpp: difference 3, two neighbours 2 · (28 + 7 + 4 + 4), lengths 12, σ 3, ‖b‖ 8,
-/// frame 8, parts of b 128 + 4, their lengths 16, one step to the root 26, sum 16, unit 26.
+/// Operations of a segment's update without damping (fast/kernels/models/orientation.hpp): difference 3, two neighbours
+/// 2 · (28 + 7 + 4 + 4), lengths 12, σ 3, ‖b‖ 8, frame 8, parts of b 128 + 4, their lengths 16, one step to the root
+/// 26, sum 16, unit 26.
 constexpr double orientation_flop = 336;
-/// fast/kernels/models/orientation.hpp, damping: two neighbours 2 · (28 + 1 + 43).
+/// Operations of the damping in a segment's update: two neighbours 2 · (28 + 1 + 43).
 constexpr double orientation_damping_flop = 144;
-/// The terms that all kinds of contacts share (fast/kernels/contact_force.hpp, friction_force.hpp): separation 24,
+/// Operations that all kinds of contacts share (fast/kernels/contact_force.hpp, friction_force.hpp): separation 24,
 /// normal and distance 10, activation 3, force 7, block 17; friction: moves 12, their sum 21, slip 11, strength 11,
 /// force 7, blocks 22.
 constexpr double contact_flop = 145;
-/// closest_on_triangle, inside: differences 9, normal 9, its square 5, two weights 28, the third 2, quotients 3.
+/// Operations of closest_on_triangle inside the triangle: differences 9, normal 9, its square 5, two weights 28, the
+/// third 2, quotients 3.
 constexpr double on_triangle_flop = 56;
-/// closest_on_segments, not parallel: differences 9, three dots 15, cross 9, its square 5, projection 5, limit 2, first
-/// parameter 15, second 8, weights 2.
+/// Operations of closest_on_segments for segments that are not parallel: differences 9, three dots 15, cross 9, its
+/// square 5, projection 5, limit 2, first parameter 15, second 8, weights 2.
 constexpr double on_segments_flop = 70;
-/// Inertia 12, its inverse 1, solve 28, new position 3, truncation that changes nothing 10.
+/// Other operations of a vertex's update: inertia 12, its inverse 1, solve 28, new position 3, truncation that changes
+/// nothing 10.
 constexpr double vertex_flop = 54;
 
-/// Vertices of a contact whose closest points are inside the faces. The update of each of them computes the contact.
+/// Number of vertices of a contact whose closest points are inside the faces. The update of each vertex computes the
+/// contact.
 constexpr double contact_vertices = 4;
 
-/// squared_gaps of four children: six differences, three products and two sums for each.
+/// Operations of squared_gaps for four children: six differences, three products and two sums for each child.
 constexpr double node_flop = 44;
-/// Separation of two edges 96 in single precision; their distance: differences 9, normal 9, squares 16, size 8, limits
-/// 3, dots 15, feet 6, from four ends 95; is_pair and meet add 6.
+/// Operations of a candidate edge: separation of two edges in single precision 96; distance 161 (differences 9, normal
+/// 9, squares 16, size 8, limits 3, dots 15, feet 6, from four ends 95); is_pair and meet 6.
 constexpr double edge_distance_flop = 96 + 161 + 6;
-/// Separation of point and triangle 158; their distance: differences 15, normal 9, squares 21, size 8, limits 3, sides
-/// 69, from three edges 67; is_pair and meet add 6.
+/// Operations of a candidate facet: separation of point and triangle 158; distance 192 (differences 15, normal 9,
+/// squares 21, size 8, limits 3, sides 69, from three edges 67); is_pair and meet 6.
 constexpr double facet_distance_flop = 158 + 192 + 6;
-/// Bytes of a candidate edge: its ends, and its two positions if the distance is computed. The next line has a facet's.
+/// Bytes of a candidate edge: its ends, and its two positions if the distance is computed. The next line has the same
+/// of a candidate facet.
 constexpr double edge_bytes = sizeof(EdgeEnds), edge_position_bytes = 2 * sizeof(PaddedVec);
 constexpr double facet_bytes = sizeof(Facet::corner), facet_position_bytes = 3 * sizeof(PaddedVec);
 
@@ -145,7 +150,7 @@ void add_quaternions(const RestState& rest, SweepWork& work) {
   if (segments == 0) return;
   work.colours += colouring.count;
   work.flop += segments * orientation_flop + damped * orientation_damping_flop;
-  // q read and written; qᵗ and c where damped
+  // q is read and written; qᵗ and c are read if damped
   work.bytes += segments * (sizeof(SegmentSlot) + 2 * sizeof(Quat)) + damped * (sizeof(Quat) + sizeof(Vec));
 }
 

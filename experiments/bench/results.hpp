@@ -48,8 +48,8 @@ struct BenchComparison {
 /// A benchmark changed if its corrected probability is below this.
 inline constexpr double significance = 0.01;
 
-/// Compares two result files by the rank test (experiments/bench/rank_test.hpp). `too_few`: with so few times no order
-/// could be significant.
+/// Compares two result files by the rank test (experiments/bench/rank_test.hpp). Verdict::too_few: the files have so
+/// few times that no order of the times could be significant.
 BenchComparison compare_results(const BenchResults& before, const BenchResults& after);
 
 /// Returns the comparison as text for people.

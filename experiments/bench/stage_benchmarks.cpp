@@ -25,7 +25,7 @@ using compare::TestCase;
 
 constexpr std::uint64_t batch = 1u << 14, seed = 1;
 
-/// Returns cases of the generators without degeneracies, divided by the generators' shares.
+/// Returns `count` cases of the generators without degeneracies, in proportion to the generators' shares.
 std::vector<TestCase> generic_cases(Stage stage, std::uint64_t count) {
   double shares = 0;
   for (const compare::Generator& row : generators(stage)) shares += row.generic ? row.share : 0;
@@ -60,7 +60,7 @@ BenchmarkCall make_call(Stage stage, const Contestant& contestant, const std::st
 void register_stage_benchmarks(const BenchOptions& options) {
   for (const fast::Backend backend : options.backends) {
     for (const Stage stage : compare::all_stages) {
-      // Both backends have the same stages.
+      // The CPU's contestant stands for both backends, because they have the same stages.
       if (!compare::can_judge(stage, fast::contestant(fast::Backend::cpu), reference::authority())) continue;
       const std::string name = "stage/" + std::string(stage_name(stage)) +
                                (takes_scene(stage) ? "/" + options.scale : "") + "/" + name_of(backend);

@@ -11,7 +11,7 @@
 
 namespace ogc::experiments {
 
-/// Holds observations of the judged plug-in, from before failing cases are repeated.
+/// Holds what was observed of the judged plug-in before failing cases were repeated.
 struct PluginSeen {
   std::string name, backend;  ///< name of the plug-in, and of our contestant that answered beside it
   Times ours;                 ///< times of our contestant

@@ -216,7 +216,7 @@ struct Trace {
   std::vector<ogc_edge_edge_contact> edge_edge;
 };
 
-/// Returns part k of `all`, whose parts have the same length.
+/// Returns part k of `all`, which consists of parts of this length.
 template <class T>
 std::vector<T> part(const std::vector<T>& all, std::size_t k, std::size_t length) {
   const auto first = all.begin() + static_cast<std::ptrdiff_t>(k * length);

@@ -152,7 +152,7 @@ int call_block(void* function, CallArrays& a) {
   return call(function, in, out);
 }
 
-// Inputs of a scene: those of its topology, then these nine.
+// Number of input arrays of a scene: the arrays of its topology, then these nine.
 constexpr std::size_t scene_inputs = topology_inputs + 9;
 ogc_scene scene(CallArrays& a) {
   return {topology(a), a.sizes.hinges, a.sizes.bodies, a.sizes.springs,  a.sizes.tetrahedra,

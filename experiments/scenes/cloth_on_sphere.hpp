@@ -19,8 +19,8 @@ compare::Material sphere_scene_material();
 /// Appends a fixed sphere of this radius [m] about (−0.15, 0, 0) as the next body of the scene.
 void append_sphere(compare::Scene& scene, int subdivisions, double radius = 0.262);
 
-/// Returns the scene: a cloth of 1 m × 1 m at y = 0.30 m above a sphere about (−0.15, 0, 0). IPC has a barrier distance
-/// of 1 mm on 70 × 70 and the tolerance of the codimensional scripts.
+/// Returns the scene: a cloth of 1 m × 1 m at y = 0.30 m above a sphere about (−0.15, 0, 0). For the solver IPC it has
+/// a barrier distance of 1 mm on 70 × 70 and the tolerance of Codimensional IPC's scripts.
 compare::Scene cloth_on_sphere(const ClothOnSphereSizes& sizes = {});
 
 }  // namespace ogc::experiments

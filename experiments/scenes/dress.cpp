@@ -247,8 +247,8 @@ void append_character(Scene& scene, const DressData& data) {
   scene.motions.push_back(std::move(motion));
 }
 
-/// Excludes pairs of vertices that are stitched to the same vertex and start closer than `within` [m], as where seams
-/// meet. Stitches draw these vertices together, too. Neighbours in a panel are not excluded.
+/// Excludes pairs of vertices that are stitched to the same vertex and start closer than `within` [m], for example
+/// where seams meet. Stitches draw these vertices together, too. Neighbours in a panel are not excluded.
 void exclude_junctions(Scene& scene, double within) {
   const compare::Topology topology = build_topology(scene);
   const compare::Exclusions direct = exclusions(scene);

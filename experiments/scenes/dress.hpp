@@ -26,15 +26,15 @@ struct DressSizes {
 /// Material: wool with 5 % lycra, 543.29 kg/m³, 0.328 mm, ν 0.071, from Penava et al. (2014) as in Codimensional IPC's
 /// scripts. The scripts have E = 76 kPa but use 760 Pa for garments, because their strain limiting (at 1.134) bears the
 /// load. We have no strain limiting: with 760 Pa, E·t = 0.25 N/m, and the weight of 0.08 kg below a waist of 0.7 m (1.1
-/// N/m) stretches the waist to five times its length. So E is 76 kPa [D], which the scripts recommend without strain
-/// limiting: with E·t = 24.9 N/m the waist stretches by 4.5 %. Bending has a tenth of 76 kPa, as in the scripts: k_b =
-/// 0.1 · 76 kPa t³/(12 (1 − ν²)) = 2.25e-8 J. Damping is that of `fifty_layers` [D].
+/// N/m) stretches the waist to five times its length. So E is 76 kPa (our choice), which the scripts recommend without
+/// strain limiting: with E·t = 24.9 N/m the waist stretches by 4.5 %. Bending has a tenth of 76 kPa, as in the scripts:
+/// k_b = 0.1 · 76 kPa t³/(12 (1 − ν²)) = 2.25e-8 J. Damping is that of `fifty_layers` (our choice).
 ///
 /// The body is a volume with the paper's γ_e = 0.01: it follows its animation exactly and pushes out the vertices
 /// inside it. As a surface (`--set body_contact=surface`) it obeys bounds, and one cut vertex triggers a detection (γ_e
-/// = 0) [D]. With γ_e = 0.01 the few vertices between body and cloth trigger no detection: distances fall to 10 nm,
-/// nothing there moves, and at scale small the body lags by 0.21 m after 200 steps. With γ_e = 0 nothing lags in all
-/// 968 steps, and distances stay above 0.45 r.
+/// = 0, our choice). With γ_e = 0.01 the few vertices between body and cloth trigger no detection: distances fall to 10
+/// nm, nothing there moves, and at scale small the body lags by 0.21 m after 200 steps. With γ_e = 0 nothing lags in
+/// all 968 steps, and distances stay above 0.45 r.
 ///
 /// Stitches have 1000 N/m, the scripts' `k_stitch`, and are 7.5 mm apart. A seam under 3 N/m (12 % of strain, more than
 /// all but the worst percent of the published start) opens by 22 µm, a hundredth of r.

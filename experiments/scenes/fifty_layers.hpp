@@ -29,8 +29,8 @@ compare::Scene fifty_layers(const FiftyLayersSizes& sizes = {});
 FiftyLayersSizes fifty_layers_1m_sizes();
 
 /// Returns the sizes of two hundred layers with 980,000 vertices, like a scene of *Divide and Truncate* (Chen, Hsu,
-/// Ayman, Macklin, 2026), whose sheets we do not know. [D] The layers are those of fifty_layers. The stack is 0.94 m
-/// high, so the run has 7,200 steps.
+/// Ayman, Macklin, 2026). We do not know the sheets of that scene, so the layers are those of fifty_layers (our
+/// choice). The stack is 0.94 m high, so the run has 7,200 steps.
 FiftyLayersSizes two_hundred_layers_sizes();
 
 }  // namespace ogc::experiments

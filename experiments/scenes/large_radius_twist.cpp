@@ -1,5 +1,5 @@
 // Size, radius and half a turn are from the paper's caption. Speed, time step and iterations are those of twist and
-// dress (our choice). IPC's tolerance is that of the codimensional scripts.
+// dress (our choice). The tolerance of the solver IPC is that of Codimensional IPC's scripts.
 #include "experiments/scenes/large_radius_twist.hpp"
 
 #include "experiments/scenes/twist.hpp"

@@ -72,17 +72,18 @@ template <class F>
 F on_packs(const F& f) {
   return f;
 }
-/// If the functor sums any scene, the host's functor sums in packs.
+/// Returns the functor that computes the same sums in packs (fast/cpu/pack.hpp), for functors with the sum of all kinds
+/// of stencils.
 inline UpdateVertex<GatherPacked> on_packs(const UpdateVertex<GatherAll>& f) {
   return {f.view, f.first_slot, f.asks_late};
 }
 inline MeasureVertex<GatherPacked> on_packs(const MeasureVertex<GatherAll>& f) { return {f.view, f.left, f.is_end}; }
 
-/// Prefetches the data of f(i, team) that the hardware does not predict.
+/// Prefetches data of f(i, team) that the processor does not prefetch by itself: nothing, unless F has an overload.
 template <class F>
 void look_ahead(const F&, int) {}
-/// Prefetches a vertex's contacts. Contacts are stored vertex by vertex, and a colour has every fourth to eighth
-/// vertex.
+/// Prefetches a vertex's contacts. The processor does not foresee them, because contacts are stored vertex by vertex
+/// and a colour has only every fourth to eighth vertex.
 template <class Gather>
 void look_ahead(const UpdateVertex<Gather>& f, int i) {
   constexpr std::size_t line = 64;
@@ -147,7 +148,7 @@ class CpuBackend {
     });
   }
 
-  /// Runs one loop over both kinds, so that no thread waits between them.
+  /// Runs one loop over the searches of both kinds, so that no thread waits between the kinds.
   template <class First, class Second>
   void search(const Searches<First>& first, const Searches<Second>& second) {
     for_each_range(first.count + second.count, [&first, &second](int begin, int end) {

@@ -1,4 +1,4 @@
-// Declares the CPU side of `fast` for its other parts.
+// Declares what other parts of `fast` use of the CPU backend.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace ogc::fast {
 
-/// Returns the number of threads.
+/// Returns the number of threads of the CPU backend.
 BackendInfo cpu_info();
 
 /// Returns a contestant that runs all stages on the host's threads.

@@ -13,7 +13,7 @@ namespace ogc::fast {
 template <class Item, int room>
 class LocalList {
  public:
-  /// Return items and counter, for functors that add to the common ones.
+  /// Return items and counter. A functor adds to them in place of the common list.
   Item* items() { return items_; }
   int* count() { return &count_; }
   /// Checks whether `more` further items fit. Call it before adding them: without room, items are counted but not

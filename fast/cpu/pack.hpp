@@ -144,7 +144,7 @@ PackOf<N> choose(PackMaskOf<N> condition, const A& a, const B& b) {
   return select(condition, a(), b());
 }
 
-/// The pack for nodes and searches.
+/// The pack for nodes of trees and for searches.
 using Pack = PackOf<4>;
 
 /// The widest pack that fits a register.
@@ -162,8 +162,8 @@ typename P::Mask first_of(int count) {
   (std::make_integer_sequence<int, P::width>());
 }
 
-/// Returns a mixture of each block of 16 B of a and b. Its numbers are those at p, q, r and s of the block; from N on
-/// an index means b.
+/// Returns numbers p, q, r and s of each block of 16 B (four numbers). Index i < N means number i of the block in a,
+/// and index N + i means number i of the block in b.
 template <int p, int q, int r, int s, int N>
 PackOf<N> mixed(const PackOf<N>& a, const PackOf<N>& b) {
   return [&]<int... k>(std::integer_sequence<int, k...>) {

@@ -1,5 +1,5 @@
-// Computes the gaps of a node's four children at once. g++ does not vectorise a loop over them, which doubles the time
-// of a whole detection. The operations and the bits are the same.
+// Computes the gaps of a node's four children at once. g++ would not vectorise a loop over the children, and a whole
+// detection would take twice as long. The operations and the bits are the same as in a loop.
 #pragma once
 
 #include <array>

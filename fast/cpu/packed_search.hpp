@@ -1,5 +1,5 @@
-// Runs searches of one thread that collect candidates and compute lower bounds of four distances at a time. The bounds
-// are those of `separation` (tests/fast/cpu/pack.cpp). Which pairs a search rejects changes no result.
+// Runs searches of one thread. They collect candidates and compute lower bounds of four distances at a time, which
+// equal the bounds of `separation` (tests/fast/cpu/pack.cpp). No result depends on how many pairs these bounds reject.
 #pragma once
 
 #include "fast/cpu/local_lists.hpp"
@@ -44,7 +44,7 @@ struct Waiting {
   LocalNotes& notes;                      ///< notes of the thread
   Search& search;                         ///< search of the candidates; distances lower its limit
   int primitive[Pack::width], count = 0;  ///< the first `count` are used
-  /// squared gaps of boxes, gap limits of reaches, and results of candidate_limit [m²]
+  /// by candidate: squared gap of boxes, gap limit of reaches, and result of candidate_limit [m²]
   float gap[Pack::width], reach[Pack::width], within[Pack::width];
 
   /// Adds a candidate. Tests all candidates when there are four.

@@ -1,5 +1,5 @@
-// Updates the segments of a colour, a pack at a time, with the bits of single updates
-// (tests/fast/cpu/packed_segments.cpp). Packs treat the usual case of UpdateSegment. All other segments, and all
+// Updates the segments of a colour, a pack at a time, with the same bits as single updates
+// (tests/fast/cpu/packed_segments.cpp). Packs compute the usual case of UpdateSegment. All other segments, and all
 // segments of rods with damping, are updated one by one.
 #pragma once
 
@@ -26,7 +26,7 @@ template <class P>
   return {all.x, all.y, all.z, all.w};
 }
 
-/// Adds to b the undamped terms of each segment's neighbour at one side.
+/// Adds to b the undamped terms of the neighbours at one side of each segment.
 template <class P>
 void add_neighbours(const UpdateSegment& f, const SegmentSlot* slots, int side, const QuatOf<P>& old, QuatOf<P>& b) {
   const Quat *now[P::width], *rest[P::width];
@@ -67,7 +67,7 @@ void update_pack(const UpdateSegment& f, int first) {
   }
 }
 
-/// Updates segments begin … end − 1 of a colour, with the results of UpdateSegment.
+/// Updates segments begin … end − 1 of a colour as UpdateSegment does: in packs where possible, the others one by one.
 [[gnu::flatten]] inline void update_segments(const UpdateSegment& f, int begin, int end) {
   if (f.view.is_off()) return;
   const RodStream& rods = f.view.rods;

@@ -1,4 +1,4 @@
-// Is compiled once for any machine and once for machines with AVX2.
+// This file is compiled twice: for any machine, and for machines with AVX2.
 #include "fast/cpu/packed_gather.hpp"
 #include "fast/cpu/packed_segments.hpp"
 

@@ -43,13 +43,14 @@ inline constexpr int cuda_block_size = 128;
 /// Loops over a counted number of items cost little even if the capacity is large.
 inline constexpr int threads_per_multiprocessor = 2 * 2048;
 
-/// From this number of team lanes on, teams are SerialLaneTeams (measured: fast/PERFORMANCE.md). Both kinds of teams
-/// have the same terms and the same order of sums. If the compiler contracts operations, it may do so differently in
-/// the two kernels.
+/// From this number of team lanes a multiprocessor on, teams are SerialLaneTeams (measured: fast/PERFORMANCE.md). Both
+/// kinds of teams have the same terms and the same order of sums. If the compiler contracts operations, it may do so
+/// differently in the two kernels.
 inline constexpr int serial_lanes_per_multiprocessor = 350;
 
-/// Up to this number of blocks of SerialLaneTeams, which run at once, warps are strided. Beyond it blocks run one after
-/// the other anyway, and neighbours in one block share more of their reads (measured: fast/PERFORMANCE.md).
+/// Up to this number of blocks of SerialLaneTeams a multiprocessor, which run at once, warps are strided (see
+/// run_serial_teams). Beyond it blocks run one after the other anyway, and neighbours in one block share more of their
+/// reads (measured: fast/PERFORMANCE.md).
 inline constexpr int strided_blocks_per_multiprocessor = 5;
 
 /// Returns F::resident_blocks, the number of blocks that a multiprocessor should run at once; the compiler limits
@@ -339,8 +340,9 @@ class CudaBackend {
     if (tree.count > largest_searched_count)
       throw compare::ResourceError("a mesh of more than 134 million edges or triangles needs --backend cpu");
   }
-  /// Returns the number of searches of a warp. Until the device is full (32 warps a multiprocessor) a warp has few, so
-  /// that it is short. With more searches, a warp has fewer rounds that it cannot fill.
+  /// Returns the number of searches of a warp. If there are too few searches to fill the device with 32 warps a
+  /// multiprocessor, a warp gets one search. With more searches, a warp gets several and has fewer rounds in which
+  /// lanes are idle.
   int search_group(int searches) const {
     const std::int64_t warps = std::int64_t{multiprocessors_} * 32;
     return static_cast<int>(std::clamp<std::int64_t>((searches + warps - 1) / warps, 1, largest_group));

@@ -18,7 +18,8 @@ BackendInfo cuda_info();
 compare::Contestant cuda_contestant(const LaunchShape& shape = {});
 
 /// Starts a resident simulation on the device. Throws compare::ResourceError as cuda_contestant does, and if the scene
-/// does not fit into the device's memory. `list_capacity`: contacts that fit at first; 0 for a guess by mesh size.
+/// does not fit into the device's memory. `list_capacity`: number of contacts for which the lists have room at first;
+/// 0: estimated from the size of the mesh.
 std::unique_ptr<compare::Simulation> start_cuda(const compare::Scene& scene, const compare::SimulationOptions& options,
                                                 int list_capacity = 0);
 

@@ -1,5 +1,5 @@
-// Runs a detection, and grows its lists until all contacts have room, for the judge's probes and ContactFinder. The
-// simulation repeats whole steps instead.
+// Runs a detection for the judge's probes and for ContactFinder, and repeats it with larger lists until all contacts
+// have room. The simulation repeats whole steps instead.
 #pragma once
 
 #include <span>
@@ -13,7 +13,8 @@ namespace ogc::fast {
 template <class Backend>
 class BackendContactEngine : public ContactEngine {
  public:
-  /// `topology` must outlive the engine. `capacity`: contacts that the lists hold at first; 0 for a guess by mesh size.
+  /// `topology` must outlive the engine. `capacity`: number of contacts for which the lists have room at first; 0:
+  /// estimated from the size of the mesh.
   BackendContactEngine(Backend& backend, const compare::Topology& topology, const compare::ExclusionView& exclusions,
                        int capacity = 0)
       : backend_(backend), topology_(topology), detection_(backend, topology, exclusions, capacity) {}

@@ -1,5 +1,4 @@
-// Lets the judge test the blocks. The predicates that the detections call answer each question, in the order in which
-// detections call them.
+// Lets the judge test the blocks with the predicates of the detections, called in the same order as there.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +13,7 @@
 
 namespace ogc::fast {
 
-/// Answers one question for each case.
+/// Decides for each case whether a point is in a block.
 struct ProbeBlock {
   SurfaceView surface;
   PaddedVecs positions;                     ///< by vertex [m]

@@ -1,6 +1,6 @@
-// Lets the judge test contacts. Each case becomes one record of a detection, and the sweep's functions make its
-// incidence, including the mollifier, and add it. Friction is computed alone: a difference of sums with and without
-// friction would contain their rounding errors.
+// Lets the judge test contacts. Each case becomes one record of a detection. The sweep's functions make its incidence
+// with the mollifier, and compute its force and block. Friction is computed alone: a difference of sums with and
+// without friction would contain their rounding errors.
 #pragma once
 
 #include <array>
@@ -28,11 +28,11 @@ struct ContactBatch {
   std::vector<AnyActivation> activation;  ///< by case
 };
 
-/// Adds a case with its friction.
+/// Adds a case with its coefficient of friction.
 void append(ContactBatch& batch, const compare::ContactForceCase& contact, const std::array<compare::Vec3f, 4>& start,
             float friction, float slip_limit);
 
-/// Adds each contact alone. Index over cases.
+/// Computes force and block of each contact alone. Index over cases.
 struct ProbeContact {
   SweepView view;  ///< positions and xᵗ; radius and slip limit are set for each case
   ContactTables tables;

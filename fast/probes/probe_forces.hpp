@@ -1,5 +1,5 @@
-// Lets the judge test the energies. Each case becomes one incidence of the sweep's streams, which the sweep's functions
-// make and add.
+// Lets the judge test the energies. Each case becomes one incidence of the sweep's streams. The sweep's functions make
+// the incidence and compute its force and block.
 #pragma once
 
 #include <algorithm>
@@ -41,8 +41,8 @@ ForceArrays force_arrays(ProbeMemory<Backend>& memory, compare::ForceOut& out, s
   return {memory.template out<Vec>(out.force, n), memory.template out<Symmetric3>(out.block, n)};
 }
 
-/// Adds each element alone, as the sum of its vertex does: with `Usual` if the element has the default models, else
-/// with `Any`.
+/// Computes force and block of each element alone, as the sweep does: by the part `Usual` if the element has the
+/// default models, else by `Any`.
 template <class Usual, class Any>
 struct ProbeElement {
   SweepView view;                ///< by case: a vertex with one incidence, and a body
@@ -82,7 +82,7 @@ struct ElementBatch {
   std::vector<Row> rows;
   std::vector<compare::Vec3f> positions, start;  ///< by vertex: x, xᵗ [m]
 
-  /// Adds a case as its vertex of this role sees it. The caller adds its body, and `beside` if the kind has these data.
+  /// Adds a case, seen from its vertex of this role. The caller adds its body, and `beside` if the kind has these data.
   void add(const typename Kind::Rest& element, int role, const SurfaceModels& of_body, bool usual = false) {
     const int i = static_cast<int>(rest.size()), v = Kind::vertices(element)[role];
     const std::vector<int> colour(static_cast<std::size_t>(v) + 32, 0);
@@ -98,7 +98,7 @@ struct ElementBatch {
     vertices.push_back(vertex);
   }
 
-  /// Returns the forces of all cases, each added alone.
+  /// Returns the forces of all cases, each computed alone.
   template <class Usual, class Any, class Backend>
   compare::ForceOut ask(Backend& backend) const {
     ProbeMemory<Backend> memory(backend);

@@ -12,7 +12,8 @@
 
 namespace ogc::fast {
 
-/// Answers the stage `plane`. `list_capacity`: contacts that the lists hold at first; 0 for a guess by mesh size.
+/// Answers the stage `plane`. `list_capacity`: number of contacts for which the lists have room at first; 0: estimated
+/// from the size of the mesh.
 template <class Backend>
 compare::PlaneOut probe_plane(Backend& backend, const compare::PlaneIn& in, int list_capacity = 0) {
   const auto bounds = in.displacement.empty() ? compare::Bounds::planes : compare::Bounds::dat;

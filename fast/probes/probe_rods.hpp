@@ -13,7 +13,7 @@
 
 namespace ogc::fast {
 
-/// Adds each segment alone, as one of its ends sees it. Index over cases.
+/// Computes force and block of an end of each segment alone. Index over cases.
 struct ProbeRod {
   const SegmentRest* segment;                   ///< by case; its ends are 2 i and 2 i + 1
   const int* own;                               ///< by case: the end that is solved for

@@ -10,7 +10,7 @@
 namespace ogc::fast {
 
 /// Takes one step of a simulation and returns its events. If the step was repeated because a list grew, only the last
-/// attempt is returned. Changes no bit.
+/// attempt is returned. The results of the step are the same as without a trace.
 template <class Backend>
 compare::StepOut trace_step(ResidentSimulation<Backend>& simulation) {
   StepState<Backend>& state = simulation.state();

@@ -1,6 +1,6 @@
-// Lets the judge test the sweep: one iteration of the resident Sweep with the rest state, colouring and contacts of the
-// question. FillIncidences and RankIncidences of the detection fill and order the incidences, so the sums have the same
-// order as in a step.
+// Lets the judge test the sweep: runs one iteration of the resident Sweep with the rest state, colouring and contacts
+// of a case. FillIncidences and RankIncidences of the detection fill and order the incidences, so the sums have the
+// same order as in a step.
 #pragma once
 
 #include <span>
@@ -81,7 +81,7 @@ class ProbeContacts {
   Buffer<Incidence> incidences_;
 };
 
-/// Holds the quaternions of a question, and c as computed at the start of a step.
+/// Holds the quaternions of a case, and the vectors c of rod_rest_direction at the start of a step.
 template <class Backend>
 class ProbeRods {
  public:

@@ -1,5 +1,5 @@
-// Lets the judge test volumes: the contacts of points with a volume, found in its tree, and the force of one contact,
-// each case alone.
+// Lets the judge test volumes: finds the contacts of points with a volume in its tree, and computes the force of one
+// contact. Each case is computed alone.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace ogc::fast {
 
-/// Adds each contact with a volume alone. Index over cases.
+/// Computes force and block of each contact with a volume alone. Index over cases.
 struct ProbeVolumeForce {
   const VolumeContact* contact;              ///< by case
   const Vec *vertex, *start;                 ///< by case: the point and three corners [m]

@@ -200,8 +200,8 @@ compare::TruncateOut probe_truncate(Backend& backend, const compare::TruncateIn&
   return out;
 }
 
-/// Returns a contestant with the stages of this header; the backend's own file sets `start`. Each step gets a new
-/// backend from `fresh`.
+/// Returns a contestant with the stages of this header. The backend's own source sets Contestant::start. Each step gets
+/// a new backend from `fresh`.
 template <class Backend, class Fresh = Backend (*)()>
 compare::Contestant probe_contestant(
     std::string name, std::shared_ptr<Backend> backend, Fresh fresh = [] { return Backend{}; }) {

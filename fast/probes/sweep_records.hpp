@@ -1,4 +1,4 @@
-// Converts the judge's question about a sweep to the data that the resident sweep reads, on the host.
+// Converts the judge's case of a sweep to the data that the resident sweep reads, on the host.
 #pragma once
 
 #include <span>
@@ -13,17 +13,17 @@
 
 namespace ogc::fast {
 
-/// Holds the contacts of a question in the form of a detection's results.
+/// Holds the contacts of a case in the same arrays as a detection.
 struct ContactRecords {
   std::vector<VertexFacetRecord> vertex_facet;  ///< by record
   std::vector<EdgeEdgeRecord> edge_edge;        ///< by record
   std::vector<int> offsets;                     ///< by vertex: where its incidences begin; vertex_count + 1 numbers
 };
 
-/// Returns the contacts of a question.
+/// Returns the contacts of a case.
 ContactRecords contact_records(const compare::SweepIn& in);
 
-/// Returns the contacts of a question with volumes, by row, with the materials of `rest`.
+/// Returns the contacts of a case with volumes, by row, with the materials of `rest`.
 std::vector<std::vector<VolumeIncidence>> volume_rows(const compare::SweepIn& in, const RestState& rest,
                                                       const AskerRows& asked);
 

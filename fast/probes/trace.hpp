@@ -1,4 +1,4 @@
-// Records a step of the resident simulation for the judge, event by event. Only events that the control has counted are
+// Records a step of the resident simulation for the judge, event by event. Only events that StepControl has counted are
 // recorded.
 #pragma once
 

@@ -33,14 +33,14 @@
 //   sort_pairs(std::uint64_t* keys, int* values, int n, KeyBits bits = {})
 //         sorts by these bits of the keys: stable, ascending
 //   when(F decide, const int* flag, Body body)
-//         decide(0), then what body() enqueues if *flag is not 0 by then; not nested
+//         runs decide(0), then, if *flag is not 0, the work that body() enqueues; not nested
 //   repeat(F decide, const int* flag, Body body, G decide_again)
-//         decide(0), then while *flag is not 0: what body() enqueues, and decide_again(0)
+//         runs decide(0); as long as *flag is not 0, runs the work that body() enqueues and decide_again(0)
 //   at_once(Aside aside, Body body)
-//         what both enqueue, in any order; neither writes what the other reads; aside() enqueues loops (for_each, …)
-//         only; not nested
+//         runs the work of aside() and of body(), in any order; neither work writes what the other reads; aside()
+//         enqueues loops (for_each, …) only; not nested
 //   Recording recording;
-//         empty at first; clear() it if the body enqueues other calls
+//         a recorded body, empty at first; clear() it if the body enqueues other calls
 //   replay(recording, int times, Body body)
 //         enqueues body()'s work `times` times. A device backend runs body() on the host once, records it as a graph,
 //         and launches the graph, also in later calls. It records again if a Buffer has moved or the recording has been

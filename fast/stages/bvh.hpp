@@ -1,6 +1,6 @@
-// Holds two trees, over facets and over edges, and an order of the vertices. A refit is one launch. A rebuild refits in
-// the old order, since the roots' boxes give the extent, and then sorts the Hilbert keys of vertices, edges and facets
-// at once: on a device the time of a sort hardly depends on its length.
+// Holds two trees, over facets and over edges, and an order of the vertices. A refit is one launch. A rebuild first
+// refits in the old order, because Hilbert keys need the extent of the mesh, which the roots' boxes give. Then one sort
+// orders vertices, edges and facets by their Hilbert keys: on a device the time of a sort hardly depends on its length.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace ogc::fast {
 
-/// Returns a tree over `count` primitives, without memory.
+/// Returns a tree over `count` primitives with the beginnings of its levels. Its pointers are null.
 inline TreeView shape_of_tree(int count) {
   TreeView tree;
   tree.count = count;
@@ -32,8 +32,8 @@ inline int node_count(const TreeView& tree) {
 template <class Backend>
 class Bvh {
  public:
-  /// Orders primitives by index until the first rebuild: correct, but slow. `searched`: Surface::searched of the same
-  /// surface.
+  /// Orders primitives by index until the first rebuild; searches in this order are slow. `searched`: Surface::searched
+  /// of the same surface.
   Bvh(const SurfaceView& surface, const std::vector<int>& searched) : surface_(surface) {
     const std::size_t total = static_cast<std::size_t>(facets_at()) + surface.searched_facets;
     std::vector<int> order = searched;
@@ -59,8 +59,8 @@ class Bvh {
   const int* vertex_order() const { return order_.data(); }
   const float* vertex_limit() const { return vertex_limit_.data(); }  ///< gap limit of each vertex's reach
 
-  /// Returns the functor that sets boxes at `positions` and reaches within *query_radius; the order stays. It is run by
-  /// for_each over its count(). Vertices are left out if there is no facet.
+  /// Returns the functor that sets boxes at `positions` and reaches within *query_radius; the order of the trees stays.
+  /// for_each runs the functor over its count(). If the surface has no facet, vertices get no reach.
   RefitTrees refit(const Vec* positions, const float* query_radius) {
     return {.reach = {surface_, positions, query_radius},
             .facets = facets_,

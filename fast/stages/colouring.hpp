@@ -24,8 +24,8 @@ struct Colouring {
 /// tetrahedron or a segment with v. Rows of vertices that are not free are empty.
 compare::CompressedRows conflict_graph(const RestState& rest);
 
-/// Returns the number of passes that reduce the number of colours. They visit 2·10⁷ neighbours, which takes about a
-/// second, but there are at least 4 and at most 100 passes. `neighbours`: sum of all vertices' numbers of neighbours.
+/// Returns the number of passes that reduce the number of colours: as many as visit 2·10⁷ neighbours, which takes about
+/// a second, but at least 4 and at most 100. `neighbours`: neighbours that one pass visits (the length of all rows).
 int colouring_passes(std::size_t neighbours);
 
 /// Colours the vertices with Mobility::free.

@@ -1,6 +1,6 @@
 // Runs a whole detection (Alg. 3 lines 4–19): trees at the current positions, both queries, lists, bounds. Everything
 // is enqueued; nothing waits or allocates, so a detection may be inside Backend::when. After a list has overflowed,
-// every launch does nothing until `grow`. So the needed size stays that of the first detection without room, and the
+// every launch does nothing until `grow`. So `grow` reads the size that the overflowed detection needs, and the
 // contacts of the last complete detection stay as they are.
 #pragma once
 
@@ -24,8 +24,8 @@
 
 namespace ogc::fast {
 
-/// Makes the first and the last launch of a detection alone. A step adds its own work to both
-/// (fast/stages/step_detection.hpp).
+/// Runs the first and the last launch of a detection outside a step. StepLaunches (fast/stages/step_detection.hpp) adds
+/// the work of a step to both launches.
 struct PlainLaunches {
   /// Runs the first launch.
   template <class Backend>
@@ -43,8 +43,8 @@ struct PlainLaunches {
 template <class Backend>
 class Detection {
  public:
-  /// `exclusions`: see compare/stages/detect.hpp. `capacity`: contacts at first; 0 for a guess by mesh size.
-  /// `is_fixed`: by vertex, read only if `bounds` are planes.
+  /// `exclusions`: see compare/stages/detect.hpp. `capacity`: number of contacts for which the lists have room at
+  /// first; 0: estimated from the size of the mesh. `is_fixed`: by vertex, read only if `bounds` are planes.
   Detection(Backend& backend, const compare::Topology& topology, const compare::ExclusionView& exclusions,
             int capacity = 0, compare::Bounds bounds = compare::Bounds::ball,
             const std::vector<std::uint8_t>& is_fixed = {})
@@ -68,7 +68,7 @@ class Detection {
 
   /// Computes contact sets, smallest distances and bounds at `positions` (on the backend). r = contact_radius [m], r_q
   /// = *query_radius ≥ r [m] (on the backend), γ_p = bounds_relaxation. Does nothing while *overflow() is not 0.
-  /// `launches` makes the first and the last launch, including the caller's work.
+  /// `launches` runs the first and the last launch, to which it may add work of the caller.
   template <class Launches = PlainLaunches>
   void detect(const Vec* positions, float contact_radius, const float* query_radius, float bounds_relaxation,
               const Launches& launches = {}) {
@@ -140,7 +140,8 @@ class Detection {
   const int* vertex_facet_faces() { return lists_.view().vertex_facet_face; }
 
  private:
-  /// Enqueues the part of a detection that precedes the lists.
+  /// Enqueues the launches before the lists: refits the trees, notes pairs, computes smallest distances and makes
+  /// planes.
   template <class Launches>
   void find(const Vec* positions, float contact_radius, const float* query_radius, float bounds_relaxation,
             const Launches& launches) {
@@ -192,7 +193,8 @@ class Detection {
             .d_min_edge = d_min_edge_.data()};
   }
 
-  /// Returns the number of vertices whose bounds are computed beside the lists.
+  /// Returns the number of vertices whose bounds are computed in the first launch of the lists. If bounds are planes,
+  /// they are computed earlier.
   int bounded() const { return planes_.is_used() ? 0 : surface_.view().vertex_count; }
 
   ConservativeBound bounds(float bounds_relaxation) {

@@ -8,7 +8,7 @@
 
 namespace ogc::fast {
 
-/// Measures the forces that one step leaves.
+/// Measures the forces on the free vertices after the guess loop and at the end of a step.
 template <class Backend>
 class LeftForces {
  public:
@@ -17,9 +17,9 @@ class LeftForces {
     left_.resize(static_cast<std::size_t>(slots));
     totals_.resize(left_columns);
   }
-  /// Measures after the guess loop. `view` is that of the first iteration.
+  /// Measures after the guess loop. `view`: data of the first iteration (Step::view).
   void begin(const Sweep<Backend>& sweep, SweepView view) { measure(sweep, view, false); }
-  /// Measures at the end of the step. `view` is that of the iteration after the last one.
+  /// Measures at the end of the step. `view`: data of the iteration that would follow the last one.
   void end(const Sweep<Backend>& sweep, SweepView view) {
     measure(sweep, view, true);
     reduction_.template add<0, left_columns>(LeftSums{left_.data(), slots_}, 0, Nothing{});

@@ -14,11 +14,11 @@
 
 namespace ogc::fast {
 
-/// Holds the lists of one surface.
+/// Holds the lists of one surface: noted pairs, contacts and incidences.
 template <class Backend>
 class Lists {
  public:
-  /// `capacity` > 0: contacts that fit at first.
+  /// `capacity` > 0: number of contacts for which the lists have room at first.
   Lists(const SurfaceView& surface, int capacity)
       : surface_(surface), buckets_(2 * surface.vertex_count + surface.edge_count) {
     const auto buckets = static_cast<std::size_t>(buckets_), vertices = static_cast<std::size_t>(surface.vertex_count);
@@ -71,8 +71,8 @@ class Lists {
   int noted_capacity() const { return noted_capacity_; }
 
   /// Makes records and incidences of the pairs that both searches noted. The first launch also computes `bounds`, which
-  /// need no list, for `bounded` vertices. `distances`: see CollectContacts. `launches` makes the last launch (see
-  /// Detection::detect).
+  /// need no list, for vertices 0 … `bounded` − 1. `distances`: see CollectContacts. `launches` runs the last launch
+  /// (see Detection::detect).
   template <class Launches>
   void assemble(Backend& backend, PaddedVecs positions, float contact_radius, int bounded,
                 const ConservativeBound& bounds, const float* distances, const Launches& launches) {

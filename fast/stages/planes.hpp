@@ -1,5 +1,5 @@
-// Holds the memory of a detection's planes (fast/kernels/plane_lists.hpp) and launches their kernels. If bounds are not
-// planes, there is neither.
+// Holds the memory of a detection's planes (fast/kernels/plane_lists.hpp) and launches their kernels. If the scene's
+// bounds are not planes, the memory is empty and nothing is launched.
 #pragma once
 
 #include <cstdint>
@@ -33,8 +33,8 @@ class Planes {
 
   /// Whether bounds are planes.
   bool is_used() const { return policy_.has_planes; }
-  /// Sets the displacements by which gaps are divided from now on [m], by vertex, on the backend; null: gaps are
-  /// halved.
+  /// Sets the displacements [m] in whose ratio later detections divide the gap of a pair between its vertices; by
+  /// vertex, on the backend. If null, gaps are halved.
   void divide_by(const Vec* displacement) { displacement_ = displacement; }
 
   /// Host only: makes room for this number of noted pairs.
@@ -91,7 +91,7 @@ class Planes {
     backend.for_each(vertices * most_planes, SortHalfSpaces{lists});
   }
 
-  /// Host only: returns the planes of each vertex since the last detection; empty if bounds are not planes.
+  /// Host only: returns each vertex's planes of the last detection; empty if bounds are not planes.
   compare::VertexPlanes download() const {
     compare::VertexPlanes planes;
     if (!is_used()) return planes;

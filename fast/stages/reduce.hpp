@@ -14,10 +14,10 @@
 
 namespace ogc::fast {
 
-/// Number of rows that a thread adds.
+/// Number of rows that one thread adds to a single row.
 inline constexpr int reduce_run = 32;
 
-/// Returns C. A chunk has an item or two, if there are enough items to pay for the rows.
+/// Returns C, the number of chunks. More chunks are shorter but leave more rows to add, so only large meshes get more.
 inline int reduce_chunks(int vertices) { return vertices <= 2048 ? 1024 : 32768; }
 
 /// Adds the items of a chunk, kind by kind, with all.add(chunk, chunks, sums), and writes them to some columns of the
@@ -50,7 +50,7 @@ struct AddRun {
   }
 };
 
-/// Computes the sums of one mesh.
+/// Computes the sums over one mesh.
 template <class Backend, int columns>
 class Reduction {
  public:
@@ -59,15 +59,15 @@ class Reduction {
     partial_.resize(static_cast<std::size_t>(chunks_ * columns));
     runs_.resize(static_cast<std::size_t>(chunks_ / reduce_run * columns));
   }
-  /// Adds all items into the columns from `first` on; calls f(i) for i < n beside it.
+  /// Adds all items into the columns from `first` on. The same launch calls f(i) for i < n.
   template <int first, int count, class All, class F>
   void add(const All& all, int n, const F& f) {
     static_assert(0 <= first && first + count <= columns);
     for_each_beside(backend_, chunks_, AddChunk<count, All>{all, chunks_, partial_.data() + first, columns}, n, f);
   }
 
-  /// Writes the totals of all columns. Each column must have been added since the last call. Calls f(i) for i < n
-  /// beside the first launch and g(i) for i < m beside the last.
+  /// Writes the totals of all columns. Each column must have been added since the last call. The first launch also
+  /// calls f(i) for i < n, and the last launch g(i) for i < m.
   template <class F, class G>
   void total(double* totals, int n, const F& f, int m, const G& g) {
     double *from = partial_.data(), *to = runs_.data();

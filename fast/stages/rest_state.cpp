@@ -9,7 +9,7 @@
 namespace ogc::fast {
 namespace {
 
-/// Returns mobility, materials and models, which do not depend on the rest shape.
+/// Returns the rest data that do not depend on the rest shape: mobility, materials and models.
 RestState without_shape(const compare::Scene& scene) {
   RestState rest;
   rest.body = compare::body_of_vertex(scene);

@@ -9,7 +9,7 @@
 
 namespace ogc::fast {
 
-/// The elements of all kinds in a list.
+/// Holds the elements of all kinds of `List`.
 template <class List>
 struct AllAtRest;
 template <class... All>
@@ -27,11 +27,11 @@ const AtRest<Kind>& at_rest(const RestState& rest) {
 /// Computes the rest data of a scene. Throws InputError for moving vertices without mass.
 RestState build_rest_state(const compare::Scene& scene, const compare::Topology& topology);
 
-/// Returns the simulation's rest state in the form that the judge asks for.
+/// Returns the simulation's rest state in the judge's format.
 compare::RestStateOut rest_state_out(const compare::RestStateIn& in);
 
-/// Returns the rest state with the numbers of `out`; mobility and materials, which `out` does not have, are the
-/// scene's.
+/// Returns the rest state with the numbers of `out`. Mobility and materials are those of the scene, because `out` does
+/// not contain them.
 RestState rest_state_of(const compare::RestStateIn& in, const compare::RestStateOut& out);
 
 }  // namespace ogc::fast

@@ -1,5 +1,5 @@
-// Holds segments in the order of the sweep, made once on the host, and launches their updates, which precede the
-// vertices' updates of an iteration. A scene without rods has neither.
+// Holds segments in the order of the sweep, made once on the host. Launches their updates, which precede the vertices'
+// updates of an iteration. Without rods, there is no segment and no launch.
 #pragma once
 
 #include <vector>
@@ -11,8 +11,8 @@
 
 namespace ogc::fast {
 
-/// Returns the free segments in the order of their colours. Ends that are not free vertices are stored inverted: the
-/// sweep reads them at their new positions.
+/// Returns the free segments in the order of their colours. The number v of an end that is not a free vertex is stored
+/// as ~v, so that the sweep reads the new position of this end.
 inline std::vector<SegmentSlot> segment_slots(const RodsAtRest& rods, const Colouring& vertices,
                                               const Colouring& segments) {
   std::vector<SegmentSlot> slots;
@@ -48,8 +48,8 @@ class RodSweep {
     rods.as_published = as_published_;
   }
 
-  /// Updates all free segments, colour by colour: after the prescribed vertices, before the free ones. `is_first`: no
-  /// launch of the iteration precedes them.
+  /// Updates all free segments, colour by colour, after the prescribed and before the free vertices. `is_first`: no
+  /// launch of the iteration precedes these updates.
   void enqueue(Backend& backend, const SweepView& view, bool is_first) const {
     for (std::size_t c = 0; c + 1 < colour_begin_.size(); ++c)
       backend.for_each(colour_begin_[c + 1] - colour_begin_[c],

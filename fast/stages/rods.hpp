@@ -1,5 +1,5 @@
-// Holds the orientations of a simulation, qᵗ and q: how a step begins and ends them, and what a row reports of rods. A
-// scene without rods has none, and launches nothing.
+// Holds the orientations qᵗ and q of a simulation's segments. Turns them at the start of a step, commits them at its
+// end, and sums what the step's row reports on rods. Without rods, the arrays are empty and nothing is launched.
 #pragma once
 
 #include <algorithm>
@@ -77,7 +77,7 @@ class Rods {
             .control = control};
   }
 
-  /// Computes c of each segment (rod_rest_direction) at the start of a step, if strains are damped.
+  /// Computes the vector c of rod_rest_direction for each segment at the start of a step, if strains are damped.
   void begin_strains(Backend& backend, const Vec* start) {
     if (direction_.size() == 0) return;
     backend.for_each(count_, SetDirection{segments_.data(), start, orientation_start_.data(), direction_.data()});
@@ -90,7 +90,8 @@ class Rods {
     rods.direction = direction_.data();
   }
 
-  /// Returns the sums of the end of a step: `others`, and those of rods for the step's row.
+  /// Returns the functor that computes the sums at the end of a step: `others`, and the sums over rods for the step's
+  /// row.
   template <class Others>
   RodSums<Others> sums(const Others& others, const ContactView& contacts, const ContactTables& tables,
                        const Vec* position, float contact_radius, StepControl* control) {

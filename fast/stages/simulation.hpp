@@ -23,8 +23,8 @@ namespace ogc::fast {
 template <class Backend>
 class ResidentSimulation : public compare::Simulation, public compare::WayTeller {
  public:
-  /// `device` is the result of device(). `list_capacity`: contacts that fit at first; 0 for a guess by mesh size. Lists
-  /// grow by themselves.
+  /// `device` is the result of device(). `list_capacity`: number of contacts for which the lists have room at first; 0:
+  /// estimated from the size of the mesh. Lists grow by themselves.
   ResidentSimulation(Backend backend, const compare::Scene& scene, const compare::SimulationOptions& options,
                      std::string device, int list_capacity = 0)
       : backend_(std::move(backend)),
@@ -112,15 +112,15 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
   }
   std::string device() const override { return device_; }
 
-  /// Computed on the host at the start, from the scene rounded to single precision.
+  /// Return data that the host computed at the start from the scene rounded to single precision.
   const Colouring& colouring() const { return colouring_; }
   const Colouring& segment_colouring() const { return segment_colouring_; }
   const RestState& rest_state() const { return rest_; }
   /// W, the width of the sweep's sums.
   int lanes() const { return sweep_.lanes(); }
 
-  /// Sets the observer of the following steps; null removes it. No bit depends on it. An observed step is enqueued
-  /// launch by launch, not replayed from a recording.
+  /// Sets the observer of the following steps; null removes it. It changes no bit of the results. An observed step is
+  /// enqueued launch by launch, not replayed from a recording.
   void observe(StepObserver* observer) { step_.observe(observer); }
   float query_radius() const { return query_radius_; }  ///< r_q of the last step [m]
   /// For the observer only, between launches. Any change to these objects changes the run.
@@ -271,8 +271,8 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     backend_.synchronize();
   }
 
-  /// Checks whether the row of a step has the forces that the step leaves. This depends on the step's number alone, so
-  /// a resumed run has the same rows.
+  /// Returns whether the row of a step contains the forces that the step leaves. This depends on the step's number
+  /// alone, so a resumed run has the same rows.
   bool is_measured(std::int64_t step) const { return step % steps_between_measures(scene_.settings.iterations) == 0; }
 
   /// Replays steps. Each kind of step (sorts trees or not, measures forces or not) has a recording, because a decision
@@ -384,7 +384,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
   std::size_t moving_;
   Step<Backend> step_;
   bool energies_;
-  /// by: sorts trees; measures forces; groups iterations
+  /// [sorts trees][measures forces][groups iterations]
   typename Backend::Recording recordings_[2][2][2];
   typename Backend::template Buffer<float> bounds_;
   std::int64_t step_number_ = 0;

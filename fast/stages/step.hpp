@@ -1,6 +1,6 @@
 // Enqueues one step: Algorithm 3 with the guess loop of method.md §5.2. The sequence of calls is the same for every
-// step, and flags on the device decide what happens. So a graph can record the sequence once, and nothing in it waits
-// for the host.
+// step, and flags on the device decide what each call does. So a graph can record the sequence once, and nothing in it
+// waits for the host.
 //
 //   begin       sorts the trees every 16th step; sets y, Gᵗ, θᵗ, r_q; moves driven volumes to y, refits their trees
 //   guess loop  repeat(guess): X_prev ← x, detect, x ← y as far as contacts allow, truncated; up to guess_rounds times.
@@ -10,12 +10,12 @@
 //   finish      checks the certificate; commits and adds sums only if it holds; writes one row
 //   Some steps also measure forces after the guess loop and at the end (Eq. 29).
 //
-// If a list is too small, a number is not finite or a bound is broken, `active` is cleared: later launches do nothing
-// or their results are discarded, and xᵗ, vᵗ stay. `when` and `repeat` cost a device as much as ten kernels. So only
-// sorts, detections and the iterations after a detection are inside them; everything else runs always, on arrays that
-// are complete even then.
+// If a list is too small, a number is not finite or a bound is broken, `active` is cleared. Then later launches do
+// nothing or their results are discarded, and xᵗ, vᵗ stay. `when` and `repeat` cost a device as much as ten kernels. So
+// they contain only sorts, detections and the iterations after a detection. All other launches always run; the arrays
+// that they read are complete even after `active` has been cleared.
 //
-// A clock that is on, and an observer, are called between these calls; the sequence stays the same.
+// An observer, and a clock that is on, are called between these calls; the sequence stays the same.
 #pragma once
 
 #include <algorithm>
@@ -64,14 +64,14 @@ struct StepState {
 };
 
 /// Follows a step on the host, event by event (fast/probes/trace.hpp, fast/stages/way.hpp). Observed steps are not
-/// recorded.
+/// replayed from a recording.
 class StepObserver {
  public:
   virtual ~StepObserver() = default;
   /// Called when a step begins; again if the step is repeated.
   virtual void begin() = 0;
-  /// Called when an event of this kind may have ended; StepControl counts the events that did. `position`: x at this
-  /// moment, on the backend.
+  /// Called after the launches of an event of this kind, which may have done nothing. StepControl counts the events
+  /// that happened. `position`: x after these launches, on the backend.
   virtual void after(compare::StepEventKind kind, const Vec* position) = 0;
   /// Called when contacts with volumes have been found at the positions of the guess loop's last detection.
   virtual void after_finding() = 0;
@@ -170,8 +170,8 @@ class Step {
     rods_.begin_strains(backend_, s.start.data());
   }
 
-  /// Returns the functor that certifies the current regions and then sets X_prev ← x. `target`: y in the guess loop,
-  /// later null.
+  /// Returns the functor that checks the certificate of the current regions and then sets X_prev ← x. `target`: y in
+  /// the guess loop, later null.
   BeginRegions begin_regions(const Vec* target) {
     return {state_.position.data(),
             regions(),
@@ -182,7 +182,7 @@ class Step {
   }
 
   /// Enqueues body() and, at the same time, the search for contacts with volumes at `position`. body() must not write
-  /// what this search reads. If a row of contacts is too short, the control's next decision after both ends the step.
+  /// what this search reads. If a row has no room for a contact, the step's next decision on the device ends the step.
   template <class Body>
   void beside_volumes(const Vec* position, Body body) {
     if (!volumes_.is_used()) return body();
@@ -257,10 +257,10 @@ class Step {
     if (observer_ != nullptr) observer_->after_guess();
   }
 
-  /// Enqueues iterations `first` to `first` + `count` − 1, with a detection after each one if due. A decision (`when`)
-  /// costs a device ten launches; an iteration that does nothing costs a tenth of a launch. So all iterations are
-  /// enqueued at once, and those after one that requires a detection do nothing. While a detection is due, it is made
-  /// and the iterations are enqueued again.
+  /// Enqueues iterations `first` to `first` + `count` − 1, and a detection after each iteration that requires one. A
+  /// decision (`when`) costs a device as much as ten launches that do nothing. So all iterations are enqueued at once,
+  /// and those after an iteration that requires a detection do nothing. As long as a detection is due, it is made and
+  /// the iterations are enqueued again.
   void iterate(int first, int count) {
     const int last = first + count - 1, *due = flag(&StepControl::detect);
     const auto end = [&](int i) { return EndIteration{control(), settings_.control, count > 1 ? i : -1}; };
@@ -308,8 +308,8 @@ class Step {
     return view;
   }
 
-  /// `turn`: number of the iteration whose turn it is, on the backend; null: this iteration always runs. `start`: see
-  /// Sweep::iterate.
+  /// Enqueues an iteration. If `turn` (on the backend) is not null, the iteration does nothing unless *turn is its
+  /// number. `start`: see Sweep::iterate.
   void sweep(int iteration, const int* turn, Start start) {
     SweepView view = this->view(iteration);
     view.turn = turn;
@@ -366,7 +366,8 @@ class Step {
       add(sums);
   }
 
-  /// `before`: x before the last sweep; null: no sweep has been made.
+  /// Returns the functor that computes the sums over vertices. `before`: x before the last sweep; null: no sweep has
+  /// been made.
   VertexSums vertex_sums(const PaddedVec* before) {
     const StepState<Backend>& s = state_;
     return {{.position = s.position.data(),

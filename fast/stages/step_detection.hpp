@@ -1,4 +1,4 @@
-// The launches of a detection within a step. PlainLaunches in fast/stages/detection.hpp has those of a detection alone.
+// Launches a detection within a step. PlainLaunches (fast/stages/detection.hpp) launches a detection outside a step.
 #pragma once
 
 #include <algorithm>
@@ -8,13 +8,14 @@
 
 namespace ogc::fast {
 
-/// Launches a step's detection: its first launch, and its last launch, which also lists contacts for the sweep.
+/// Runs the first and the last launch of a step's detection. The last launch also makes the contact stream of the
+/// sweep.
 struct StepLaunches {
   BeginRegions regions;  ///< the certificate, and X_prev ← x
   EndDetection end;
-  CopyContactRows<LooseIncidence> rows;  ///< of the contact stream
+  CopyContactRows<LooseIncidence> rows;  ///< makes the rows of the contact stream
   int slots;                             ///< free vertices
-  ResolveContact resolve;                ///< the stream's contacts
+  ResolveContact resolve;                ///< writes the contacts of the stream
 
   /// Runs the first launch, with the certificate of the regions that end (see PlainLaunches::begin).
   template <class Backend>

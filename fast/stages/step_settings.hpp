@@ -22,27 +22,28 @@ struct StepSettings {
   ControlSettings control;  ///< settings of the decisions on the device
 };
 
-/// Steps between two sorts of the trees. Their order changes no result, only the time of a detection. A sort takes as
-/// long as two detections, and an order stays good for many steps (fast/PERFORMANCE.md).
+/// Number of steps between two sorts of the trees. The order of the trees changes no result, only the time of a
+/// detection. A sort takes as long as two detections, and an order stays good for many steps (fast/PERFORMANCE.md).
 inline constexpr int steps_between_sorts = 16;
 
-/// Decides whether a step sorts its trees: `asked`: the device decides; `made`, `left_out`: the host has decided.
+/// Tells whether a step sorts its trees. `asked`: the device decides; `made`, `left_out`: the host has decided.
 enum class Sorting { asked, made, left_out };
 
-/// Returns the number of steps from one measurement of forces to the next. A measurement takes at most as long as six
-/// sweeps (compare/method.md §6); it may take 2 % of all sweeps.
+/// Returns the number of steps from one measurement of forces to the next. A measurement takes as long as at most six
+/// sweeps (compare/method.md §6). The interval limits its time to 2 % of the time of all sweeps.
 inline std::int64_t steps_between_measures(std::int64_t iterations) {
   return (300 + iterations - 1) / std::max<std::int64_t>(1, iterations);
 }
 
 /// Returns the number of iterations between two decisions whether a detection is due: five if fewer than one in four
-/// iterations needed a detection, otherwise one (counted in fast/PERFORMANCE.md). `redetections`: detections of `steps`
-/// steps after the guess loop.
+/// iterations needed a detection, otherwise one (counted in fast/PERFORMANCE.md). `redetections`: number of detections
+/// after the guess loop in `steps` steps.
 inline int iterations_in_group(std::int64_t redetections, std::int64_t steps, int iterations) {
   return 4 * redetections < steps * iterations ? 5 : 1;
 }
 
-/// Returns the settings of a step. `moving`: K (compare::bounded_count).
+/// Returns the settings of a step. `moving`: K, the number of vertices that may move and have a bound
+/// (compare::bounded_count).
 inline StepSettings step_settings(const compare::Scene& scene, std::size_t moving, bool energies) {
   const compare::Settings& from = scene.settings;
   StepSettings to;

@@ -121,9 +121,9 @@ Searched find_searched(const compare::Topology& topology) {
     searched.edges += take(e, topology.edges[static_cast<std::size_t>(e)]);
   for (int t = 0; t < static_cast<int>(topology.triangles.size()); ++t)
     searched.facets += take(t, topology.triangles[static_cast<std::size_t>(t)]);
-  // searches skip vertices inside solids anyway, since these are on no face
+  // A list is needed only if edges are left out: searches skip vertices inside solids by themselves.
   if (static_cast<std::size_t>(searched.edges) < topology.edges.size()) return searched;
-  // without facets, no vertex searches
+  // If there is no facet, no vertex searches, because vertices search for facets.
   return {{}, topology.triangles.empty() ? 0 : topology.vertex_count, searched.edges, searched.facets};
 }
 

@@ -13,15 +13,16 @@ namespace ogc::fast {
 /// Returns corners, edges and edge directions of triangle t for the kernels.
 Facet facet_of(const compare::Topology& topology, std::size_t t);
 
-/// The seeds of fast/kernels/bvh.hpp: near neighbours in the mesh that are neither adjacent nor excluded.
+/// The seeds of searches (fast/kernels/bvh.hpp): near neighbours in the mesh that are neither adjacent nor excluded.
+/// Their distance limits a search.
 struct Seeds {
   std::vector<EdgeSeeds> edges;       ///< by edge
   std::vector<FacetSeeds> facets;     ///< by triangle
   std::vector<VertexSeeds> vertices;  ///< by vertex
 };
 
-/// Returns the seeds. `groups`: one number for each vertex; `partners`: null if there are none
-/// (compare/problem/exclusions.hpp).
+/// Returns the seeds. `groups`, `partners`: exclusions by vertex (compare/problem/exclusions.hpp); `partners` is null
+/// if there are none.
 Seeds find_seeds(const compare::Topology& topology, const std::vector<int>& groups,
                  const compare::CompressedRows* partners, const std::vector<Facet>& facets);
 

@@ -1,6 +1,6 @@
-// The sweep (Alg. 4): holds the streams of elements (streams.hpp), made once on the host, and the contact stream, made
-// after each detection on the device, and launches an iteration. Every sum has the width W, the only setting other than
-// the scene that can change a bit.
+// Launches iterations of the sweep (Alg. 4). Holds the streams of elements (streams.hpp), made once on the host, and
+// the contact stream, made after each detection on the device. Every sum has the width W. Besides the scene, only W can
+// change a bit of the results.
 #pragma once
 
 #include <vector>
@@ -19,8 +19,9 @@
 
 namespace ogc::fast {
 
-/// Returns W if Settings::lanes is 0. It is the same on every backend, because W changes bits. Small meshes need more
-/// lanes to fill a device. `curves`: the scene has only rods, whose vertices have two segments and few contacts each.
+/// Returns the default W, for Settings::lanes = 0. It is the same on every backend, because W changes bits. Small
+/// meshes need more lanes to fill a device. `curves`: the scene has only rods, whose vertices have two segments and few
+/// contacts each.
 inline int default_lanes(std::size_t vertices, bool curves = false) {
   if (curves) return 2;
   return vertices <= 20000 ? 16 : (vertices <= 300000 ? 8 : 4);
@@ -40,7 +41,7 @@ template <class... All>
 unsigned kinds_of(KindList<All...>, const RestState& rest) {
   return ((at_rest<All>(rest).elements().empty() ? 0u : All::asked) | ...);
 }
-/// Returns the kinds whose vertices have few elements.
+/// Returns the kinds whose vertices have few elements, one bit each.
 template <class... All>
 constexpr unsigned curves(KindList<All...>) {
   return ((All::is_curve ? All::asked : 0u) | ...);
@@ -55,10 +56,11 @@ inline unsigned asked_of_sum(const RestState& rest, const compare::Scene& scene)
          (usual_models ? 0u : asks_any_model) | (rest.activation == ContactActivation::ogc ? 0u : asks_any_activation);
 }
 
-/// Launches a team of `lanes` team lanes for each of `count` vertices of a colour.
+/// Updates `count` vertices of a colour, each by a team of `lanes` team lanes.
 template <class Backend, class Sum>
 void update_vertices(Backend& backend, int lanes, int count, const UpdateVertex<Sum>& kernel, Start start);
-/// Launches a team for each slot. The number of lanes is fixed, because no position depends on these sums.
+/// Measures the force on the vertex of each slot, each by a team. The number of lanes is fixed, because no position
+/// depends on these sums.
 template <class Backend>
 void measure_vertices(Backend& backend, int slots, const MeasureVertex<GatherAll>& kernel);
 
@@ -127,8 +129,8 @@ class Sweep {
   CopyContactRows<Item> contact_rows(const int* incidence_offsets, const Item* incidences, const int* overflow) {
     return {incidence_offsets, incidences, overflow, vertices(), contact_rows_.data()};
   }
-  /// Returns the functor that writes the contact stream as incidences get their places. `previous`: the positions of
-  /// the detection.
+  /// Returns the functor that writes a contact to the place of its incidence in the contact stream. `previous`: the
+  /// positions of the detection.
   ResolveContact resolve_contact(const ContactView& view, const Vec* previous) {
     return {view, tables(previous), colour_.data(), contacts_.data()};
   }

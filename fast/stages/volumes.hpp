@@ -1,5 +1,5 @@
 // Holds the memory of a scene's volumes (§3.9; fast/kernels/volumes/), their trees and their contacts, and launches
-// their kernels. A scene without volumes has neither.
+// their kernels. Without volumes, the memory is empty and nothing is launched.
 #pragma once
 
 #include <algorithm>
@@ -95,7 +95,7 @@ struct VolumeAskers {
   const StepControl* control;  ///< if it is not active, no vertex is tested
 };
 
-/// Holds the resident volumes of one scene. If there are no parts, there are no volumes, and its functions do nothing.
+/// Holds the resident volumes of one scene. If the scene has no volumes, the functions do nothing.
 template <class Backend>
 class Volumes {
  public:
@@ -184,7 +184,7 @@ class Volumes {
     stream.corner_capacity = corner_capacity_;
     return stream;
   }
-  /// Returns data of the contacts that the stream does not have.
+  /// Returns the data of the contacts that the stream does not contain, at the same places.
   const FoundVolumeContact* found() const { return found_.data(); }
   /// Return, by row, the tested vertex, and the number of sheets without a path to the boundary (null if there are no
   /// solids). Both are on the backend.
@@ -193,7 +193,7 @@ class Volumes {
   /// Returns the number of rows of contacts; 0 if there are no volumes.
   int rows() const { return is_used() ? rows_ : 0; }
 
-  /// Counts contacts into the control, at the end of a step.
+  /// Adds the numbers of contacts to the control's counters, at the end of a step.
   void count(Backend& backend, float contact_radius, StepControl* control) const {
     backend.for_each(rows(), CountVolumeContacts{counts_.data(), found_.data(), unresolved_.data(), capacity_,
                                                  contact_radius, control});
@@ -207,7 +207,8 @@ class Volumes {
     if (longest[0] > capacity_) reserve(longest[0]);
     if (longest[1] > corner_capacity_) reserve_corners(longest[1]);
   }
-  /// Returns the numbers of contacts that fit in a row: of a tested vertex, and, if volumes are free, of a corner.
+  /// Returns how many contacts fit in the row of a tested vertex and, if volumes are free, in the row of a corner of
+  /// their facets.
   std::vector<std::int64_t> capacities() const {
     if (!is_used()) return {};
     if (!has_free()) return {capacity_};
@@ -249,7 +250,7 @@ class Volumes {
   static constexpr int usual_capacity = 4;
   /// A vertex is a corner of about six triangles; each of them may have contacts with several vertices.
   static constexpr int usual_corner_capacity = 16;
-  /// A corner's code needs two bits for the role.
+  /// A corner's code is the place of a contact and two bits for the role.
   static constexpr std::int64_t most_places = (std::int64_t{1} << 29) - 1;
 
   template <bool has_solids>

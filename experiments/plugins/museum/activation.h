@@ -1,5 +1,5 @@
-// The right contact energies over distance, for the exhibits that get one thing of them wrong: as in
-// ../examples/activation.cpp, with the coefficient of the logarithm given.
+// The correct contact energies over distance, as in ../examples/activation.cpp; the coefficient of the logarithm is a
+// parameter. Exhibits of the museum (plug-ins with one deliberate mistake) include this file and change one thing.
 #ifndef OGC_MUSEUM_ACTIVATION_H
 #define OGC_MUSEUM_ACTIVATION_H
 

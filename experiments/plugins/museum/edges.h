@@ -1,4 +1,5 @@
-// The closest points of two edges, in double, for the exhibits that get one thing of them wrong.
+// The correct closest points of two edges, in double. Exhibits of the museum (plug-ins with one deliberate mistake)
+// include this file and change one thing.
 #ifndef OGC_MUSEUM_EDGES_H
 #define OGC_MUSEUM_EDGES_H
 

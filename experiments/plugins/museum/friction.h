@@ -1,4 +1,5 @@
-// Lagged friction of a contact, in double, for the exhibit that gets one thing of it wrong.
+// The correct lagged friction of a contact, in double. An exhibit of the museum (a plug-in with one deliberate mistake)
+// includes this file and changes one thing.
 #ifndef OGC_MUSEUM_FRICTION_H
 #define OGC_MUSEUM_FRICTION_H
 
@@ -59,7 +60,7 @@ inline double push(const ogc_contact_force_case& c, double d) {
   }
 }
 
-// Writes the answer; `off_diagonal` replaces the zeros beside the diagonal of the identity, from which n nT is taken.
+// Writes the answer. `off_diagonal` replaces the zeros of the identity in the projection I - n nT.
 inline void answer(const ogc_friction_force_case& c, double off_diagonal, ogc_vec3& force, float* block) {
   const ogc_contact_force_case& contact = c.contact;
   const int count = contact.sides == OGC_POINT_POINT ? 2 : contact.sides == OGC_POINT_EDGE ? 3 : 4;

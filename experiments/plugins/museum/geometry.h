@@ -1,4 +1,4 @@
-// Distances in double, for the exhibits that get one thing of them wrong.
+// Correct distances in double. Exhibits of the museum (plug-ins with one deliberate mistake) include this file.
 #ifndef OGC_MUSEUM_GEOMETRY_H
 #define OGC_MUSEUM_GEOMETRY_H
 
@@ -27,7 +27,8 @@ inline double place_on(Vec p, Vec a, Vec b) {
   return squared > 0 ? std::clamp(dot(p - a, b - a) / squared, 0.0, 1.0) : 0;
 }
 
-// Returns a number of single precision that is surely not above d, which is known to 1e-7 of `size`; never negative.
+// Returns a number of single precision that is certainly not above d, and never negative. d has an error of 1e-7 of
+// `size`.
 inline float below(double d, double size) {
   const double low = d - 4e-7 * std::max(d, size);
   return low > 0 ? std::nextafter(float(low), 0.0f) : 0;

@@ -1,4 +1,5 @@
-// The right force and block of a spring's end, in double, for the exhibits that get one thing of them wrong.
+// The correct force and block of a spring's end, in double. Exhibits of the museum (plug-ins with one deliberate
+// mistake) include this file and change one thing.
 #ifndef OGC_MUSEUM_SPRING_H
 #define OGC_MUSEUM_SPRING_H
 

@@ -1,4 +1,5 @@
-// The closest point of a triangle, in double, for the exhibits that get one thing of it wrong.
+// The correct closest point of a triangle, in double. Exhibits of the museum (plug-ins with one deliberate mistake)
+// include this file and change one thing.
 #ifndef OGC_MUSEUM_TRIANGLE_H
 #define OGC_MUSEUM_TRIANGLE_H
 
@@ -35,8 +36,8 @@ inline Weights on_edge(Vec p, const Vec* t, int k) {
 
 inline Vec point(const Vec* t, const Weights& w) { return w.of[0] * t[0] + w.of[1] * t[1] + w.of[2] * t[2]; }
 
-// Returns the weights on the nearest edge if the foot, of weights `w`, is not inside. An edge that the foot lies beyond
-// comes before its ends, whose distances may be equal but for a rounding.
+// Returns the weights on the nearest edge if the foot, of weights `w`, is not inside the triangle. An edge whose outer
+// side has the foot takes precedence: the distance to one of its ends may be equal up to rounding.
 inline Weights on_nearest_edge(Vec p, const Vec* t, const Weights& w) {
   Weights best;
   double nearest = INFINITY;

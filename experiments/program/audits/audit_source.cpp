@@ -41,7 +41,7 @@ class RunSource : public AuditSource {
     return {name(next_++), topology_, compare::to_double(frame.positions), {}, {}, judge_.names(), ""};
   }
   void judge(AuditedState& state) const override {
-    // exact: frames are stored in single precision
+    // This conversion is exact, because frames are stored in single precision.
     const std::vector<compare::Vec3f> stored = compare::to_single(state.positions);
     state.result = judge_.audit(stored, limit_);
     state.distances = judge_.smallest_distances(stored);

@@ -35,7 +35,7 @@ struct Options {
   bool between = false;           ///< also check the straight ways between states
 };
 
-/// Largest number of states with a file of their own; further states would show much the same.
+/// Largest number of states for which --show writes a file. Further states would show much the same.
 constexpr std::size_t most_shown = 8;
 
 struct State {
@@ -272,7 +272,8 @@ std::string unseen_curves(const std::vector<State>& states) {
          "--audit-meetings)";
 }
 
-/// Returns what the printed digits leave undecided in the first such file; empty if there is none.
+/// Describes what the printed digits of files leave undecided: in words for the first such state, then the number of
+/// further states. Empty if there is none.
 std::string in_doubt(const std::vector<State>& states) {
   const auto has = [](const State& state) { return !state.doubt.empty(); };
   const auto first = std::ranges::find_if(states, has);

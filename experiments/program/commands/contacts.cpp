@@ -22,7 +22,7 @@ namespace {
 
 /// Default of r_q in multiples of r: the ratio at which Settings caps it.
 constexpr double default_query_ratio = 4;
-/// Limits of r as in settings, and of r_q, whose limit in settings is a multiple of r.
+/// Limits of r [m], which equal the limits of the setting, and limit of r_q [m], which as a setting is a multiple of r.
 constexpr double least_radius = 0x1p-20, most_radius = 0x1p20, most_query_radius = 0x1p30;
 /// Default of r in edge lengths. The paper's cloth scenes lie between a fifth of an edge (twist) and a whole edge
 /// (large_radius_twist).

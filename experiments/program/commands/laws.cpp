@@ -30,9 +30,9 @@ void check(const Options& options) {
   if (!device.usable) throw compare::ResourceError("--backend cuda: " + device.description);
 }
 
-/// Returns the solvers that the options select. Without options: vbd on the CPU with both bounds, newton, ipc.
-/// --backend selects vbd alone. For newton balls suffice if no bounds are named, because bounds change the iterates of
-/// newton but not the resulting motion.
+/// Returns the solvers and bounds that the options select. Without options: vbd on the CPU with balls and with planes,
+/// newton, ipc. --backend selects vbd alone. If no bounds are named, newton runs with balls only, because bounds change
+/// its iterates but not the resulting motion.
 std::vector<LawAsked> asked_by(const Options& options) {
   check(options);
   const auto is_asked = [&](const char* solver) {

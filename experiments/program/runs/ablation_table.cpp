@@ -103,8 +103,8 @@ const std::array<StepMetric, 21>& step_metrics() {
   return metrics;
 }
 
-/// Metrics of the residual that each step leaves, with the contacts of its last detection: the last row of each step in
-/// iterations.csv.
+/// Metrics of the residual at the end of each step, computed with the contacts of the step's last detection. They are
+/// read from the last row of each step in iterations.csv.
 constexpr std::array stale_residuals{Metric{"median_stale_residual", "1"}, Metric{"largest_stale_residual", "1"}};
 
 /// Returns the values of `stale_residuals`; not-a-number if the run has no such rows.

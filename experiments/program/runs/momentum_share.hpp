@@ -20,8 +20,8 @@ class MomentumShare {
   /// Remembers that the step after `step` begins with these velocities [m/s].
   void begin_after(std::int64_t step, const std::vector<compare::Vec3f>& velocities);
   /// Returns ‖Σ m (x − y)‖ / Σ m ‖y − xᵗ‖ after the guess loop. It is at most 1 unless moving bodies drag vertices
-  /// along. Empty if the start of the row's step is not known. Also empty if the guess loop did not do all its rounds,
-  /// because contacts then ended the loop and return what it lost.
+  /// along. Empty if the start of the row's step is not known. Also empty if the guess loop did not do all its rounds:
+  /// then contacts took the motion, and their forces give it back in the sweeps.
   std::optional<double> lost(const compare::StepMetrics& row) const;
 
  private:

@@ -38,7 +38,7 @@ std::int64_t frame_steps(const compare::Settings& settings) {
 
 RunRequest checked(RunRequest request) {
   compare::round_to_single(request.scene);
-  // A scene from a file has no dust left. Dust in the positions of a stored frame is kept.
+  // A scene from a file contains no dust (tiny numbers in place of 0). Dust in the positions of a stored frame is kept.
   if (const std::string dust = describe(clear_dust(request.scene)); !dust.empty())
     log_line("ogc: " + request.scene.name + ": " + dust);
   const std::string problems = compare::describe(
@@ -206,7 +206,7 @@ RunSummary RunSession::run() {
   return summary_;
 }
 
-/// Returns the number of steps until the next frame, audit, end or pause. Pauses change no bit.
+/// Returns the number of steps until the next frame, audit, end or pause. A pause changes no bit of the results.
 std::int64_t RunSession::chunk() const {
   const std::int64_t to_state = request_.audit == AuditMode::every ? 1 : frame_steps_ - step_ % frame_steps_;
   return std::min({to_state, settings_.steps - step_, pace_.steps()});
@@ -254,11 +254,11 @@ bool RunSession::one_chunk() {
   const std::string broken = rows.empty() ? "the simulation did no step; please report it" : step_failure(rows.back());
   if (broken.empty()) {
     step_ = rows.back().step;
-    // A checkpoint offers no state while another state waits for its verdict; that state is saved when its verdict
-    // arrives.
+    // If another state still waits for its verdict, the state of a due checkpoint is not offered. The other state is
+    // saved when its verdict arrives.
     if (is_planned(step_) || (is_checkpoint_due() && offered_.empty())) offer_state(any_step);
   } else if (!rows.empty()) {
-    // A failed step may or may not be committed, so its own state is not offered.
+    // A failed step may or may not be committed, so the state after it is not offered.
     offer_state(rows.back().step);
   }
   collect(auditor_->take());
@@ -273,7 +273,8 @@ void RunSession::offer_state(std::int64_t before) {
   step_ = snapshot.step;
   if (step_ <= offered_step_ || step_ >= before || !finite(snapshot)) return;
   offered_step_ = step_;
-  // Only at frames: an interrupted run has the same frames, so both report the same loss.
+  // The loss of momentum is measured only in steps after a frame. An interrupted run has the same frames as an
+  // uninterrupted one, so both report the same loss.
   if (is_frame(step_)) momentum_.begin_after(step_, snapshot.velocities);
   offer(std::move(snapshot));
 }
@@ -306,7 +307,7 @@ void RunSession::count(const std::vector<StepMetrics>& rows) {
     summary_.largest_share_cut = std::max(summary_.largest_share_cut, row.share_cut);
     summary_.largest_lag = std::max(summary_.largest_lag, row.largest_lag);
     summary_.most_unresolved = std::max(summary_.most_unresolved, row.depth_unresolved);
-    // larger than all floats if no vertex has a bound, as in scenes with only volumes
+    // The smallest distance is larger than all floats if no vertex has a bound, as in scenes with only volumes.
     if (row.smallest_distance < double{std::numeric_limits<float>::max()})
       summary_.smallest_distance = std::min(summary_.smallest_distance, row.smallest_distance);
     if (row.status & (compare::step_bound_violated | compare::step_met)) summary_.guarantee_kept = false;

@@ -115,9 +115,9 @@ std::string guarantee_text(const RunSummary& summary);
 /// Runs one simulation and writes its folder.
 class RunSession {
  public:
-  /// Checks the scene, the folder and the start. A run that continues was checked by resumed_run, and its state before
-  /// it was stored. Throws compare::InputError for an invalid scene, an unusable folder, or intersections at the start,
-  /// which the message lists.
+  /// Checks the scene, the folder and the start. If a run continues, resumed_run has checked the folder, and the state
+  /// of the checkpoint was audited before it was stored. Throws compare::InputError for an invalid scene, an unusable
+  /// folder, or intersections at the start, which the message lists.
   RunSession(RunRequest request, compare::Contestant contestant);
   RunSession(const RunSession&) = delete;
   RunSession& operator=(const RunSession&) = delete;

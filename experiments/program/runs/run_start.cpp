@@ -96,7 +96,8 @@ std::string RunSession::show(const std::string& name, const Snapshot& state, con
   return where + "\n" + show_offenders(request_.show, name, result, topology, positions);
 }
 
-/// Finds the pairs of the start. If a run continues, its frames then close those pairs that have separated.
+/// Finds the pairs of vertices whose faces intersect at the start. If a run continues, reads its frames and closes the
+/// pairs that have separated there.
 void RunSession::name_pairs() {
   if (!request_.resume) {
     pairs_.emplace(request_.scene, start_.positions);
@@ -135,7 +136,7 @@ void RunSession::start_simulation() {
                                    .condition = request_.condition});
 }
 
-/// Closes the pairs that have separated at this frame. Their faces are held apart from the next step on.
+/// Closes the pairs that have separated at this frame. From the next step on, bounds prevent their faces from meeting.
 void RunSession::close_pairs() {
   const Snapshot now = simulation_->snapshot();
   if (pairs_->close_apart(now.positions)) {

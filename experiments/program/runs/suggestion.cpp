@@ -1,4 +1,4 @@
-// For each suggested number a function solves a condition, then rounds to the safe side.
+// Suggests settings for a mesh. For each number a function solves a condition and rounds the solution to the safe side.
 #include "experiments/program/runs/suggestion.hpp"
 
 #include <algorithm>
@@ -19,11 +19,12 @@ namespace {
 using compare::Vec3;
 
 constexpr double gravity = 9.81;  ///< [m/s²]
-/// An edge over r. The paper's cloths have an r between a fifth of an edge (twist) and a whole edge.
+/// Edge length divided by the suggested r. The paper's cloths have an r between a fifth of an edge (twist) and a whole
+/// edge.
 constexpr double edges_a_radius = 4;
-/// An edge over the smallest r. Thinner contacts are below the resolution of any mesh.
+/// Edge length divided by the smallest r. Thinner contacts are below the resolution of any mesh.
 constexpr double least_edges_a_radius = 20;
-/// Largest r_q over r, because lists of candidates grow with its square.
+/// Largest r_q divided by r, because lists of candidates grow with the square of r_q.
 constexpr double most_radii = 16;
 constexpr double weights_held = 10;         ///< number of layers whose weight presses a contact to half of its radius
 constexpr double detections_a_step = 4;     ///< largest number of detections in a step at the speed of the fall

@@ -71,8 +71,8 @@ std::string radius_warning(const compare::Scene& scene) {
          " m, one edge, or a coarser mesh (ogc suggest says more)";
 }
 
-/// Warns if a step may leave out all that gravity changes. A body at rest and a body that begins to slide then look
-/// alike.
+/// Warns if the tolerance lets IPC end a step in which a vertex still moves at a larger speed than gravity adds in the
+/// step. A body at rest and a body that should begin to slide then look alike.
 std::string tolerance_warning(const compare::Scene& scene, Solver solver) {
   if (solver != Solver::ipc) return "";
   const double speed = reference::ipc_end_speed(scene), gained = length(scene.gravity) * scene.settings.time_step;

@@ -1,10 +1,10 @@
-// Holds the elements of a scene at rest, by kind, made once on the host in double and rounded once. Each kind defines
-// in a file of this folder:
+// Holds the elements of a scene at rest, by kind. They are made once on the host in double and rounded once. Each kind
+// defines in a file of this folder:
 //
 //   elements, rest_beside        its elements, and the data that some models read beside them (RestBeside)
 //   add(build)                   adds the elements of a scene, and their masses
-//   add(in, out)                 adds the elements with the numbers of an answer to the judge
-//   give                         writes the elements in the form that the judge asks for
+//   add(in, out)                 adds the elements whose numbers a contestant answered to the judge
+//   give                         writes the elements in the judge's format
 //   reads_beside, beside         whether a model of the scene reads data beside an incidence; these data (Beside)
 //   damps                        whether an element is damped
 //   by_body                      constants by body (ByBody)

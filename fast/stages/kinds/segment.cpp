@@ -42,7 +42,8 @@ RestFrame turn_between(const RestVector& a, const RestVector& b) {
 /// The segments that meet at a vertex, each with the number of its end at this vertex.
 using Ends = std::vector<std::pair<int, int>>;
 
-/// Finds neighbours, and frames along the walks of compare/stages/rest_state.hpp.
+/// Finds the neighbours of segments. Computes their rest frames by walks along the rods, which
+/// compare/stages/rest_state.hpp defines.
 class Walks {
  public:
   Walks(const std::vector<SegmentRest>& segments, std::vector<RestVector> directions, std::size_t vertices)
@@ -64,7 +65,7 @@ class Walks {
 
   int neighbour(int e, int end) const { return neighbours_[at(e)][at(end)]; }
   const RestFrame& frame(int e) const { return frames_[at(e)]; }
-  /// Returns p° of the segment and its neighbour across that end, as seen from the segment.
+  /// Returns p°, the rotation at rest between the frames of segment e and of its neighbour at `end`.
   RestFrame relative(int e, int end) const {
     const RestFrame &own = frame(e), &other = frame(neighbour(e, end));
     return end == 1 ? conjugate(own) * other : conjugate(other) * own;
@@ -98,7 +99,7 @@ class Walks {
   std::vector<bool> is_set_;
 };
 
-/// Returns ends, materials, bodies and motions, which do not depend on the rest shape.
+/// Returns the rods' data that do not depend on the rest shape: ends, materials, bodies and motions.
 RodsAtRest without_shape(const compare::Scene& scene) {
   const std::vector<compare::Index> numbers = compare::rod_segments(scene), bodies = compare::body_of_vertex(scene);
   RodsAtRest rods;

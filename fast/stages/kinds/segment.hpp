@@ -22,10 +22,10 @@ struct RodsAtRest {
 /// ends [kg].
 RodsAtRest rods_at_rest(const compare::Scene& scene, std::vector<double>& mass);
 
-/// Returns the segments in the form that the judge asks for.
+/// Returns the segments in the judge's format.
 std::vector<compare::RestSegment> rest_segments(const RodsAtRest& rods);
 
-/// Returns rods with the numbers of an answer to the judge.
+/// Returns the scene's rods with the numbers of `segments`, which a contestant answered to the judge.
 RodsAtRest rods_of(const compare::Scene& scene, const std::vector<compare::RestSegment>& segments);
 
 template <>

@@ -14,7 +14,7 @@ struct AtRest<TetrahedronKind> : PlainAtRest<TetrahedronKind> {
   void add(const RestBuild& build);
   void add(const compare::RestStateIn& in, const compare::RestStateOut& out);
   void give(compare::RestStateOut& out) const;
-  /// Damping reads the gradients.
+  /// Returns whether a solid is damped, because only damping reads the gradients.
   bool reads_beside(const RestShared&) const {
     for (const SolidMaterial& solid : solids)
       if (solid.damping > 0) return true;

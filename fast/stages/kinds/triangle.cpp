@@ -6,7 +6,7 @@ namespace ogc::fast {
 
 namespace {
 
-// Computes ∇N₀ from the stored ∇N₁ and ∇N₂. An answer to the judge has only these two.
+// Computes ∇N₀ from the stored ∇N₁ and ∇N₂. A contestant's answer to the judge contains only these two.
 void complete_gradient(TriangleRest& triangle) {
   for (int axis = 0; axis < 2; ++axis)
     triangle.gradient[0][axis] = -(triangle.gradient[1][axis] + triangle.gradient[2][axis]);

@@ -1,5 +1,5 @@
-// Tests clear balls, within which no vertex queries a driven volume again (fast/kernels/volume_depth.hpp). Every point
-// in a clear ball is far from the part, whatever the shape of the part.
+// Tests clear balls (fast/kernels/volume_depth.hpp). A vertex in a clear ball is not tested against a driven volume
+// again. So every point in a clear ball must be far from the part, whatever the shape of the part.
 #include <cmath>
 #include <random>
 #include <vector>
@@ -50,7 +50,7 @@ Shape ball(std::mt19937& random, int rings, int columns, float rough) {
   return shape;
 }
 
-/// A part on the CPU that points query.
+/// A part of a volume on the CPU against which points are tested.
 class Asked {
  public:
   Asked(const Shape& shape, float radius)
@@ -86,7 +86,7 @@ struct Counts {
   int far = 0, balls = 0, inside = 0;
 };
 
-/// Tests points in the box of `shape`, and that all points in their clear balls are far.
+/// Tests points in the box of `shape`. Checks that all points in their clear balls are far from the part.
 Counts check(std::mt19937& random, const Shape& shape, float radius) {
   const Asked part(shape, radius);
   std::uniform_real_distribution<float> anywhere(-1.2f, 1.2f), share(0.5f, 1);
@@ -125,7 +125,8 @@ TEST_CASE("whoever is in the clear ball of a point that is far is far, too", "[p
     for (const int rings : {3, 6, 12}) {
       Shape shape = ball(random, rings, 2 * rings, rough);
       const Counts closed = check(random, shape, 0.02f);
-      // with rims, and a point that is inside only by the rule of the nearest face
+      // Without three triangles the surface has rims. Only the nearest face decides whether a point near them is
+      // inside.
       shape.triangles.erase(shape.triangles.begin() + 1, shape.triangles.begin() + 4);
       const Counts open = check(random, shape, 0.02f);
       if (rough == 0.0f) {

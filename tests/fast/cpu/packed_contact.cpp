@@ -50,8 +50,8 @@ TEST_CASE("edges are computed together unless they have no length or count as pa
     unsigned expected = 0;
     const double scale = std::ldexp(1.0, trial % 21 - 10);
     for (int k = 0; k < Pack::width; ++k) {
-      // Squared ratio of the angle's sine to the limit. No ratio is within rounding of 1, and no square is within
-      // rounding of 0.
+      // The squared ratio of the angle's sine to the limit for nearly parallel edges. Rounding changes no ratio from
+      // below 1 to above 1.
       const double share = std::array{0.3, 0.7, 1.4, 1.8, 3.0, 1e4}[random() % 6];
       const D3 start = vector(), first = vector(), aside = cross(first, vector());
       const D3 across = std::sqrt(share * 1e-6 / (1 - share * 1e-6)) * length(first) / length(aside) * aside;

@@ -1,4 +1,4 @@
-// Tests that the limit of a search that collects candidates falls like that of a search that does not.
+// Tests that a search whose candidates are collected lowers its limit like a search that tests each candidate at once.
 #include "fast/cpu/packed_search.hpp"
 
 #include <vector>
@@ -9,8 +9,8 @@ using namespace ogc::fast;
 
 namespace {
 
-/// Replaces a query: primitive i is `apart[i]` from the owner, and sets the search's limit to `limit[i]` when it is
-/// met.
+/// A query with given results: primitive i has the distance `apart[i]` from the owner, and computing the exact distance
+/// (meet) lowers the search's limit to `limit[i]`.
 struct Scripted {
   std::vector<float> apart, limit;
 
@@ -23,7 +23,8 @@ Pack separations(const Scripted& query, const Search&, const int* primitive) {
   return Pack::of_each([&](int k) { return query.apart[static_cast<std::size_t>(primitive[k])]; });
 }
 
-/// Returns the limit after these primitives have been offered. A number k ≥ 100 is primitive k − 100 as an idle one.
+/// Returns the limit after these primitives have been offered. A number k ≥ 100 offers primitive k − 100 as idle
+/// (is_idle).
 float limit_after(const Scripted& query, const std::vector<int>& offered) {
   NotedPair room[1];
   int count = 0;

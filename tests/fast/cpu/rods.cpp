@@ -137,7 +137,7 @@ TEST_CASE("a bent and twisted rod at rest stays, wherever it is turned to, and d
     const Vec3& x = scene.mesh.positions[v];
     worst = std::max(worst, distance(state.positions[v], {x.x + 0.01 * time, x.y - 0.02 * time, x.z + 0.005 * time}));
   }
-  // Rounding errors of 100 steps, at 1 cm from the origin, of segments of 1 mm.
+  // tolerance: rounding errors of 100 steps, for segments of 1 mm at 1 cm from the origin
   CHECK(worst < 1e-6);
   CHECK(rows.back().mean_stretch == Approx(0).margin(1e-4));
 }
@@ -146,7 +146,7 @@ TEST_CASE("a rod that is straight at rest and wound to a circle has the energy o
   for (const int n : {50, 200}) {
     const double radius = 0.02, length = 2 * pi * radius / n;
     compare::Scene scene = rod_scene(straight(n, length));
-    // Chords of `length` in a circle that is slightly larger.
+    // Segments of `length` are chords, so n of them are slightly more than a whole circle.
     const double chord = 2 * std::asin(length / (2 * radius));
     for (int k = 0; k <= n; ++k) {
       const double t = chord * k - pi;

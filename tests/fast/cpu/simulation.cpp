@@ -87,7 +87,7 @@ TEST_CASE("a cloth far from everything falls as -g h^2 n(n+1)/2 until the guess 
     followed = g * h * n;
   }
   CHECK(capped);
-  // gamma_p times an edge of about 11 mm, in 16 rounds of a step of 1/100 s
+  // The speed [m/s] that bounds allow: γ_p times an edge of about 11 mm, in each of 16 rounds of a step of 1/100 s.
   CHECK(followed > 3.0);
   CHECK(followed < 16 * 0.45 * 0.012 / h);
 }
@@ -176,7 +176,7 @@ TEST_CASE("the smallest distance of a row is that of the last detection, whateve
     const compare::StepMetrics near = run(scene, 1).rows.at(0);
     REQUIRE(near.discrete_detections == 1);  // made at the start; no vertex leaves its bound later
     // The gap is rounded to single precision, the distance is lowered by its error bound, and the bound is rounded
-    // down: about ten u.
+    // down: about ten times 2⁻²⁴.
     CHECK(near.smallest_distance == Approx(gap).epsilon(32 * 0x1p-24));
     for (std::size_t v = 0; v < 36; ++v) scene.mesh.positions[v].y = 0.5;
     const compare::StepMetrics far = run(scene, 1).rows.at(0);

@@ -86,7 +86,8 @@ TEST_CASE("a sheet that falls on a volume comes to rest r above it, less what it
   for (const compare::StepMetrics& row : simulation->advance(150)) CHECK(row.status == compare::step_clean);
   const compare::Snapshot state = simulation->snapshot();
   const auto [low, high] = heights(state, 64);
-  // 0.2 kg/m² on (0.1/7)² m² a vertex, twice that for a vertex of eight triangles, compresses 100 N/m by at most 8 µm.
+  // A vertex weighs 0.2 kg/m² times (0.1/7)² m², or twice as much if it has eight triangles. This weight compresses a
+  // contact of 100 N/m by at most 8 µm.
   CHECK(low > 0.005f - 1e-5f);
   CHECK(high < 0.005f + 1e-5f);
   CHECK(penetration(scene, state).vertices_inside == 0);
@@ -183,7 +184,8 @@ TEST_CASE("a driven volume is at its targets, and carries along what lies on it"
 }
 
 TEST_CASE("without friction a driven volume slides away below what lies on it", "[unit]") {
-  // compared with a volume at rest; the difference comes from roundings of the triangles' points
+  // The same sheet on a volume at rest, for comparison. The difference comes from rounding errors of the triangles'
+  // points.
   const auto velocities = [](bool is_driven) {
     Scene scene = sheet_over_box(0.0049, 0);
     if (is_driven) drive(scene, {0.2, 0, 0});
@@ -213,8 +215,8 @@ TEST_CASE("two sheets on a volume that rises fast never pass through each other"
   }
 }
 
-// The layers' 98 vertices alone never cause a detection, as γ_e K = 1,122 vertices must be cut. Their balls are 0.045
-// mm a detection, and the box rises 5 mm a step.
+// γ_e K = 1,122 vertices must be cut to cause a detection, but the layers have only 98. Their bounds allow 0.045 mm
+// between two detections, and the box rises 5 mm a step.
 TEST_CASE("layers that nearly touch are not left deep inside a volume that rises into them, whatever else is not cut",
           "[property]") {
   Scene scene = empty_scene();

@@ -50,7 +50,7 @@ TEST_CASE("closest_points: hand cases", "[unit]") {
   CHECK(features({1, 1, 0}, {2, 5, 0}) == std::pair{EdgeFeature::interior, EdgeFeature::end_0});
   CHECK(features({6, -1, 0}, {6, 1, 0}) == std::pair{EdgeFeature::end_1, EdgeFeature::interior});
   CHECK(features({5, 1, 0}, {9, 1, 0}) == std::pair{EdgeFeature::end_1, EdgeFeature::end_0});
-  // on the end plane the end is closest
+  // A point on the plane at an end, normal to the edge, is closest to the end.
   CHECK(features({4, 1, 0}, {4, 5, 0}) == std::pair{EdgeFeature::end_1, EdgeFeature::end_0});
   CHECK(features({-9, 3, 0}, {-3, 4, 0}) == std::pair{EdgeFeature::end_0, EdgeFeature::end_1});
   CHECK(edge_edge_distance(x_axis, {{-9, 3, 0}, {-3, 4, 0}}).value == 5);

@@ -64,7 +64,7 @@ TEST_CASE("closest points of the closed faces satisfy the conditions of a minimu
         const int side = sides[static_cast<int>(kind)][k];
         total[side] += w.slot[k];
         REQUIRE((side == 0 ? w.slot[k] == 0 : side == 1 ? w.slot[k] >= 0 : w.slot[k] <= 0));
-        // By convexity no vertex of a side is nearer, along the gap, to the other side's closest point than the side's
+        // A side is convex. So, measured along the gap, no vertex of a side is nearer to the other side than the side's
         // own closest point.
         const double nearer = dot(gap, (wide(p.x[k]) - wide(p.x[0])) - (side == 1 ? first : second)) *
                               (side == 1 ? -1 : 1);
@@ -104,7 +104,8 @@ TEST_CASE("normal and distance are those of the gap between the weighted points"
       D3 first, second;
       closest(kind, p, w, first, second);
       const ContactShape shape = contact_shape(weighted_sum(w, p.x), 0.02f);
-      // Slot 0 gets minus the sum of the other weights, which errs by 4 u, times the size.
+      // The weight of slot 0 is minus the sum of the other weights, which errs by 4 u (u = 2⁻²⁴). The gap errs by this
+      // times the size.
       const double error = 16 * u * p.size;
       REQUIRE(std::abs(shape.distance - length(first - second)) <= error);
       REQUIRE(length(static_cast<double>(shape.distance) * wide(shape.normal) - (first - second)) <= 2 * error);

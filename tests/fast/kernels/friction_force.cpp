@@ -34,7 +34,7 @@ TEST_CASE("friction is tangential, opposes the slip and never exceeds mu lambda"
                       Vec{normal(random), normal(random), normal(random)};
     const D3 f = wide(of(n, moved).force), tangential = wide(moved) - dot(wide(n), wide(moved)) * wide(n);
     const double size = friction * normal_force;
-    // Subtracting the normal part costs the slip 3 u of the movement.
+    // The slip errs by 3 u (u = 2⁻²⁴) of the movement, from which the normal part is subtracted.
     REQUIRE(std::abs(dot(f, wide(n))) <= 12 * u * size * length(moved) / std::max(length(tangential), 1e-12));
     REQUIRE(dot(f, tangential) <= 0);
     REQUIRE(length(f) <= size * (1 + 8 * u));

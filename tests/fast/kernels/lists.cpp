@@ -73,7 +73,7 @@ struct SmallLists {
   static std::vector<int> zeros(int n) { return std::vector<int>(static_cast<std::size_t>(n)); }
 };
 
-/// By bucket and second face of each contact: its lowest-numbered edges.
+/// Maps bucket and second face of each contact to its lowest-numbered edges.
 using KeptContacts = std::map<std::array<int, 2>, std::array<int, 2>>;
 
 KeptContacts kept(const std::vector<RawContact>& contacts) {
@@ -250,7 +250,8 @@ TEST_CASE("contacts beyond the capacity are counted once each, and nothing is wr
   small.scan();
   CHECK(small.record_offsets.back() == capacity);
   CHECK(small.incidence_offsets.back() == 3 * capacity);
-  // FillBuckets runs beside CheckCapacity, here before it
+  // A detection launches FillBuckets and CheckCapacity at once, so FillBuckets may not see the overflow flag that
+  // CheckCapacity sets. Here it runs without this flag.
   for (int i = 0; i < capacity; ++i) FillBuckets{lists, SmallLists::vertices}(i);
   CHECK(std::accumulate(small.record_filled.begin(), small.record_filled.end(), 0) == capacity);
 }

@@ -52,8 +52,8 @@ float rung(std::mt19937& random) {
   return random() % 2 == 0 ? size : -size;
 }
 
-/// Returns rods of unit steps on a lattice, each step changed by a rung, with or without a sheet. They have right
-/// angles, half turns, parallel and straight parts, and ends above ends.
+/// Returns rods of unit steps on a lattice, with or without a sheet. Each step is changed by ±2⁻ᵏ or 0, so that the
+/// rods have nearly or exactly right angles, half turns, parallel and straight parts, and ends above ends.
 tests::TestMesh rods(std::mt19937& random) {
   tests::TestMesh mesh;
   const auto between = [&](int low, int high) {

@@ -68,8 +68,8 @@ struct Counts {
   int planes = 0, without = 0, wrong = 0, meeting = 0, broken = 0, met = 0, off_way = 0;
 };
 
-/// Returns whether x is between `from` and `to`, with a tolerance for storing x and for three steps of an ulp: 4 u of
-/// each coordinate.
+/// Returns whether x is between `from` and `to`. The tolerance is 8 · 2⁻²⁴ of the largest coordinate along each axis:
+/// storing x and three steps by one unit in the last place.
 bool is_on_way(const Vec& from, const Vec& to, const Vec& x) {
   const auto wide = [](const Vec& a) { return Vector<double>{a.x, a.y, a.z}; };
   const Vector<double> way = wide(to) - wide(from), gone = wide(x) - wide(from);
@@ -170,7 +170,7 @@ TEST_CASE("plane: approach along the normal divides the gap, with a sixteenth fo
   const PairPoints<1, 3> pair{{{0, 0, 0}}, {{-1, -1, 1}, {1, -1, 1}, {0, 2, 1}}, false, false};
   const auto room_of_first = [&](const ByApproach<1, 3>& w) {
     const PairPlane plane = ogc::fast::plane_of(pair, 1, share, w);
-    // the room of both sides together
+    // Both sides together may move by 2 γ_p times the distance of 1 m.
     CHECK(plane.first + (1 - plane.second) == Approx(2 * static_cast<double>(share)));
     return plane.first / (2 * static_cast<double>(share));
   };
@@ -204,7 +204,7 @@ TEST_CASE("plane: as near as the closest points, and no less room than a ball of
     double extent = 0;
     for (const Vec& x : pair.first)
       for (const Vec& y : pair.second) extent = std::max(extent, norm_1(difference<Rounded>(x, y)));
-    // Stored in single precision, n is rotated by 2⁻²⁴, and projections on it change by this share of the extent.
+    // In single precision n is rotated by 2⁻²⁴, and projections on n change by this share of the extent.
     if (!plane.exists() || d < 0x1p12 * slack || d < 0x1p-12 * extent) return;
     ++planes;
     // o₂ − o₁ is (1 − 2γ_p) times the gap, and the gap is the distance.

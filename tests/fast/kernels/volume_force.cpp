@@ -70,8 +70,8 @@ TEST_CASE("the normal force of a volume is minus the slope of k/2 (r - phi)^2, i
     for (int role = 0; role < 4; ++role) {
       const D3 difference = wide(of(p, role, 0).force) -
                             force_by_differences(energy, wide_points(p), static_cast<std::size_t>(role), 1e-6);
-      // φ is a sum of products of lengths of at most 0.1 m: an error of 8 u, times k. Differences are exact for a
-      // parabola.
+      // φ is a sum of products of lengths of at most 0.1 m, so it errs by 8 u (u = 2⁻²⁴), and the force by k times
+      // this. Differences are exact for a parabola.
       REQUIRE(length(difference) <= 20 * (16 * u * 0.2 + 1e-9));
     }
   }
@@ -112,7 +112,7 @@ TEST_CASE("forces of a contact with a volume add up to nothing, and blocks are p
       size += length(at.force);
       REQUIRE(least_curvature(at.block, random) >= -8 * u * (at.block.xx + at.block.yy + at.block.zz));
     }
-    // weights add up to 1 within 2 u, each force is rounded a few times
+    // The weights' sum is 1 up to 2 · 2⁻²⁴, and each force is rounded a few times.
     REQUIRE(length(sum) <= 8 * u * size);
   }
 }

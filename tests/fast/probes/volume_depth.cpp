@@ -162,8 +162,8 @@ TEST_CASE("in a body of tetrahedra the depth is r at the surface, and that of th
 
 TEST_CASE("each sheet of a body that lies in itself has its own contact, and none a way through what is inside out",
           "[unit]") {
-  // The middle cell is inside out. Both other cells contain x = 2.5; their nearest layers, at 3 and at 2, are no
-  // boundary.
+  // The middle cell is inside out. Both other cells contain x = 2.5. The layers nearest to this point, at 3 and at 2,
+  // are not part of the boundary.
   const Row row({0, 3, 2, 5});
   const auto out = row.ask({{2.5f, 1, 0.75f}, {1, 1, 0.75f}}, 0.25f);
   REQUIRE(out.contacts.size() == 3);

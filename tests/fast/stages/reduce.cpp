@@ -10,7 +10,7 @@ using namespace ogc::fast;
 
 namespace {
 
-/// Sums n items of each of two kinds, each in its own columns.
+/// Two kinds of n items each, which are added in columns 0 and 2.
 struct TwoKinds {
   int n;
   void add(int chunk, int chunks, double* sum) const {

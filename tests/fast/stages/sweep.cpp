@@ -141,7 +141,7 @@ Totals totals(Fixture& f) {
   return sum;
 }
 
-// Each force has about 30 terms of about its own size, with errors of some tens of u each (see the tests of the
+// Each force has about 30 terms of about the force's size, with errors of some tens of 2⁻²⁴ each (see the tests of the
 // energies).
 constexpr double relative_error = 300 * 0x1p-24;
 

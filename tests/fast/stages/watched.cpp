@@ -1,5 +1,5 @@
-// Runs the stages on a backend that observes them: arrays have margins, replays are noted, and positions can be spoiled
-// before a step checks them.
+// Runs the stages on a backend that observes them: arrays have guarded margins, replayed recordings are noted, and a
+// test can spoil positions before a step checks them.
 #include <cstring>
 #include <functional>
 #include <set>

@@ -84,7 +84,8 @@ TEST_CASE("the hinge's angle is that of the half planes, for every role", "[prop
     const float forward = hinge_shape(c.x[1] - c.x[0], c.x[2] - c.x[0], c.x[3] - c.x[0]).angle;
     const float backward = hinge_shape(c.x[0] - c.x[1], c.x[3] - c.x[1], c.x[2] - c.x[1]).angle;
     // Differences of coordinates below 1 m are exact in double, so the test has no input error. The kernel's
-    // differences err by up to u of a coordinate. The remaining error is 12 u of the sine, amplified by the shape.
+    // differences err by up to u = 2⁻²⁴ of a coordinate. The remaining error is 12 u of the sine, amplified by the
+    // shape.
     REQUIRE(std::abs(forward - exact) <= 32 * u * c.conditioning());
     REQUIRE(std::abs(backward - exact) <= 32 * u * c.conditioning());
   }

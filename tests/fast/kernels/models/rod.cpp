@@ -27,7 +27,7 @@ double size(const Quat& q) {
   return std::sqrt(double{q.x} * q.x + double{q.y} * q.y + double{q.z} * q.z + double{q.w} * q.w);
 }
 
-/// Returns ν of the secular equation by bisection.
+/// Returns the root ν of the secular equation (upper/ν)² + (lower/(ν + 2σ))² = 1 by bisection.
 double bisected(double upper, double lower, double sigma) {
   double below = 0, above = upper + lower;
   for (int i = 0; i < 200; ++i) {
@@ -46,7 +46,8 @@ TEST_CASE("quaternions turn as their product says, back as their conjugates do, 
     const Quat q = some_orientation(random);
     const Vec v = some_vector(random);
     const Quat by_product = q * pure(v) * conjugate(q);
-    // two products err by 8 u, the rotation by 14 u, and the length, off by 8 u, enters twice
+    // With u = 2⁻²⁴: two products err by 8 u, the rotation errs by 14 u, and the length, which is off by 8 u, enters
+    // twice.
     REQUIRE(length(turned(q, v) - Vec{by_product.x, by_product.y, by_product.z}) <= 46 * u * length(v));
     REQUIRE(length(turned_back(q, turned(q, v)) - v) <= 44 * u * length(v));
     worst = std::max(worst, std::abs(size(q) - 1));
@@ -67,7 +68,7 @@ TEST_CASE("both ends of a segment feel opposite forces, nothing at rest", "[prop
     REQUIRE(length(first.force + second.force) == 0);
     REQUIRE(first.block.xx == Approx(3 * 1.25 / 0.5));
     add_rod(segment, 0.25f, 1, 0.5f * director(q), q, direction, rest);
-    // each rotation errs by 14 u of 1.25, and lengths are off by 8 u: times k_s
+    // With u = 2⁻²⁴ and times k_s: each rotation errs by 14 u of 1.25, and lengths are off by 8 u.
     REQUIRE(length(rest.force) <= 3 * 1.25 * 60 * u);
   }
 }
@@ -116,7 +117,7 @@ TEST_CASE("a neighbour asks for the frame that stands to its own as at rest, its
         add_neighbour({weight, rest}, is_ahead, k, beside(now), other_start, own_start, now, b);
         return b;
       };
-      // Each product errs by 8 u, normalising by 4 u.
+      // Each product errs by 8 u (u = 2⁻²⁴), normalising by 4 u.
       CHECK(size(sum(0, relative, elsewhere) - weight * now) <= 20 * u * weight);
       CHECK(size(sum(damping, relative, beside(own_start)) - weight * (1 + damping) * now) <= 80 * u * weight);
       // Damping alone: the pull towards the relative rotation at rest is subtracted.
@@ -134,7 +135,8 @@ TEST_CASE("the secular root is that of bisection, wherever the parts lie", "[pro
     float lower = std::pow(10.0f, power(random));
     if (i % 4 == 0) lower = 2 * sigma * (1 + 0.1f * std::pow(10.0f, power(random)) * 1e-6f);
     const double exact = bisected(upper, lower, sigma), nu = secular_root(upper, lower, sigma);
-    // The error of the left side S is about 12 u. Its slope at the root is −(β₊²/ν³ + β₋²/(ν + 2σ)³)/S.
+    // The left side S of the equation errs by about 12 u (u = 2⁻²⁴). Its slope at the root is −(β₊²/ν³ + β₋²/(ν +
+    // 2σ)³)/S.
     const double a = upper / exact, b = lower / (exact + 2 * double{sigma});
     const double slope = a * a / exact + b * b / (exact + 2 * double{sigma});
     REQUIRE(std::abs(nu - exact) <= 24 * u / slope + 8 * u * exact);
@@ -168,10 +170,12 @@ TEST_CASE("where nothing decides the old orientation does", "[unit]") {
   CHECK(size(stays - old) == 0);
   const Quat along = rod_orientation(1, {0, 2, 0}, axis, none, old);
   CHECK(length(director(along) - Vec{0, 1, 0}) <= 16 * u);
-  // Reversed: the old orientation has no part along D, and neither has 1; i has one.
+  // c is opposite to D. The old orientation 1 has no part among the minimisers then, so the one nearest to i is
+  // returned.
   const Quat reversed = rod_orientation(1, {0, 0, -1}, axis, none, {0, 0, 0, 1});
   CHECK(length(director(reversed) - Vec{0, 0, -1}) <= 16 * u);
-  // With damping c may also be reversed along x. Then i has no part along D, either, and j has one.
+  // With damping, c may be opposite to D along x. Then i has no such part, either, and the minimiser nearest to j is
+  // returned.
   const Quat across = rod_orientation(1, {2, 0, 0}, {-1, 0, 0}, none, {0, 0, 0, 1});
   CHECK(size(across - Quat{0, 1, 0, 0}) <= 4 * u);
   CHECK(length(turned(across, {-1, 0, 0}) - Vec{1, 0, 0}) <= 16 * u);

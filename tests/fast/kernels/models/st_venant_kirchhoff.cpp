@@ -92,8 +92,8 @@ TEST_CASE("membrane forces are the negative gradient of energy and damping", "[p
     for (int corner = 0; corner < 3; ++corner) {
       const D3 expected = force_by_differences([&](const auto& at) { return c.energy(at); }, c.wide_x(),
                                                static_cast<std::size_t>(corner), 1e-7);
-      // 24 u: strain (6 roundings), stress (4), products with F and b (6), each on terms of this size. 1e-8: error of
-      // the differences.
+      // 24 u (u = 2⁻²⁴): 6 roundings of the strain, 4 of the stress and 6 of the products with F and b, each of terms
+      // of this size. 1e-8: error of the differences.
       REQUIRE(length(wide(c.add(corner).force) - expected) <= (24 * u + 1e-8) * c.force_scale());
     }
   }
@@ -155,7 +155,7 @@ TEST_CASE("a rigid motion since the start of the step meets no membrane force, e
     Case c = random_case(random, 0);
     const RigidMotion motion(random, 0.1);
     for (std::size_t k = 0; k < 3; ++k) c.x[k] = narrow(motion(wide(c.start[k])));
-    // Coordinates of up to about 1 m are rounded to u, which is a strain of 4 u/l over an edge of length l.
+    // Coordinates of up to about 1 m are rounded to u = 2⁻²⁴, which is a strain of 4 u/l over an edge of length l.
     double shortest = INFINITY, size = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       shortest = std::min(shortest, length(c.x[k] - c.x[(k + 1) % 3]));

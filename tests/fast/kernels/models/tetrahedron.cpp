@@ -207,7 +207,7 @@ TEST_CASE("a tetrahedron at rest has no force, nor has one that is turned and mo
     const SolidCorners shape = random_shape(random, i % 5);
     Vec total;
     for (int corner = 0; corner < 4; ++corner) {
-      // u times stiffness and length, a few times: 6e-8 · 4e4 · 10
+      // tolerance: a few times 2⁻²⁴ times stiffness and length, 6e-8 · 4e4 · 10
       for (const SolidCorners& x : {rest, moved})
         for (const double f : numbers(seen_from(state, damped, x, rest, corner).force)) CHECK(std::abs(f) < 0.05);
       total += seen_from(state, damped, shape, rest, corner).force;

@@ -61,7 +61,7 @@ struct Chain {
   }
   /// Returns D of the middle segment, from its moved end to its old end.
   Vec apart() const { return at(2) - at(vertices + 1); }
-  /// Returns b of the middle segment.
+  /// Returns b, the sum of the pulls of the middle segment's neighbours.
   Quat pull(float damping) const {
     Quat b{0, 0, 0, 0};
     add_neighbour(slot.neighbours.rest[0], false, damping, q[0], start[0], start[1], q[1], b);
