@@ -287,8 +287,8 @@ class FreedomCheck {
     return largest / std::sqrt(inner(n, n));
   }
 
-  /// Returns how far the offsets are from the right division of 2γ_p d (PlaneFreedom::division). Returns 0, so that any
-  /// division is accepted, if rounding can hide whether the sides approach.
+  /// Returns how far the offsets are from the right division of 2γ_p d, in the units of PlaneFreedom::division. Returns
+  /// 0, so that any division is accepted, if a side cannot move or rounding can hide whether the sides approach.
   template <class Pair>
   double division(const Pair& pair, const Vec3f& n, const MeasuredPair& measured) const {
     if (!can_move(pair.first) || !can_move(pair.second)) return 0;

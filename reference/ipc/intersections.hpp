@@ -1,5 +1,5 @@
-// Checks the continuous detection: finds edges that meet triangles at a state. Predicates are exact (filtered) on the
-// given doubles.
+// Finds edges that meet triangles at a state, as a check of the continuous detection. Predicates are exact (filtered)
+// on the given doubles.
 #pragma once
 
 #include "reference/ipc/pairs.hpp"
