@@ -16,7 +16,7 @@
 // stalls, too, the time step ends without convergence. Each of these events is added to the notes of the step, with the
 // pair that caused it.
 //
-// Positions stay doubles from step to step, because rounding could remove a gap. Stored positions are rounded.
+// Positions are doubles in all steps, because rounding could remove a gap. Positions in files are rounded.
 #pragma once
 
 #include <array>
