@@ -56,6 +56,7 @@ class SolidPart : public VolumeFaces {
   /// `faces` must have been built for the same point.
   SolidPart(const VolumeFaces& faces, const Solid& solid) : VolumeFaces(faces), solid_(solid) {}
 
+  /// Returns what is accepted for the part with these boundary triangles.
   compare::VolumePartTruth part(const std::vector<Index>& triangles);
 
  private:

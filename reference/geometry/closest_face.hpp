@@ -34,6 +34,7 @@ bool near_feature(const Corners& triangle, TriangleFeature feature, const Vec3f&
 /// distance to the triangle.
 Margin feature_gap(const Corners& triangle, TriangleFeature feature, const Vec3f& point);
 
+/// Returns the truth of all cases; computes them in parallel.
 compare::ClosestFaceTruth closest_face(const compare::ClosestFaceIn& in);
 
 }  // namespace ogc::reference

@@ -54,6 +54,7 @@ bool is_near_decision(const EdgePair& pair, EdgeFeatures closest, bool is_parall
 /// features, d is the distance of the edges.
 Margin feature_gap(const EdgePair& pair, EdgeFeatures features);
 
+/// Returns the truth of all cases; computes them in parallel.
 compare::ClosestPointsTruth closest_points(const compare::ClosestPointsIn& in);
 
 }  // namespace ogc::reference

@@ -34,6 +34,7 @@ struct FacetPair {
         point(mesh.at(v)),
         corners{mesh.at(second[0]), mesh.at(second[1]), mesh.at(second[2])} {}
 
+  /// Returns the feature of the triangle that is closest to the vertex.
   TriangleFeature closest() const { return closest_feature(corners, point); }
   /// Returns the gap of vertex and triangle.
   Margin gap() const { return feature_gap(corners, closest(), point); }
@@ -55,6 +56,7 @@ struct EdgesPair {
         second(mesh.edge(f)),
         ends{{mesh.at(first[0]), mesh.at(first[1])}, {mesh.at(second[0]), mesh.at(second[1])}} {}
 
+  /// Returns the features that hold the closest points of both edges.
   EdgeFeatures closest() const { return closest_features(ends); }
   /// Returns the gap of the edges.
   Margin gap() const { return feature_gap(ends, closest()); }

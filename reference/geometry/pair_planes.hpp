@@ -12,8 +12,8 @@ namespace ogc::reference {
 
 /// A pair within r_q, with its plane if it has one. The vertices of the second side begin at `second_from`.
 struct NearPair {
-  compare::PrimitivePair pair;
-  std::array<compare::Index, 4> vertices{};
+  compare::PrimitivePair pair;               ///< kind, and numbers of the primitives
+  std::array<compare::Index, 4> vertices{};  ///< vertices of the first side, then of the second
   std::size_t second_from = 1;
   float below = 0;                             ///< the distance, rounded down [m]
   bool has_plane = false;                      ///< whether all its vertices keep the plane in single precision, exactly

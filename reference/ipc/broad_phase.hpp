@@ -25,6 +25,7 @@ Box swept_box(const Vertices& vertices, const State& from, const State& to, doub
   return widened(box, margin);
 }
 
+/// Returns swept_box of each primitive.
 template <class Primitives>
 std::vector<Box> swept_boxes(const Primitives& primitives, const State& from, const State& to, double margin) {
   std::vector<Box> boxes(primitives.size());

@@ -46,7 +46,7 @@ enum class IpcStage : std::uint8_t {
   line_search,
   guard
 };
-inline constexpr std::size_t ipc_stage_count = 8;
+inline constexpr std::size_t ipc_stage_count = 8;  ///< number of stages
 /// Returns the names in the order of IpcStage.
 std::vector<std::string> ipc_stage_names();
 
