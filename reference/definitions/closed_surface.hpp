@@ -17,13 +17,13 @@ struct PointLocation {
 };
 
 /// Returns whether the segment from a face of an oriented surface to x begins on the outside. The face's interior must
-/// hold the surface's closest point to x; for other x the answer has no meaning.
+/// hold the surface's closest point to x; for other x the answer has no meaning. Each edge must have one triangle, or
+/// two that run through it in opposite senses. Each triangle must have an area.
 ///
 /// The segment begins outside a triangle if x is on the side of the normal, and outside an edge if its triangles meet
-/// at less than π inside. At a vertex, an edge or triangle that bounds the vertex's cone of normals decides. Points of
+/// at less than π inside. At a vertex, an edge that is perpendicular to one of the vertex's normals decides. Points of
 /// the face itself are outward (closed). A rim, that is an edge with one triangle or an end of it, has no inner side.
 /// Triangles that are folded onto each other have none, either.
-/// triangle must have an area.
 bool begins_outside(const Complex& mesh, Face face, const Vec3f& x);
 
 /// A surface that encloses a volume: each edge has two triangles that run through it in opposite senses, each triangle

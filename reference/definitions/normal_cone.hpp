@@ -51,7 +51,7 @@ class NormalCone {
 
   /// Returns vectors whose non-negative combinations make up the cone.
   const std::vector<ExactVector>& generators() const { return generators_; }
-  /// Returns the number of dimensions that opposite pairs of generators span: 0 for a pointed cone, 3 for all space.
+  /// Returns the dimension of the largest linear subspace in the cone: 0 for a pointed cone, 3 for all space.
   int lineality() const { return lineality_; }
 
  private:

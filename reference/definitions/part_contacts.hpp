@@ -33,7 +33,13 @@ bool in_box_of(const Complex& volume, const std::vector<Index>& triangles, const
 Face closest_face_of(const Complex& volume, Index triangle, const Vec3f& x);
 
 /// Returns the contacts of x with all parts of a volume, in the order of inside, triangle, face. `part` holds for each
-/// vertex the number of its part; if it is empty, the parts are the connected components.
+/// vertex the number of its part; if it is empty, the parts are the connected components. Each edge must have one
+/// triangle, or two that run through it in opposite senses. Each triangle must have an area.
+///
+/// A part holds x if x is in the part's box and the segment from the nearest face to x begins on the inner side
+/// (begins_outside). Of equally near faces the lowest-dimensional, then the lowest-numbered one decides. A part that
+/// holds x gives one contact, at that face. Any other part gives one contact for each face whose outward block holds x
+/// nearer than r.
 std::vector<PartContact> part_contacts(const Complex& volume, const Vec3f& x, float contact_radius,
                                        std::span<const Index> part = {});
 

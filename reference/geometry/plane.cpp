@@ -278,8 +278,7 @@ class FreedomCheck {
     return offset - farthest;
   }
 
-  /// Returns the largest displacement w of a side's vertices along `sign` n: the largest `sign` n·w over the length of
-  /// n. It may be negative.
+  /// Returns the largest component along `sign` n of the displacements of a side's vertices; it may be negative.
   template <class Vertices>
   Long speed_of(const Vertices& side, const Vec3f& n, Long sign) const {
     Long largest = -Long{infinity};
