@@ -15,7 +15,8 @@ struct EdgeThroughTriangle {
 std::string describe(const compare::Topology& topology, const EdgeThroughTriangle& meeting,
                      const compare::ElementNames& names = {});
 
-/// Returns all intersections, ascending; touching counts. Pairs inside one rigid group are left out.
+/// Returns all intersections, ascending; touching counts. Pairs that share a vertex or are excluded (PairMesh) are left
+/// out.
 std::vector<EdgeThroughTriangle> intersections(const PairMesh& mesh, const State& x);
 
 }  // namespace ogc::reference
