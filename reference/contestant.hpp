@@ -1,4 +1,5 @@
-// The reference as the judge's authority: exact for discrete answers, with derived error bounds for all others.
+// Provides the reference as the judge's authority: exact for discrete answers, with derived error bounds for all
+// others. It also provides the reference's solvers as contestants that only start simulations.
 #pragma once
 
 #include "compare/contestant.hpp"
@@ -22,18 +23,18 @@ namespace ogc::reference {
 /// Returns the authority with all stages of the reference.
 compare::Authority authority();
 
-/// Returns Newton-OGC, without stages, only with a simulation to `start` (method.md §7.6).
+/// Returns Newton-OGC (method.md §7.6). It answers no stage and only starts simulations.
 compare::Contestant newton();
 
-/// Returns the penalty baseline, without stages: Newton's method without bounds, line search or guarantee.
+/// Returns the penalty baseline: Newton's method without bounds, line search or guarantee. It answers no stage.
 compare::Contestant penalty();
 
-/// Returns the IPC baseline, without stages.
+/// Returns the IPC baseline. It answers no stage.
 compare::Contestant ipc();
 
-/// Returns Vertex Block Descent in double, without stages. `colours` returns the colours of a scene's vertices and is
-/// called once for each simulation (reference/solvers/vbd_solver.hpp). If it is empty, the solver colours the vertices
-/// itself.
+/// Returns Vertex Block Descent in double. It answers no stage. `colours` returns the colours of a scene's vertices and
+/// is called once for each simulation (reference/solvers/vbd_solver.hpp). If it is empty, the solver colours the
+/// vertices itself.
 compare::Contestant vbd(std::function<std::vector<compare::Index>(const compare::Scene&)> colours = {});
 
 }  // namespace ogc::reference

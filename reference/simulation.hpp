@@ -17,7 +17,8 @@ std::unique_ptr<compare::Simulation> start_newton(const compare::Scene& scene,
 std::unique_ptr<compare::Simulation> start_penalty(const compare::Scene& scene,
                                                    const compare::SimulationOptions& options);
 
-/// Starts Vertex Block Descent in double. Rounds its copy of the scene, which must be valid. `colour`: see VbdSolver.
+/// Starts Vertex Block Descent in double. Rounds its copy of the scene, which must be valid. `colour` holds the
+/// vertices' colours; if it is empty, the solver computes them (VbdSolver).
 std::unique_ptr<compare::Simulation> start_vbd(const compare::Scene& scene, const compare::SimulationOptions& options,
                                                std::vector<compare::Index> colour = {});
 

@@ -1,4 +1,5 @@
-// Lists boundaries in the order of visit_block: conditions with `positive` are open, all others closed.
+// Lists boundaries in the order of visit_block. A condition margin > 0 (`positive`) gives an open boundary, a condition
+// margin ≤ 0 a closed one.
 #include "reference/definitions/block_margins.hpp"
 
 namespace ogc::reference {

@@ -17,10 +17,10 @@ struct BlockMargin {
     wall,    ///< the plane through an edge, perpendicular to a triangle (Eq. 9, 10)
   };
   Kind kind = Kind::sphere;  ///< kind of this boundary
-  Face across;               ///< the face on the other side; for the sphere the face itself
+  Face across;               ///< the neighbouring face beyond the boundary; for the sphere the face itself
   int sign = 0;              ///< exact: 1 inside, 0 on the boundary, −1 outside
   double length = 0;         ///< distance to the boundary [m] with this sign, within 1 ulp of double
-  bool closed = false;       ///< whether the boundary belongs to the block, as printed
+  bool closed = false;       ///< whether the boundary belongs to the block, as the equations print it
   /// Returns whether the point is on the inner side of this boundary.
   bool holds() const { return sign > 0 || (sign == 0 && closed); }
 };

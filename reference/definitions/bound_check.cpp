@@ -1,5 +1,5 @@
-// The product of γ_p and a distance rounded down is exact in double and decides nearly always. Exact numbers are needed
-// only if b_v lies above that product.
+// Rounds a distance down to single precision; its product with γ_p is then exact in double. A b_v that is not above
+// this product is safe. Exact numbers are needed only for the others.
 #include "reference/definitions/bound_check.hpp"
 
 #include <tbb/blocked_range.h>

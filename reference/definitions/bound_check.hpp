@@ -1,5 +1,5 @@
-// Checks whether given bounds are safe. Compares squared distances as quotients (Eq. 21–26), so that no rounding of the
-// exact bound decides.
+// Checks whether given bounds are safe. Compares b_v with exact distances, stored as fractions of their squares (Eq.
+// 21–26), because a rounded distance could decide wrongly.
 #pragma once
 
 #include <span>

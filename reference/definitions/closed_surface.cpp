@@ -1,7 +1,9 @@
-// An edge can decide for a vertex. N_v is a convex cone that meets the star's cone only in the vertex, so all its
-// directions lie on one side of the surface. (A flat vertex has two opposite ones, and each touches every edge.) Let g
-// in N_v be perpendicular to a spoke. On the way along that spoke, v + ε g does not meet the star: g·w > 0 for its
-// points, g·w ≤ 0 for points of the star. Hence v + ε g and the point above the spoke lie on the same side.
+// Decides by one edge on which side of the surface a vertex's normals lie. N_v is a convex cone that meets the star's
+// cone only in the vertex, so all its directions lie on one side of the surface. (A flat vertex has two opposite
+// normals, and each is perpendicular to every edge.) Let g in N_v be perpendicular to an edge at v. Move v + ε g
+// parallel to this edge: it does not meet the star, because g·w > 0 for its points w (relative to v) and g·w ≤ 0 for
+// points of the star. Hence v + ε g lies on the same side as a point just above the edge, and that side follows from
+// the edge's two triangles.
 #include "reference/definitions/closed_surface.hpp"
 
 #include <algorithm>
@@ -31,7 +33,6 @@ int bend(const Complex& mesh, Index edge) {
   return sign_of(dot(normal(mesh, triangles[0]), exact(mesh.at(mesh.opposite(triangles[1], edge))) - a));
 }
 
-/// Returns whether the edge has only one triangle.
 bool is_rim(const Complex& mesh, Index edge) { return mesh.triangles_of(edge).size() == 1; }
 
 /// Returns whether the edge's two triangles lie on the same side of it in one plane.

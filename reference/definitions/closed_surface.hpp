@@ -1,5 +1,5 @@
-// The volumetric variant of §3.9, outside the body: blocks of a closed surface that extend outward only, and an exact
-// test whether a point is inside.
+// Implements the volumetric variant of §3.9 outside the body: blocks of a closed surface that extend outward only, and
+// an exact test whether a point is inside.
 #pragma once
 
 #include "reference/geometry/blocks.hpp"
@@ -17,13 +17,13 @@ struct PointLocation {
 };
 
 /// Returns whether the segment from a face of an oriented surface to x begins on the outside. The face's interior must
-/// hold the surface's closest point to x; for other x the answer has no meaning.
+/// hold the surface's closest point to x; for other x the answer has no meaning. Each edge must have one triangle, or
+/// two that run through it in opposite senses. Each triangle must have an area.
 ///
-/// It begins outside a triangle on the side of the normal, and outside an edge if its triangles meet at less than π
-/// inside. At a vertex it follows an edge or a triangle on the rim of the vertex's normals. Points of the face itself
-/// are outward (closed). An edge with one triangle, and its ends (a rim), have no inner side, nor have triangles that
-/// are folded onto each other. Each edge must have one triangle, or two that run through it in opposite senses; each
-/// triangle must have an area.
+/// The segment begins outside a triangle if x is on the side of the normal, and outside an edge if its triangles meet
+/// at less than π inside. At a vertex, an edge that is perpendicular to one of the vertex's normals decides. Points of
+/// the face itself are outward (closed). A rim, that is an edge with one triangle or an end of it, has no inner side.
+/// Triangles that are folded onto each other have none, either.
 bool begins_outside(const Complex& mesh, Face face, const Vec3f& x);
 
 /// A surface that encloses a volume: each edge has two triangles that run through it in opposite senses, each triangle
@@ -35,11 +35,11 @@ class ClosedSurface {
   /// Throws compare::InputError with the first edge or triangle that violates a condition.
   explicit ClosedSurface(const Complex& mesh);
 
-  /// Returns begins_outside; x must lie in U_a except for the distance (Eq. 8–10).
+  /// Returns begins_outside(mesh(), face, x); x must satisfy all conditions of U_a except the distance (Eq. 8–10).
   bool outward(Face face, const Vec3f& x) const;
 
   /// Checks whether x is in the outward part of U_a (§3.9), closed at r and at the surface. For a triangle or a flat
-  /// neighbourhood this is the outward half; for reentrant edges and vertices only points of the face.
+  /// neighbourhood this is the outward half. For reentrant edges and vertices it holds only points of the face.
   bool in_outward_block(Face face, const Vec3f& x, float contact_radius) const;
 
   /// Locates x by the signed crossings of a ray with the direction (1, ε, ε²), ε → 0. The ray meets no edge, so no

@@ -1,5 +1,5 @@
-// The algorithms share with the detections only the predicates of Algorithms 1 and 2; the definitions share not even
-// these.
+// The algorithms use the same predicates of Algorithms 1 and 2 as the detections, but no other common code. The
+// definitions do not use these predicates, either.
 #include "reference/definitions/contact_sets.hpp"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -54,7 +54,7 @@ bool in_planes(const Complex& mesh, Face face, const Vec3f& x) {
   return inside;
 }
 
-/// Returns the gap of x and a closed triangle.
+/// Returns d² − r² (a gap) of x and a closed triangle.
 Margin triangle_gap(const Complex& mesh, Index t, const Vec3f& x, float contact_radius) {
   const Corners corners = corners_of(mesh, t);
   return with_radius(feature_gap(corners, closest_feature(corners, x), x), contact_radius);
@@ -76,7 +76,6 @@ std::vector<Box> triangle_boxes(const Complex& mesh) {
   return boxes;
 }
 
-/// Returns the squared distance as an exact quotient.
 Quotient<Exact> exact_squared_distance(const Complex& mesh, Index t, const Vec3f& x) {
   Quotient<Exact> smallest{Exact(-1), Exact(1)};
   for (const Face face : faces_of(mesh, t)) {
@@ -101,8 +100,8 @@ std::vector<VertexFacetContact> vertex_facet_by_definition(const compare::Detect
     for (Index t = 0; t < static_cast<Index>(in.topology->triangles.size()); ++t) {
       if (!in.topology->on_surface(mesh.triangle(t)) || is_excluded(in.exclusions, {&v, 1}, mesh.triangle(t))) continue;
       for (const Face face : faces_of(mesh, t)) {
-        // Eq. 12 requires only v ⊄ a. Triangles that contain v are visited, too, because a face without v may have no
-        // others.
+        // Eq. 12 requires only v ⊄ a. So the faces of triangles that contain v are tested, too: a face without v may
+        // have no other triangle.
         if (!contains(mesh.vertices(face).span(), v) && blocks.in_contact(face, mesh.at(v), in.contact_radius))
           found.insert({v, face, owner_of(mesh, face)});
       }
@@ -123,7 +122,7 @@ std::vector<VertexFacetContact> vertex_facet_over_all_pairs(const compare::Detec
 std::vector<VertexFacetContact> vertex_facet_with_tree(const compare::DetectIn& in) {
   const Complex mesh{*in.topology, in.positions};
   const SphereTree tree(triangle_boxes(mesh));
-  const double r_q = in.query_radius;  // 48 bits hold its square without rounding
+  const double r_q = in.query_radius;  // double: holds the square of a single-precision number without rounding
   tbb::enumerable_thread_specific<std::set<VertexFacetContact>> shares;
   tbb::parallel_for(Index{0}, in.topology->vertex_count, [&](Index v) {
     const Vec3f& x = mesh.at(v);

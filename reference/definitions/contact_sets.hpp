@@ -11,33 +11,33 @@
 
 namespace ogc::reference {
 
-/// Returns F_OGC by Eq. 12 over all faces of triangles, with DefinedBlocks: canonical, with d < r. Takes quadratic
+/// Returns F_OGC by Eq. 12, tested for all faces of triangles with DefinedBlocks, sorted, with d < r. Takes quadratic
 /// time.
 std::vector<compare::VertexFacetContact> vertex_facet_by_definition(const compare::DetectIn& in);
 
-/// Returns F_OGC by Algorithm 1 with the constructive equations, over all pairs.
+/// Returns F_OGC by Algorithm 1 with the half-spaces of Eq. 8–10, over all pairs.
 std::vector<compare::VertexFacetContact> vertex_facet_over_all_pairs(const compare::DetectIn& in);
 
-/// Returns F_OGC by Algorithm 1 with the sphere query of its line 3 by CGAL's tree, in parallel.
+/// Returns F_OGC by Algorithm 1, in parallel; CGAL's tree answers the sphere query of line 3.
 std::vector<compare::VertexFacetContact> vertex_facet_with_tree(const compare::DetectIn& in);
 
 /// Returns E_OGC by Eq. 17 (corrected: method.md §1.2, §1.3): finds the exact closest points by comparing the distances
 /// of all pairs of features, then uses DefinedBlocks.
 std::vector<compare::EdgeEdgeContact> edge_edge_by_definition(const compare::DetectIn& in);
 
-/// Returns E_OGC by Algorithm 2 (with the same corrections) with the constructive equations, over all pairs.
+/// Returns E_OGC by Algorithm 2 (with the same corrections) with the half-spaces of Eq. 14 and 15, over all pairs.
 std::vector<compare::EdgeEdgeContact> edge_edge_over_all_pairs(const compare::DetectIn& in);
 
-/// Returns E_OGC by Algorithm 2 (with the same corrections) with the sphere query of its line 3 by CGAL's tree, in
-/// parallel.
+/// Returns E_OGC by Algorithm 2 (with the same corrections), in parallel; CGAL's tree answers the sphere query of line
+/// 3.
 std::vector<compare::EdgeEdgeContact> edge_edge_with_tree(const compare::DetectIn& in);
 
-/// Returns V_OGC(t): for each triangle the vertices in contact with its own faces (owner), ascending, one entry for
-/// each contact.
+/// Returns V_OGC(t): for each triangle the vertices of the contacts that it owns, ascending, one entry for each
+/// contact.
 std::vector<std::vector<Index>> vertices_near_facets(const compare::Topology& topology,
                                                      std::span<const compare::VertexFacetContact> contacts);
 
-/// Returns E_OGC(e): for each edge the numbers of the contacts whose lowest-numbered generator on one side it is.
+/// Returns E_OGC(e): for each edge the numbers of the contacts that have it as `first_edge` or `second_edge`.
 std::vector<std::vector<std::size_t>> contacts_of_edges(const compare::Topology& topology,
                                                         std::span<const compare::EdgeEdgeContact> contacts);
 

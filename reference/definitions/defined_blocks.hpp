@@ -1,4 +1,4 @@
-// Decides block membership by the definition (Eq. 7) instead of the constructive equations.
+// Decides block membership by the definition (Eq. 7) instead of the half-spaces of Eq. 8–10.
 #pragma once
 
 #include <memory>
@@ -7,10 +7,10 @@
 
 namespace ogc::reference {
 
-/// Decides whether the foot of the perpendicular from x lies in the interior of the face, and whether x minus the foot
-/// lies in the cone of normals, given by its generators. Exact, and independent of `in_block`. Points of the interior
-/// itself belong to the block even if the face has no normals. Eq. 8 and 9 include these points, Eq. 7 read literally
-/// does not (`has_normals`).
+/// Tests Eq. 7 exactly, independently of `in_block`: the foot of the perpendicular from x must lie in the interior of
+/// the face, and x minus the foot in the cone of normals, given by its generators. Points of the interior itself belong
+/// to the block even if the face has no normals. Eq. 8 and 9 include these points, Eq. 7 read literally does not
+/// (`has_normals`).
 class DefinedBlocks {
  public:
   /// Finds the normals of all faces. Holds a view of the mesh, whose owner must outlive this.
@@ -25,7 +25,8 @@ class DefinedBlocks {
   bool has_normals(Face face) const;                                               ///< N_a ≠ ∅
 
   struct Cones;
-  const Cones& cones() const { return *cones_; }  ///< for exact points (defined_blocks_exact.hpp)
+  /// the cones of normals, for tests of points that are fractions (defined_blocks_exact.hpp)
+  const Cones& cones() const { return *cones_; }
 
  private:
   std::unique_ptr<Cones> cones_;

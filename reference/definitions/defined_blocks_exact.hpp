@@ -1,4 +1,5 @@
-// Applies Eq. 7 to points that are quotients. Only .cpp files of this folder include it: it exposes CGAL's number type.
+// Applies Eq. 7 to points that are fractions. Only .cpp files of this folder include this header, because it exposes
+// CGAL's number type.
 #pragma once
 
 #include <optional>
@@ -24,14 +25,14 @@ enum class Sphere { closed, open };
 
 /// The cones of normals of all faces of a mesh.
 struct DefinedBlocks::Cones {
-  Complex mesh;                                        ///< the mesh of the faces
+  Complex mesh;
   std::vector<NormalCone> vertices, edges, triangles;  ///< by number of the face
 
   /// Returns N_a of one face.
   const NormalCone& of(Face face) const;
   bool contains(Face face, const ExactPoint& x, float contact_radius, Sphere boundary) const;
-  /// Checks whether x is in the face's block of M^e. In M^e a vertex has the same neighbours as in M, and every
-  /// perpendicular of an edge is a normal.
+  /// Checks whether x is in the face's block of the edge-only manifold (§3.5). There a vertex has the same neighbours
+  /// as on the surface, and every perpendicular of an edge is a normal.
   bool contains_edge_only(Face face, const ExactPoint& x, float contact_radius) const;
 };
 

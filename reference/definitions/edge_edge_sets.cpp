@@ -1,4 +1,5 @@
-// Computes E_OGC three times: by its definition over quotients, and by Algorithm 2 over all pairs and with a tree.
+// Computes E_OGC three times: by its definition with exact fractions, and by Algorithm 2 over all pairs and with a
+// tree.
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
@@ -78,7 +79,7 @@ ExactPoint point_at(const Segment& segment, const Parameter& p) {
   return {plus(times(p.weight, segment.a), times(p.s, segment.d)), p.weight};
 }
 
-/// The closest points of two features. A point of an interior lies strictly inside it.
+/// The closest points of two features. If a feature is an interior, its point lies strictly inside the edge.
 struct Candidate {
   ExactPoint first, second;
 };
@@ -128,7 +129,8 @@ struct Closest {
   Quotient<Exact> squared;
 };
 
-/// Returns the nearest pairs of features, in the order of edge_features; several if the edges are parallel.
+/// Returns the pairs of features with the smallest distance, in the order of edge_features. There are several if the
+/// edges are parallel.
 std::vector<Closest> closest_of(const Segment& e, const Segment& f) {
   std::vector<Closest> best;  // never empty: two ends are always a candidate
   for (int k = 0; k < edge_feature_pairs; ++k) {
@@ -162,8 +164,9 @@ bool are_in_blocks(const Complex& mesh, const FacePair& faces) {
   return inside;
 }
 
-/// Returns whether some closest points of nearly parallel edges lie in each other's blocks. The blocks' conditions hold
-/// only for closest features; exactly parallel edges have them at both ends of the overlap.
+/// Returns whether closest points of two nearly parallel edges lie in each other's blocks. Tests all pairs of features:
+/// a pair satisfies the blocks' conditions only if it holds closest points. Exactly parallel edges have closest points
+/// at both ends of the overlap.
 bool is_some_end_in_blocks(const Complex& mesh, Index e, Index f) {
   for (int k = 0; k < edge_feature_pairs; ++k) {
     const auto [first, second] = edge_features(k);
@@ -192,8 +195,8 @@ struct Ball {
   double squared_radius;
 };
 
-/// The middle may be rounded, because the radius is computed from it to the farther end. The factor covers the radius'
-/// rounding, at most eight times 2⁻⁵³.
+/// Returns the ball about an edge. Its centre is the rounded middle; this is allowed because the radius is measured
+/// from there to the farther end. The factor 1 + 2⁻⁴⁸ covers the rounding error of the radius, at most 8 · 2⁻⁵³.
 Ball ball_about(const std::array<Vec3f, 2>& ends, double query_radius) {
   const std::array<double, 3> a{ends[0].x, ends[0].y, ends[0].z}, b{ends[1].x, ends[1].y, ends[1].z};
   Ball ball{};

@@ -44,7 +44,7 @@ Unit sum_of(const std::vector<Unit>& units) {
   return normalised(sum);
 }
 
-/// Sorts by angle about the axis and cuts opposite to `zero`, so that an arc about `zero` stays in one piece.
+/// Sorts by angle about the axis, from −π to π relative to `zero`, so that an arc about `zero` stays in one piece.
 void sort_around(std::vector<Unit>& units, const Unit& axis, const Unit& zero) {
   const Unit right = outer(axis, zero);
   const auto angle = [&](const Unit& u) { return std::atan2(inner(u, right), inner(u, zero)); };
@@ -65,8 +65,7 @@ void order_region(GaussMap& map, int lineality) {
   map.closed = lineality == 3;
   if (map.closed) return;
   const Unit centre = sum_of(map.corners);
-  // The generators of a half-sphere include its centre, which is no corner. No other set has a generator near its
-  // centre.
+  // A half-sphere (lineality 2) has its centre among the generators, and the centre is no corner.
   if (lineality == 2) std::erase_if(map.corners, [&](const Unit& u) { return inner(u, centre) > 0.5; });
   const Unit& first = map.corners.front();
   const double along = inner(first, centre);
@@ -101,7 +100,7 @@ std::vector<Index> spokes_in_order(const Complex& mesh, Index vertex) {
   if (triangles.empty()) return {};
   Index start = rim(triangles.front())[0];
   for (const Index t : triangles) {
-    const Index v = rim(t)[0];  // a boundary spoke that its triangle leaves in its own orientation
+    const Index v = rim(t)[0];  // if no other triangle has this spoke, the fan begins here
     const auto count = std::count_if(triangles.begin(), triangles.end(),
                                      [&](Index other) { return holds(rim(other), v); });
     if (count == 1) start = v;

@@ -1,4 +1,4 @@
-// Implements the intent of §3.1: the normals of each face by the closest-point principle, the kinds of vertices,
+// Implements the intent of §3.1: the normals of each face by the closest-point principle, the kinds of vertices, and
 // Echeverria's indicatrix. Decisions are exact; unit vectors for drawing and integrals are in double.
 #pragma once
 
@@ -10,9 +10,9 @@
 
 namespace ogc::reference {
 
-using Unit = std::array<double, 3>;  ///< of length 1 up to a rounding
+using Unit = std::array<double, 3>;  ///< unit vector, up to rounding
 
-/// The kinds of Fig. 5.
+/// The kinds of vertices of Fig. 5.
 enum class VertexKind : std::uint8_t {
   /// has normals, and the plane of each triangle at v has all neighbours on one side or on it (includes flat vertices
   /// and corners of a sheet)
@@ -30,8 +30,8 @@ bool is_hull_edge(const Complex& mesh, Index vertex, Index edge);
 /// The normals of a face, for drawing.
 struct GaussMap {
   int dimension = -1;         ///< dimension of N_a on the sphere: −1 empty, 0 one or two points, 1 arcs, 2 a region
-  std::vector<Unit> corners;  ///< of a region in cyclic order, of an arc in order along it
-  bool closed = false;        ///< whether N_a is the whole circle or the whole sphere; then `corners` only span it
+  std::vector<Unit> corners;  ///< corners of N_a: of a region in cyclic order, of an arc in order along it
+  bool closed = false;  ///< true if N_a is the whole circle or the whole sphere; `corners` are then its generators
 };
 
 /// Returns N_a of a face of the surface, or with `edge_only` of M^e (§3.5).
@@ -41,9 +41,9 @@ GaussMap gauss_map(const Complex& mesh, Face face, bool edge_only = false);
 /// deficit (Gauss–Bonnet).
 double solid_angle(const GaussMap& map);
 
-/// Echeverria's polygon of a vertex: the normals of its triangles in order around it, inverted parts included.
+/// Echeverria's polygon of a vertex: the normals of its triangles in order around it. Parts of it may be inverted.
 struct Indicatrix {
-  std::vector<Unit> normals;  ///< of the vertex's triangles, in order
+  std::vector<Unit> normals;  ///< normals of the vertex's triangles, in order
   bool closed = false;        ///< false at a boundary vertex
   double area = 0;            ///< signed enclosed area [sr], which is the angle deficit; 0 if not closed
 };

@@ -1,5 +1,5 @@
 // Finds the pair that has each smallest distance (Eq. 22, 24 and 26), without rounding. Its squared distance is an
-// exact fraction, with which any bound can be compared.
+// exact fraction, so any bound can be compared with it.
 #pragma once
 
 #include <span>
@@ -14,8 +14,8 @@ namespace ogc::reference {
 /// The nearest non-adjacent candidate of a primitive; the lowest-numbered one of equally near candidates. If none is
 /// nearer than r_q, `gap` is r_q and `partner` is −1.
 struct Nearest {
-  compare::Index partner = -1;  ///< the distance, as a gap
-  Margin gap;                   ///< distance to it
+  compare::Index partner = -1;  ///< number of the partner, or −1
+  Margin gap;                   ///< the distance to it, as a gap
 };
 
 /// d_min,v has a triangle as partner (Eq. 22), d_min,e an edge (Eq. 24), d_min,t a vertex (Eq. 26).
@@ -23,7 +23,7 @@ struct NearestPrimitives {
   std::vector<Nearest> vertex, edge, triangle;  ///< by number of the primitive
 };
 
-/// Finds the nearest candidates exactly, among the pairs that the detections do not leave out.
+/// Finds the nearest candidates exactly, among the pairs that detections consider (method.md §2.3).
 NearestPrimitives nearest_primitives(const compare::DetectIn& in);
 
 /// Returns for each vertex the smallest of d_min,v, d_min,e of its edges and d_min,t of its triangles (Eq. 21, 23, 25
@@ -35,7 +35,7 @@ struct ExactSquares {
   std::vector<std::string> vertex, edge, triangle;  ///< d_min²
   std::vector<std::string> bound;                   ///< b_v² of Eq. 21
 };
-/// Returns d_min² of all primitives and b_v² of all vertices as fractions, b_v with this γ_p (Eq. 21 to 26).
+/// Returns d_min² of all primitives and b_v² of all vertices as fractions; b_v has the given γ_p (Eq. 21 to 26).
 ExactSquares exact_squares(const compare::DetectIn& in, float bounds_relaxation);
 
 }  // namespace ogc::reference

@@ -1,6 +1,6 @@
-// Represents the normals of a face as a convex cone with generators: the corners of the polyhedral Gauss map. It
-// decides the same questions as the half-spaces of blocks.hpp without a common formula, so each can be tested against
-// the other. Only .cpp files of this folder include this header: it exposes CGAL's number type.
+// Represents the normals of a face as a convex cone with generators: the corners of the polyhedral Gauss map. It shares
+// no formula with the half-spaces of blocks.hpp, so each tests the other. Only .cpp files of this folder include this
+// header, because it exposes CGAL's number type.
 #pragma once
 
 #include <CGAL/Mpzf.h>
@@ -18,7 +18,7 @@ using Exact = CGAL::Mpzf;
 /// A point or a vector in exact numbers.
 using ExactVector = Point<Exact>;
 
-/// The point numerator / weight [m] with weight > 0, because closest points of edges are quotients.
+/// The point numerator / weight [m] with weight > 0. Closest points of edges are such fractions.
 struct ExactPoint {
   ExactVector numerator;    ///< [m] · weight
   Exact weight = Exact(1);  ///< > 0
@@ -38,8 +38,8 @@ inline bool is_zero(const ExactVector& a) { return a.x.is_zero() && a.y.is_zero(
 inline int sign_of(const Exact& a) { return static_cast<int>(a.sign()); }
 
 /// The polar cone {n : n·d ≤ 0 for all d}, where d are the directions in which a surface leaves a point. Its elements
-/// are the sums of non-negative multiples of `generators()`. Without generators it is {0}: the point has no normal (Eq.
-/// 8's saddle).
+/// are the sums of non-negative multiples of `generators()`. Without generators it is {0}: the point has no normal (the
+/// saddle of Eq. 8).
 class NormalCone {
  public:
   NormalCone() = default;
@@ -51,7 +51,7 @@ class NormalCone {
 
   /// Returns vectors whose non-negative combinations make up the cone.
   const std::vector<ExactVector>& generators() const { return generators_; }
-  /// Returns the number of dimensions that opposite pairs of generators span: 0 for a pointed cone, 3 for all space.
+  /// Returns the dimension of the largest linear subspace in the cone: 0 for a pointed cone, 3 for all space.
   int lineality() const { return lineality_; }
 
  private:
@@ -60,8 +60,8 @@ class NormalCone {
   int lineality_ = 0;
 };
 
-/// Returns the directions in which the star of a face leaves the face's interior, and the directions along the face in
-/// both senses. Applies to the surface (§3.1) or, with `edge_only`, to M^e (§3.5; vertices and edges only).
+/// Returns the directions from a face's interior into its star, and the directions along the face in both senses.
+/// Applies to the surface (§3.1) or, with `edge_only`, to the edge-only manifold (§3.5; vertices and edges only).
 std::vector<ExactVector> star_directions(const Complex& mesh, Face face, bool edge_only = false);
 
 }  // namespace ogc::reference

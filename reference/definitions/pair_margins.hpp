@@ -1,4 +1,4 @@
-// Measures how far an edge–edge contact is from ending, boundary by boundary, for inspection.
+// Measures, boundary by boundary, how far an edge–edge contact is from ending, so that a user can inspect the contact.
 #pragma once
 
 #include "compare/stages/detect_edge_edge.hpp"
@@ -6,16 +6,16 @@
 
 namespace ogc::reference {
 
-/// The two conditions of a contact {p, q} (Eq. 17, corrected).
+/// The margins of both conditions of a contact {p, q} (Eq. 17, corrected).
 struct PairMargins {
-  /// of the point of q closest to p, at the boundaries of U_p^E (Eq. 14, 15), the sphere first
+  /// margins of the point of q closest to p, at the boundaries of U_p^E (Eq. 14, 15), the sphere first
   std::vector<BlockMargin> first;
-  std::vector<BlockMargin> second;  ///< of the point of p closest to q, at the boundaries of U_q^E
+  std::vector<BlockMargin> second;  ///< margins of the point of p closest to q, at the boundaries of U_q^E
 };
 
-/// Returns the margins of a contact. Signs are exact, lengths are within 8 ulp. Empty for the interiors of nearly
-/// parallel edges: a rule gives their contact points, and their blocks are tested at the features with the closest
-/// points.
+/// Returns the margins of a contact. Signs are exact, lengths are within 8 ulp. Both lists are empty for the interiors
+/// of nearly parallel edges: their contact points are no closest points, so they need not lie in blocks (method.md
+/// §1.4).
 PairMargins pair_margins(const Complex& mesh, const compare::EdgeEdgeContact& contact, float contact_radius);
 
 }  // namespace ogc::reference

@@ -95,7 +95,7 @@ std::vector<Face> faces_of(const Complex& mesh, const std::vector<Index>& part) 
   return faces;
 }
 
-/// Rounded distances of x from a triangle's box, and from the nearest of its corners.
+/// Rounded distances of x from a triangle's box, and from the nearest of the triangle's corners.
 struct Reach {
   double box = 0, corner = INFINITY;
 };
@@ -115,11 +115,11 @@ Reach reach_of(const Complex& mesh, Index t, const Vec3f& x) {
   return reach;
 }
 
-/// Relative error limit of a reach in double.
+/// Relative error limit of the distances of Reach.
 constexpr double reach_slack = 0x1p-40;
 
-/// `nearest`: triangles of a part that can be nearest to x, because their box is not farther than every triangle's
-/// nearest corner. `touching`: triangles whose box is within the radius.
+/// Preselects the triangles of a part. `nearest` holds those that can be nearest to x: their box is not farther from x
+/// than the nearest corner of all triangles. `touching` holds those whose box is within the radius.
 struct Within {
   std::vector<Index> nearest, touching;
 

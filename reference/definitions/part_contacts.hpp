@@ -1,5 +1,6 @@
-// Defines the contacts with a volume of triangles (§3.9). Each part of its surface is tested separately, and only the
-// side of the nearest face decides. So rims need no cap, and overlapping parts need no common inside.
+// Defines the contacts with a volume of triangles (§3.9). Each part of its surface is tested separately. A part
+// contains a point if the point is in the part's box and on the inner side of the nearest face. So rims need no cap,
+// and overlapping parts need no common inside.
 #pragma once
 
 #include <array>
@@ -31,14 +32,14 @@ bool in_box_of(const Complex& volume, const std::vector<Index>& triangles, const
 /// Returns the face of a triangle whose interior holds the triangle's closest point to x.
 Face closest_face_of(const Complex& volume, Index triangle, const Vec3f& x);
 
-/// Returns the contacts of x with all parts of a volume, in the order of inside, triangle, face. `part`: by vertex, the
-/// number of its part; empty: the connected components.
+/// Returns the contacts of x with all parts of a volume, in the order of inside, triangle, face. `part` holds for each
+/// vertex the number of its part; if it is empty, the parts are the connected components. Each edge must have one
+/// triangle, or two that run through it in opposite senses. Each triangle must have an area.
 ///
 /// A part holds x if x is in the part's box and the segment from the nearest face to x begins on the inner side
 /// (begins_outside). Of equally near faces the lowest-dimensional, then the lowest-numbered one decides. A part that
 /// holds x gives one contact, at that face. Any other part gives one contact for each face whose outward block holds x
-/// nearer than r. Each edge must have one triangle, or two that run through it in opposite senses; each triangle must
-/// have an area.
+/// nearer than r.
 std::vector<PartContact> part_contacts(const Complex& volume, const Vec3f& x, float contact_radius,
                                        std::span<const Index> part = {});
 

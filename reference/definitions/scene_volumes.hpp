@@ -17,16 +17,16 @@ class SceneVolumes {
   SceneVolumes(const compare::Scene& scene, const compare::Topology& topology);
   /// Returns whether the scene has volumes.
   bool has_any() const { return !surface_.triangles.empty(); }
-  /// Returns the contacts of all volume_askers, rounded to single precision, in canonical order, and the sheets without
-  /// a way to the boundary. `point` is the vertex; `triangle` and `face` are numbers of the scene. `positions` [m] are
-  /// by vertex of the scene.
+  /// Returns the contacts of all volume_askers (vertices that are tested against volumes), rounded to single precision
+  /// and sorted, and the unresolved sheets (VolumeDepthOut). `point` is the vertex; `triangle` and `face` are numbers
+  /// of the scene. `positions` [m] are by vertex of the scene.
   compare::VolumeDepthOut contacts(std::span<const compare::Vec3f> positions) const;
 
  private:
   const compare::Topology& topology_;
   compare::VolumeSurface surface_;
   std::vector<compare::Index> asking_;
-  std::vector<compare::Index> own_;  ///< by asker: its vertex if it belongs to a volume, or −1
+  std::vector<compare::Index> own_;  ///< by asker: its own vertex if it belongs to a volume, otherwise −1
   float contact_radius_;
 };
 

@@ -1,11 +1,12 @@
-// The grey zone: an error of 16 u in a tetrahedron's coordinates changes each weight of a point by 16 u Σ|∂w/∂δ||δ|.
-// The sum is at most three times the moduli of the weight's terms, which have degree three. The end of a way, and all
-// that depends on it, has the error of its triangle's normal (normal_scale). Within this error a segment may pass each
-// nearby triangle, edge and vertex. A way is certain if the body ends at none of them; then it arrives through any
-// tetrahedra that rounding selects. Inner edges and vertices leave a way certain.
+// A *way* is the straight segment from x to a boundary point. The grey zone: an error of 16 · 2⁻²⁴ in a tetrahedron's
+// coordinates changes each weight of a point by 16 · 2⁻²⁴ Σ|∂w/∂δ||δ|. The sum is at most three times the moduli of the
+// weight's terms, which have degree three. The end of a way on a triangle's interior has in addition the error of the
+// triangle's normal (normal_scale). Within this error a segment may pass each nearby triangle, edge and vertex. A way
+// is certain if none of these is a boundary of the body; then it arrives, whichever tetrahedra rounding selects. Inner
+// edges and vertices leave a way certain.
 //
-// Weights in double are known to 2⁻⁴⁶ of the moduli of their terms, which is negligible beside 16 u. Exact ways are
-// walked in rational numbers, through the tetrahedra that a grey way reaches.
+// Weights in double are known to 2⁻⁴⁶ of the moduli of their terms, which is negligible beside 16 · 2⁻²⁴. Whether a way
+// exists in exact numbers is decided with rational numbers, among the tetrahedra that the way may reach.
 #include "reference/definitions/solid_depth.hpp"
 
 #include <algorithm>
@@ -42,7 +43,7 @@ Vec3 normal_moduli(const Vec3& a, const Vec3& b) {
   return {p.y * q.z + p.z * q.y, p.z * q.x + p.x * q.z, p.x * q.y + p.y * q.x};
 }
 
-/// Factor for terms of degree three: Σ|∂m/∂δ||δ| is at most three times the sum of their moduli.
+/// Factor of the grey zone for terms of degree three: Σ|∂m/∂δ||δ| is at most three times the sum of their moduli.
 constexpr double grey_part = 3 * compare::grey_factor;
 
 bool has(const Tetrahedron& t, Index v) { return std::ranges::find(t, v) != t.end(); }
@@ -172,7 +173,7 @@ std::vector<SolidPart::Group> SolidPart::groups(Index component) const {
     Group group;
     std::vector<std::size_t> open{first};
     taken[first] = 1;
-    std::map<std::vector<Index>, std::vector<Index>> exact;  // keys: the simplex whose interior holds x
+    std::map<std::vector<Index>, std::vector<Index>> exact;  // key: the simplex whose interior holds x
     for (std::size_t next = 0; next < open.size(); ++next) {
       const Holder& holder = holders[open[next]];
       const Index t = holder.tetrahedron;
@@ -264,7 +265,8 @@ SolidPart::Way SolidPart::way(const Group& group, Face face, double condition) c
   return way;
 }
 
-/// `way` is a possible way to the face; the face holds the triangle's closest point to x.
+/// Returns whether the way to the face exists in exact numbers. `way` is a possible way to the face; the face holds the
+/// triangle's closest point to x.
 bool SolidPart::is_exact_way(const std::vector<Index>& sheet, const Way& way, Face face, Index triangle) const {
   const auto corner = [&](std::size_t k) { return rational(mesh_.at(mesh_.triangle(triangle)[k])); };
   const RationalPoint start = rational(x_), end = closest_point({corner(0), corner(1), corner(2)}, start);
@@ -314,7 +316,7 @@ VolumeSheetTruth SolidPart::sheets_of(const Group& group, const std::vector<Inde
   };
   std::vector<Offered> offered;
   std::vector<Nearest> exact(group.sheets.size());
-  double reach = INFINITY;  // longest length that the shortest way can have
+  double reach = INFINITY;  // upper limit of the length of the shortest way
   std::map<Face, Way> ways;
   for (const Index t : order) {
     if (low(t) > reach) break;
@@ -359,7 +361,7 @@ VolumeSheetTruth SolidPart::sheets_of(const Group& group, const std::vector<Inde
   return truth;
 }
 
-/// Accepts both sides if some triangle around the face belongs to a tetrahedron whose volume is not certainly positive.
+/// Returns whether some triangle around the face belongs to a tetrahedron whose volume is not certainly positive.
 bool SolidPart::is_vague(Face face) const {
   return std::ranges::any_of(around(face), [&](Index t) {
     return !solid_.is_positive(solid_.owner(t)) || solid_.is_doubtful(solid_.owner(t));

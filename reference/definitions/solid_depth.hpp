@@ -1,6 +1,6 @@
-// Stage volume_depth for parts of tetrahedra: finds the sheets at a point and their shortest ways to the boundary
-// (§3.9, after Chen, Diaz and Yuksel 2023). Tetrahedra without volume are allowed. If all have volume and the map is
-// locally injective, the answer equals that of TetVolume.
+// Stage volume_depth for parts of tetrahedra: finds the sheets at a point and the shortest way from each to the
+// boundary (§3.9, after Chen, Diaz and Yuksel 2023). Tetrahedra without volume are allowed. If all have volume and the
+// map is locally injective, the answer equals that of TetVolume.
 #pragma once
 
 #include <array>
@@ -33,8 +33,8 @@ class Solid {
   bool is_positive(Index t) const { return sign_[static_cast<std::size_t>(t)] > 0; }
   /// Returns whether rounding could change the sign of the volume.
   bool is_doubtful(Index t) const { return doubtful_[static_cast<std::size_t>(t)] != 0; }
-  /// Returns whether a way ends at this triangle, certainly or possibly: no tetrahedron that is certainly positive lies
-  /// behind it.
+  /// Returns whether a way ends at this triangle, certainly or possibly: no tetrahedron behind it is certainly
+  /// positive.
   bool is_closed(Index t, std::size_t corner) const;
   /// Returns the triangle opposite to a corner; its normal is outward if the volume is positive.
   compare::Triangle side(Index t, std::size_t corner) const;
@@ -53,18 +53,20 @@ class Solid {
 /// Tests one point against one part of tetrahedra.
 class SolidPart : public VolumeFaces {
  public:
-  /// `faces` must belong to the same point.
+  /// `faces` must have been built for the same point.
   SolidPart(const VolumeFaces& faces, const Solid& solid) : VolumeFaces(faces), solid_(solid) {}
 
+  /// Returns what is accepted for the part with these boundary triangles.
   compare::VolumePartTruth part(const std::vector<Index>& triangles);
 
  private:
-  /// A segment relative to a tetrahedron: six times the weights of both ends, and the largest grey error of each.
+  /// A segment relative to a tetrahedron of volume V: 6V times the barycentric weights of both ends, and the largest
+  /// grey error of each product.
   struct Passage;
-  /// Sheets that rounding could merge.
+  /// Sheets that rounding could merge into one.
   struct Group {
     std::vector<Index> tetrahedra;           ///< tetrahedra that hold x or may hold it
-    std::vector<std::vector<Index>> sheets;  ///< the exact sheets
+    std::vector<std::vector<Index>> sheets;  ///< sheets in exact numbers, each as its tetrahedra
     bool is_certain = true;
   };
   /// Describes whether a group has a way to a face.

@@ -1,5 +1,6 @@
-// The tree stores boxes instead of triangles, because CGAL requires that no datum is degenerate. Splitting compares
-// coordinates, and a ball against a box is a filtered exact predicate, so no step of a query rounds.
+// Stores boxes in the tree instead of triangles, because CGAL's tree requires primitives that are not degenerate. No
+// step of a query rounds: splitting compares coordinates, and the test of a ball against a box is a filtered exact
+// predicate.
 #include "reference/definitions/sphere_tree.hpp"
 
 #include <CGAL/AABB_traits.h>

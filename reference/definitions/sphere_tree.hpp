@@ -1,5 +1,5 @@
-// Implements BVH_SphereQuery of Algorithms 1 and 2 by CGAL's AABB tree. The detections use box_tree.hpp instead, so the
-// contact sets with this tree are independent of them.
+// Implements BVH_SphereQuery of Algorithms 1 and 2 by CGAL's AABB tree. The detections use box_tree.hpp instead, so
+// contact sets that are found with this tree can test them.
 #pragma once
 
 #include <memory>

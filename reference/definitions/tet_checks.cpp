@@ -1,6 +1,6 @@
-// The map to space is locally injective inside tetrahedra and through triangles because of their signs. Around an inner
-// edge it is if the tetrahedra wind once. At an inner vertex it then is if the tetrahedra are connected, because their
-// directions cover the sphere without branching.
+// The map to space is locally injective inside tetrahedra and through triangles because all volumes are positive. At an
+// inner edge it is locally injective if the tetrahedra around the edge wind once. At an inner vertex the tetrahedra
+// must also be connected through triangles; then their directions cover the sphere without branching.
 #include "reference/definitions/tet_checks.hpp"
 
 #include <algorithm>
@@ -76,7 +76,7 @@ bool between_half_planes(const std::array<RationalPoint, 4>& abcd, const Rationa
   return after > 0 && turn_about(a, b, u, d) > 0;
 }
 
-/// Returns how often the tetrahedra around edge ab cover the half-plane of the first tetrahedron's third corner.
+/// Returns how many tetrahedra around edge ab cover the half-plane of the first tetrahedron's third corner.
 int turns_around(std::span<const Vec3f> positions, const std::vector<Tetrahedron>& around) {
   const RationalPoint u = corners_of(positions, around.front())[2];
   return static_cast<int>(std::count_if(around.begin(), around.end(), [&](const Tetrahedron& t) {

@@ -50,7 +50,8 @@ struct BoundaryDepth {
   /// the shortest valid path; if several are equally short, the one to the lowest triangle
   BoundaryPath path;
   std::vector<Index> equally_near;  ///< all boundary triangles with a valid path of exactly this length, ascending
-  /// Number of strictly nearer boundary triangles without a valid path, which the Euclidean distance would have chosen.
+  /// Number of strictly nearer boundary triangles without a valid path. The Euclidean distance would have chosen one of
+  /// them.
   std::size_t refused = 0;
 };
 

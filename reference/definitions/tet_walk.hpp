@@ -1,4 +1,4 @@
-// The geometry of one tetrahedron and a segment in rational numbers, for the walk of tet_volume.cpp.
+// Relates a segment to one tetrahedron in rational numbers, for the walk of tet_volume.cpp.
 #pragma once
 
 #include <CGAL/Exact_rational.h>
@@ -20,7 +20,7 @@ RationalPoint rational(const Vec3f& x);
 /// Returns the corners of a tetrahedron, in the order of its vertices.
 std::array<RationalPoint, 4> corners_of(std::span<const Vec3f> positions, const Tetrahedron& tetrahedron);
 
-/// Returns six times the barycentric weights of x; their sum is six times the volume.
+/// Returns 6V times the barycentric weights of x, where V is the volume; their sum is 6V.
 std::array<Rational, 4> weights(const std::array<RationalPoint, 4>& corners, const RationalPoint& x);
 
 /// Returns the closest point of a triangle with positive area.
@@ -40,7 +40,7 @@ class Crossing {
   Crossing(const std::array<RationalPoint, 4>& corners, const RationalPoint& start, const RationalPoint& end)
       : at_start_(weights(corners, start)), at_end_(weights(corners, end)) {}
 
-  /// Returns the part of the segment in the closed face of the marked corners (all four: in the tetrahedron).
+  /// Returns the part of the segment in the closed face with the marked corners; four marks stand for the tetrahedron.
   std::optional<Stretch> within(const std::array<bool, 4>& marked) const;
 
  private:

@@ -1,9 +1,9 @@
-// Finds the faces that could be nearest from the distances of all triangles of a part, each known to 16 u of its own
-// coordinates, and from the faces that closest_face accepts. The exact face is found among them without rounding.
+// Finds the faces that could be nearest. Uses the distances of all triangles of a part, each known to 16 · 2⁻²⁴ of the
+// triangle's coordinates, and the faces that closest_face accepts. The exactly nearest face is found without rounding.
 //
-// If a face may have the closest point only by rounding, x is on the side that the exactly nearest face gives, if both
-// have a common vertex. Otherwise the nearest triangle around the face gives the side, because the edge of a valley
-// alone would put every point inside. A rim decides for itself.
+// If a face may have the closest point only by rounding, the side of x follows from another face. If both have a common
+// vertex, that is the exactly nearest face. Otherwise it is the nearest triangle around the face, because the edge of a
+// valley alone would put every point inside. At a rim x is always outside.
 #include "reference/definitions/volume_depth.hpp"
 
 #include <algorithm>
@@ -42,7 +42,8 @@ class TrianglePart : public VolumeFaces {
     std::vector<Face> outside;  // faces with x on their outer side, each a possible contact
     for (const Face face : possible) {
       const bool holds = in_box && (face == nearest ? faces_in : is_inside(face, nearest, faces_in, candidates));
-      // A rim has no inner side, so a nearby face that has one may hold x.
+      // A rim has no inner side. So if the nearest face is a rim, x may be inside by a nearby face that has an inner
+      // side.
       const bool is_open = in_box && (on_surface || (face != nearest && is_rim(nearest) && !is_rim(face)));
       truth.may_be_inside = truth.may_be_inside || holds || is_open;
       truth.may_be_outside = truth.may_be_outside || !holds || is_open;

@@ -16,7 +16,7 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Largest error of a grey distance, relative to the moduli of its coordinates.
+/// Largest error of a grey distance, relative to the sum of the moduli of its coordinates.
 constexpr double doubt_factor = compare::grey_factor;
 
 double norm_1(const Vec3f& a, const Vec3f& b) {
@@ -45,7 +45,7 @@ bool VolumeFaces::contains(Face face, Index vertex) const {
 
 double VolumeFaces::doubt(Index t) const { return doubt_factor * std::max(faces_.distance[at(t)], spread(t)); }
 
-/// Returns Σ|δ| of triangle t and x.
+/// Returns Σ|δ| of triangle t and x, with δ relative to the triangle's first corner.
 double VolumeFaces::spread(Index t) const {
   const auto [a, b, c] = mesh_.triangle(t);
   const Vec3f& origin = mesh_.at(a);
@@ -187,7 +187,7 @@ VolumeAnswer VolumeFaces::answer(Face face, bool inside) const {
   result.contact.inside = inside;
   result.contact.triangle = exact.triangle;
   result.contact.face = face;
-  // A kernel clamps a foot beyond the face to the face's end.
+  // Kernels clamp a foot that lies beyond the end of the face, so their weights are in [0, 1].
   for (std::size_t k = 0; k < 3; ++k) result.weights[k] = std::clamp(exact.weights[k], 0.0, 1.0);
   result.direction = exact.direction;
   result.depth = exact.depth;

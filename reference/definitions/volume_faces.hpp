@@ -10,10 +10,10 @@
 
 namespace ogc::reference {
 
-/// Holds views; their owners must outlive this.
+/// The triangles of a volume, as one point x sees them. Holds views; their owners must outlive this.
 class VolumeFaces {
  public:
-  /// `own`: if x is a vertex of the volume, its number, because x does not touch its own faces; otherwise −1.
+  /// `own` is the number of x if x is a vertex of the volume, because x does not touch its own faces; otherwise −1.
   VolumeFaces(const Complex& mesh, const Vec3f& x, float radius, Index own);
   VolumeFaces(const VolumeFaces&) = default;
   virtual ~VolumeFaces() = default;
@@ -21,7 +21,8 @@ class VolumeFaces {
   bool grey = false, near = false;  ///< whether some decision up to now is grey, or near a grey one
 
  protected:
-  /// Returns the largest error of a grey distance: 16 u of the coordinates relative to the triangle's first corner.
+  /// Returns the largest error of a grey distance: 16 · 2⁻²⁴ times the larger of the distance and Σ|δ|, where δ are the
+  /// coordinates relative to the triangle's first corner.
   double doubt(Index t) const;
   /// The smallest distance to triangles, and the triangles that may have it.
   struct Candidates {
@@ -32,15 +33,17 @@ class VolumeFaces {
   bool is_on_surface(const std::vector<Index>& candidates) const;
   Face exactly_nearest(const std::vector<Index>& triangles) const;
   Face face_of(Index t, int feature) const;
-  /// Returns the faces that may be nearest, the exact one first. A face is possible if every triangle around it accepts
-  /// it: if the foot on one of them certainly lies off the face, that triangle is nearer, if only slightly. But an
-  /// error of 16 u of the foot changes its distance by at most (16 u)², and smaller differences need not be resolved.
-  /// The limit is four times that, since distances are known only to half of it.
+  /// Returns the faces that may be nearest, the exactly nearest first. A face is possible if every triangle around it
+  /// accepts it. If one triangle refuses it, the closest point is certainly off the face and this triangle is nearer.
+  /// But if the difference is too small for distances in double, the face is possible nevertheless: an error of 16 ·
+  /// 2⁻²⁴ of the closest point changes the distance by at most (16 · 2⁻²⁴)². The limit is four times that, because
+  /// distances are known to half of it only.
   std::vector<Face> possible_faces(const std::vector<Index>& candidates, Face nearest, double least) const;
   std::vector<Index> around(Face face) const;
   bool is_rim(Face face) const;
   bool contains(Face face, Index vertex) const;
-  /// Returns whether x is on the face's inner side. `nearest_inside` answers this for the exactly nearest face.
+  /// Returns whether x is on the face's inner side. `nearest_inside` is the answer for the exactly nearest face
+  /// `nearest`.
   bool is_inside(Face face, Face nearest, bool nearest_inside, const std::vector<Index>& candidates) const;
   /// Returns whether both sides of a face are accepted.
   virtual bool is_vague(Face) const { return false; }
@@ -50,7 +53,8 @@ class VolumeFaces {
   /// Adds a contact at a face, unless it is already listed or x is certainly farther than r.
   void add_touching(Face face, compare::VolumePartTruth& truth) const;
   compare::VolumeAnswer answer(Face face, bool inside) const;
-  /// Returns the sensitivity of a normal: Σ‖∂n̂/∂δ‖‖δ‖ over two sides δ, each with ‖e₁‖‖e₂‖/‖e₁ × e₂‖.
+  /// Returns an upper limit of the sensitivity Σ‖∂n̂/∂δ‖‖δ‖ of the unit normal n̂, at least 1. δ are two sides e₁ and
+  /// e₂ of the triangle; each contributes ‖e₁‖‖e₂‖/‖e₁ × e₂‖.
   double normal_scale(Index t) const;
 
   const Complex& mesh_;

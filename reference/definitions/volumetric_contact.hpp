@@ -14,13 +14,14 @@ compare::Topology surface_topology(const TetVolume& body, Index vertex_count);
 struct VolumetricContact {
   /// whether `depth` comes from the shortest path to the boundary; otherwise from Eq. 13 in an outward block
   bool inside = false;
-  Face face;         ///< boundary triangle at the end of that path, or the face of the block
+  Face face;         ///< inside: the boundary triangle at the end of the path; otherwise the face of the block
   double depth = 0;  ///< d_p + r inside, r − d outside [m], within 2 ulp; both are r on the surface
 };
 
-/// Returns the contacts of x: one for each sheet that holds x, in the order of sheets. If no sheet holds x: one for
-/// each outward block that holds x nearer than r, in the order of faces. `surface` must be that of `body`
-/// (surface_topology). If x is a vertex of the body, `own` is its number: its own sheet and its own faces are left out.
+/// Returns the contacts of x. If sheets hold x, there is one contact for each sheet, in the order of sheets. Otherwise
+/// there is one for each outward block that holds x nearer than r, in the order of faces. `surface` must be
+/// surface_topology of `body`. If x is a vertex of the body, `own` is its number; its own sheet and its own faces are
+/// then left out.
 std::vector<VolumetricContact> volumetric_contacts(const TetVolume& body, const ClosedSurface& surface, const Vec3f& x,
                                                    float contact_radius, Index own = -1);
 

@@ -1,5 +1,6 @@
-// A question about a given point is one conjunction. A question about the closest point of an edge first decides which
-// face of the edge holds that point. If several faces are possible, the answers of all of them are accepted.
+// A question about a given point is one conjunction of conditions. A question about the closest point of an edge first
+// decides which face of the edge holds that point. If several faces are possible, the answers for all of them are
+// accepted.
 #include "reference/geometry/block.hpp"
 
 #include <tbb/blocked_range.h>
@@ -19,14 +20,14 @@ struct Answer {
   bool near = false;
 };
 
-/// Adds one way in which x may lie in the block: the premise (a face that may hold x), and membership in the block.
+/// Adds one way in which x may lie in the block. `premise`: whether one particular face of the edge holds x. `block`:
+/// whether x is then in the block.
 void add(Answer& answer, const Membership& premise, const Membership& block) {
   answer.inside = answer.inside || (premise.exact && block.exact);
   answer.may_be_inside = answer.may_be_inside || (premise.possible && block.possible);
   answer.may_be_outside = answer.may_be_outside || (premise.possible && !block.certain);
 }
 
-/// Adds the condition to both results; examines its margin once.
 void require(Membership& membership, Nearness& nearness, const Condition& condition) {
   const MarginAnswer margin = examine(condition.margin);
   const bool held = (margin.sign > 0) == condition.positive;

@@ -5,7 +5,7 @@
 
 namespace ogc::reference {
 
-/// Answers all questions exactly, in parallel, and marks the answers that a relative change of 16 u of the coordinates
+/// Answers all questions exactly, in parallel. Marks the answers that a relative change of the coordinates by 16 · 2⁻²⁴
 /// could flip.
 compare::BlockTruth block(const compare::BlockIn& in);
 

@@ -1,5 +1,5 @@
-// Squared distances and plane tests are multiplied by positive lengths, so all tests are signs of polynomials and
-// nothing rounds.
+// Multiplies squared distances and plane tests by positive lengths. So every test is the sign of a polynomial, and
+// nothing is rounded.
 #include "reference/geometry/blocks.hpp"
 
 #include <algorithm>

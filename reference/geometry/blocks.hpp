@@ -1,5 +1,5 @@
-// Writes block membership as conditions: Eq. 8–10 (manifold), 14 and 15 (edge-only manifold). Each condition has the
-// face on the other side of its boundary.
+// Writes block membership as conditions: Eq. 8–10 (blocks of the surface), 14 and 15 (edge-only manifold). Each
+// condition comes with the face on the other side of its boundary.
 #pragma once
 
 #include <span>
@@ -40,12 +40,12 @@ struct Complex {
   Index opposite(Index t, Index e) const;
   /// The vertices of a face; the first `count` are used.
   struct Vertices {
-    std::array<Index, 3> items{-1, -1, -1};  ///< the first `count` are vertices
+    std::array<Index, 3> items{-1, -1, -1};  ///< only the first `count` are set
     int count = 0;                           ///< 1, 2 or 3
-    /// Returns the vertices that the face has.
+    /// Returns the first `count` vertices.
     std::span<const Index> span() const { return {items.data(), static_cast<std::size_t>(count)}; }
   };
-  Vertices vertices(Face face) const;  ///< of any face
+  Vertices vertices(Face face) const;  ///< Returns the vertices of a face.
 };
 
 /// Returns a vertex as a face.
@@ -71,11 +71,11 @@ inline Face face_of(const Complex& mesh, Index edge, compare::EdgeFeature featur
 /// A condition of a block, and the face whose block lies beyond its boundary.
 struct Boundary {
   Condition condition;  ///< holds in the block
-  Face across;          ///< its block begins where the condition fails
+  Face across;          ///< the face whose block begins where the condition fails
 };
 
-/// Visits all boundaries of U_a for the point x, except the distance (Eq. 8, 9, 10); visit(Boundary) returns false to
-/// stop. If two faces share a margin, both write it with its vertices in the same order.
+/// Visits all conditions of U_a for the point x, except the distance (Eq. 8, 9, 10); visit(Boundary) returns false to
+/// stop. If a margin belongs to two faces, both write it with its vertices in the same order.
 template <class Visit>
 void visit_block(const Complex& mesh, Face face, const Vec3f& x, Visit visit) {
   if (face.kind == FaceKind::vertex) {
@@ -119,14 +119,14 @@ struct FacePair {
 /// Returns the pair with the lower-numbered face first.
 inline FacePair ordered(Face a, Face b) { return a < b ? FacePair{a, b} : FacePair{b, a}; }
 
-/// A condition on a pair of faces, and the pair that has the closest points beyond its boundary.
+/// A condition under which a pair of faces has the closest points, and the pair that has them if the condition fails.
 struct PairBoundary {
   Condition condition;  ///< holds if this pair has the closest points
   FacePair across;      ///< has the closest points if the condition fails
 };
 
-/// Visits the conditions under which vertex p and the interior of edge e have the closest points. These are: each
-/// closest point lies in the block of the other face (Eq. 14, 15, 17).
+/// Visits the conditions under which vertex p and the interior of edge e have the closest points: each closest point
+/// lies in the block of the other face (Eq. 14, 15, 17).
 template <class Visit>
 void visit_vertex_edge(const Complex& mesh, Index p, Index e, Visit visit) {
   const auto [a, b] = mesh.edge(e);

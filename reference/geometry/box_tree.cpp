@@ -1,4 +1,5 @@
-// Median splits halve the count at each level, so 64 stack entries are enough for any 32-bit number of primitives.
+// A median split halves the count at each level. So a stack of 64 entries is enough for any 32-bit number of
+// primitives.
 #include "reference/geometry/box_tree.hpp"
 
 #include <algorithm>
@@ -12,8 +13,8 @@ namespace {
 constexpr std::uint32_t leaf_size = 4;
 constexpr std::uint32_t worth_a_thread = 2048;
 
-/// Returns the numbers of nodes of trees with `count` and with `count + 1` primitives. Two halves differ by at most one
-/// primitive, so each level has only two different numbers.
+/// Returns the numbers of nodes of a tree with `count` primitives and of one with `count + 1`. The halves of a node
+/// differ by at most one primitive, so all nodes of a level hold one of two adjacent counts.
 std::array<std::uint32_t, 2> node_counts(std::uint32_t count) {
   if (count + 1 <= leaf_size) return {1, 1};
   const auto halves = node_counts(count / 2);

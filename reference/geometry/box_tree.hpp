@@ -1,4 +1,4 @@
-// Finds the primitives whose boxes meet a box. It only culls: every decision about distance or contact is made
+// Finds the primitives whose boxes meet a box. This only preselects pairs: distances and contacts are decided
 // elsewhere, exactly.
 #pragma once
 

@@ -1,6 +1,6 @@
-// The regions of a triangle of positive area are disjoint. Lower-dimensional regions are closed towards
-// higher-dimensional ones, so one conjunction of conditions for each feature decides. The order of the features breaks
-// the ties of collapsed triangles.
+// The regions of a triangle of positive area are disjoint: a point on a common boundary belongs to the region of lower
+// dimension. So a conjunction of conditions for each feature decides. If the triangle is collapsed, several
+// conjunctions may hold; the first feature wins.
 #include "reference/geometry/closest_face.hpp"
 
 #include <tbb/blocked_range.h>
@@ -18,8 +18,8 @@ namespace {
 
 constexpr int feature_count = 7;
 
-/// The nine margins that separate the regions, each examined at most once: 0 … 2 along an edge from its first end, 3 …
-/// 5 along it from its second end, 6 … 8 across it.
+/// The nine margins that separate the regions, each examined at most once. Margin k belongs to edge k: position of the
+/// point along the edge from its first end. Margin 3 + k: along it from its second end. Margin 6 + k: across it.
 class Regions {
  public:
   Regions(const Corners& triangle, const Vec3f& point) : corners_(triangle), point_(point) {}
@@ -34,8 +34,9 @@ class Regions {
     return *known;
   }
 
-  /// The conditions of a feature's region. Corner k: on or behind the planes across both of its edges. Edge k: between
-  /// its ends, on or beyond its side plane. Interior: inside all side planes.
+  /// The conditions of a feature's region. Corner k: the point does not lie ahead of the corner in the direction of
+  /// either of its edges. Edge k: the point lies between its ends and on or beyond its side plane. Interior: it lies
+  /// inside all side planes.
   struct Conditions {
     std::array<int, 3> margins{};
     std::array<bool, 3> positive{};
@@ -91,7 +92,7 @@ class Regions {
   mutable std::array<std::optional<MarginAnswer>, 9> margins_;
 };
 
-/// Returns, by corner, the margin that is proportional to the corner's weight; −1 if the weight is 0.
+/// Returns for each corner the number of the margin that is proportional to the corner's weight; −1 if the weight is 0.
 std::array<int, 3> weight_margins(int f) {
   if (f == 6) return {7, 8, 6};
   std::array<int, 3> margins{-1, -1, -1};
@@ -138,7 +139,8 @@ Weights weights_of(const Regions& regions, int feature) {
   if (!(error <= 0.25 * sum)) return {{}, std::numeric_limits<double>::infinity()};
   for (int k = 0; k < 3; ++k)
     if (margins[k] >= 0) weights.values[k] = std::max(0.0, regions.margin(margins[k]).value / sum);
-  // A share m/Σ whose margins have the error e is off by (e + m/Σ Σe)/(Σ − Σe), and by three roundings.
+  // A weight is m/Σ, where Σ is the sum of the margins. If the errors of the margins are e and their sum is Σe, the
+  // weight has an error of at most (e + m/Σ Σe)/(Σ − Σe), and of three roundings.
   weights.error = 3 * error / sum + 0x1p-51;
   return weights;
 }
@@ -152,13 +154,12 @@ Vector combined(double s, const Vector& a, double t, const Vector& b) {
   return {s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z};
 }
 
-/// Returns Σ |slope · δ| over the coordinates.
 double spread(const Vector& slope, const Vector& delta) {
   return std::abs(slope.x * delta.x) + std::abs(slope.y * delta.y) + std::abs(slope.z * delta.z);
 }
 
-/// Returns the spread of the weight w of b (w‖e‖² = (p − a)·e, e = b − a): ∂w/∂p = e/‖e‖², ∂w/∂b = (p − a − 2 w
-/// e)/‖e‖², ∂w/∂a = −∂w/∂p − ∂w/∂b.
+/// Returns Σ|∂w/∂δ||δ| for the weight w of b on the edge e = b − a, w‖e‖² = (p − a)·e: ∂w/∂p = e/‖e‖², ∂w/∂b = (p − a −
+/// 2 w e)/‖e‖², ∂w/∂a = −∂w/∂p − ∂w/∂b.
 double edge_spread(const Vec3f& a, const Vec3f& b, const Vec3f& p, const Vec3f& origin) {
   const Vector e = between(a, b), x = between(a, p);
   const double squared = dot(e, e), w = dot(x, e) / squared;
@@ -167,8 +168,8 @@ double edge_spread(const Vec3f& a, const Vec3f& b, const Vec3f& p, const Vec3f& 
          spread(combined(-1, by_p, -1, by_b), between(origin, a));
 }
 
-/// Returns the largest spread of the weights. With p = Σ w_i t_i + η n, n = e₁ × e₂ and g_k = ∂w_k/∂p: ∂w_k/∂t₁ = −w₁
-/// g_k − η e₂ × g_k and ∂w_k/∂t₂ = −w₂ g_k − η g_k × e₁. Coordinates are relative to t₀.
+/// Returns the largest Σ|∂w/∂δ||δ| of the three weights. With p = Σ w_i t_i + η n, n = e₁ × e₂ and g_k = ∂w_k/∂p:
+/// ∂w_k/∂t₁ = −w₁ g_k − η e₂ × g_k and ∂w_k/∂t₂ = −w₂ g_k − η g_k × e₁. The coordinates δ are relative to t₀.
 double interior_spread(const Corners& t, const Vec3f& p, const std::array<double, 3>& w) {
   const Vector e1 = between(t[0], t[1]), e2 = between(t[0], t[2]), x = between(t[0], p), n = cross(e1, e2);
   const double squared = dot(n, n), eta = dot(x, n) / squared;

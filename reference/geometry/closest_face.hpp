@@ -1,4 +1,5 @@
-// Stage closest_face: the Voronoi regions of a closed triangle (Alg. 1 lines 4 and 8; method.md §2.2).
+// Stage closest_face: decides in which Voronoi region of a closed triangle a point lies (Alg. 1 lines 4 and 8;
+// method.md §2.2).
 #pragma once
 
 #include <array>
@@ -19,7 +20,7 @@ bool has_area(const Corners& triangle);
 /// closest, otherwise the lowest-numbered edge.
 TriangleFeature closest_feature(const Corners& triangle, const Vec3f& point);
 
-/// Returns whether a feature is the closest one, exactly and after any flip of grey conditions.
+/// Returns whether a feature is the closest one: exactly, possibly and certainly, where grey conditions may flip.
 Membership is_closest(const Corners& triangle, TriangleFeature feature, const Vec3f& point);
 
 /// Returns a mask: bit k is set if feature k is the closest one or could be. If the closest feature is certain, only
@@ -33,7 +34,7 @@ bool near_feature(const Corners& triangle, TriangleFeature feature, const Vec3f&
 /// distance to the triangle.
 Margin feature_gap(const Corners& triangle, TriangleFeature feature, const Vec3f& point);
 
-/// Computes all cases, in parallel over them.
+/// Returns the truth of all cases; computes them in parallel.
 compare::ClosestFaceTruth closest_face(const compare::ClosestFaceIn& in);
 
 }  // namespace ogc::reference

@@ -19,7 +19,7 @@ struct Conditions {
 };
 
 /// Returns the conditions under which end `i` of e and the interior of f have the closest points: the end projects
-/// between f's ends, and a step from it along e does not come nearer.
+/// between f's ends, and a step from this end along e does not come nearer to f.
 Conditions end_to_interior(const std::array<Vec3f, 2>& e, std::size_t i, const std::array<Vec3f, 2>& f) {
   const Vec3f& p = e[i];
   return {{Condition{along(f[0], f[1], p), true}, Condition{along(f[1], f[0], p), true},
@@ -45,8 +45,8 @@ bool hold(const Conditions& conditions) {
   return std::all_of(conditions.items.begin(), conditions.items.begin() + conditions.count, holds);
 }
 
-/// Returns whether some end of the second edge projects beyond end `from` of the first edge, towards the first edge's
-/// other end.
+/// Returns whether an end of the second edge projects on the first edge's line beyond end `from`, on the side of the
+/// first edge's other end.
 Membership some_end_beyond(const EdgePair& pair, std::size_t from) {
   Membership either{false, false, false};
   for (const Vec3f& end : pair.second) {

@@ -1,5 +1,5 @@
-// Stage closest_points: the optimality conditions of the closest points of two closed edges (Alg. 2; method.md §1.2 to
-// §1.4).
+// Stage closest_points: decides which points of two closed edges are closest, by optimality conditions (Alg. 2;
+// method.md §1.2 to §1.4).
 #pragma once
 
 #include <array>
@@ -16,43 +16,45 @@ struct EdgePair {
   std::array<Vec3f, 2> first, second;  ///< by end [m]
 };
 
-/// The part of each of two edges that is closest to the other.
+/// The features, end or interior, that hold the closest points of two edges.
 struct EdgeFeatures {
-  EdgeFeature first = EdgeFeature::end_0, second = EdgeFeature::end_0;  ///< of the first edge, of the second edge
+  /// feature of the first edge, of the second edge
+  EdgeFeature first = EdgeFeature::end_0, second = EdgeFeature::end_0;
   friend bool operator==(const EdgeFeatures&, const EdgeFeatures&) = default;
 };
 
-/// Number of pairs of features. In their order, ends come first; this order breaks ties.
+/// Number of pairs of features. Features are ordered end_0, end_1, interior; the first closest pair wins ties.
 inline constexpr int edge_feature_pairs = 9;
 /// Returns the pair of features with this number, below edge_feature_pairs.
 inline EdgeFeatures edge_features(int number) {
   return {static_cast<EdgeFeature>(number / 3), static_cast<EdgeFeature>(number % 3)};
 }
 
-/// Returns the faces whose interiors hold the closest points, without the rule for nearly parallel edges. They are
-/// unique unless the edges are exactly parallel; then the first pair in the order of edge_features is returned. A
-/// zero-length edge counts as its end_0.
+/// Returns the features that hold the closest points, without the rule for nearly parallel edges. They are unique
+/// unless the edges are exactly parallel; then the first pair in the order of edge_features is returned. An edge of
+/// length zero counts as its end_0.
 EdgeFeatures closest_features(const EdgePair& pair);
 
-/// Returns whether the features are the closest ones, exactly and after any flip of grey conditions. If they are
-/// certain, no other pair is possible, except the features at the other end of the overlap of exactly parallel edges.
+/// Returns whether the features are the closest ones: exactly, possibly and certainly, where grey conditions may flip.
+/// If they are certain, no other pair is possible, except the features at the other end of the overlap of exactly
+/// parallel edges.
 Membership are_closest(const EdgePair& pair, EdgeFeatures features);
 
 /// Returns whether ‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖² and the projection of the second edge on the line of the first overlaps the
 /// first in more than a point.
 Membership are_nearly_parallel(const EdgePair& pair);
-/// Returns the exact answer of are_nearly_parallel.
+/// Returns whether are_nearly_parallel holds exactly.
 bool nearly_parallel(const EdgePair& pair);
 
-/// Returns whether the answer lies near a boundary: near the boundary of the rule for nearly parallel edges or, if that
-/// rule does not hold, near the boundary of the region of the closest features.
+/// Returns whether a deciding margin is near 0 (compare::near_factor). It is the margin of the rule for nearly parallel
+/// edges or, if the rule does not hold, a margin of the region of the closest features.
 bool is_near_decision(const EdgePair& pair, EdgeFeatures closest, bool is_parallel);
 
-/// Returns d² − r² (a gap) of the points, point and line, or lines of the features. For the closest features, d is the
-/// distance of the edges.
+/// Returns d² − r² (a gap), where d is the distance of the features' points, point and line, or lines. For the closest
+/// features, d is the distance of the edges.
 Margin feature_gap(const EdgePair& pair, EdgeFeatures features);
 
-/// Computes all cases, in parallel over them.
+/// Returns the truth of all cases; computes them in parallel.
 compare::ClosestPointsTruth closest_points(const compare::ClosestPointsIn& in);
 
 }  // namespace ogc::reference

@@ -1,5 +1,5 @@
-// Describes a region of space as a conjunction of conditions on margins. The exact answer is whether all conditions
-// hold. The answer is grey if rounding could change it.
+// Describes a region of space as a conjunction of conditions on margins. Besides the exact answer it tells whether
+// rounding could change the answer (grey).
 #pragma once
 
 #include "reference/geometry/margin.hpp"
@@ -17,9 +17,9 @@ inline bool holds(const Condition& condition) { return (sign(condition.margin) >
 
 /// The result of a conjunction of conditions.
 struct Membership {
-  bool exact = true;     ///< all hold
+  bool exact = true;     ///< all conditions hold
   bool possible = true;  ///< no condition fails outside the grey zone
-  bool certain = true;   ///< all hold, none of them in the grey zone
+  bool certain = true;   ///< all conditions hold, none of them in the grey zone
 };
 
 /// Adds one condition: whether it holds, and whether its margin is grey.
@@ -29,14 +29,14 @@ inline void require(Membership& membership, bool held, bool doubtful) {
   membership.certain = membership.certain && held && !doubtful;
 }
 
-/// Adds a condition; examines its margin.
+/// Examines a condition's margin and adds the condition.
 inline void require(Membership& membership, const Condition& condition) {
   const MarginAnswer margin = examine(condition.margin);
   require(membership, (margin.sign > 0) == condition.positive, margin.grey);
 }
 
-/// Decides whether a conjunction is near a change: some condition is near its boundary, and every condition that fails
-/// is near its boundary.
+/// Decides whether a conjunction is near a change of its value: some condition is near its boundary, and so is every
+/// condition that fails.
 class Nearness {
  public:
   /// Adds a condition: whether it holds, and whether it is near its boundary.

@@ -25,12 +25,12 @@ bool is_candidate_pair(const compare::DetectIn& in, Index e, Index f) {
   return !adjacent && !is_excluded(in.exclusions, a, b);
 }
 
-/// Collects the results of all pairs with one lower-numbered edge.
+/// Collects the results of all pairs of an edge with higher-numbered edges.
 struct EdgeAnswer {
   std::vector<Generated> generated;
   std::vector<Doubt> doubts;
   std::size_t pairs = 0;
-  std::vector<Index> near;  ///< the other edges of near decisions
+  std::vector<Index> near;  ///< the other edges of pairs with a decision near its boundary
 };
 
 class EdgeQuery {
@@ -66,7 +66,7 @@ class EdgeQuery {
     return {around.begin(), around.end()};
   }
 
-  /// Returns whether some candidate pair of edges contains the faces.
+  /// Returns whether an edge of the first face and an edge of the second are a candidate pair.
   bool is_candidate(const FacePair& faces) const {
     const std::vector<Index> first = edges_around(faces.first), second = edges_around(faces.second);
     return std::any_of(first.begin(), first.end(), [&](Index e) {
@@ -85,7 +85,7 @@ class EdgeQuery {
     if (rule.possible) enter_interiors(other, pair, rule, within, doubtful);
     if (rule.certain) return;
     const Membership local = are_closest(pair, closest);
-    // If the contact is not certain without the rule, interiors may be missing from the answer.
+    // If the rule does not hold, the pair may have no contact; so an answer may lack the interiors.
     if (rule.possible && !(local.certain && membership(faces_of(other, closest)).certain)) accept_absence(other);
     enter_features(other, pair, closest, closest, rule);
     if (local.certain) return;
@@ -107,8 +107,8 @@ class EdgeQuery {
   }
 
   /// Returns whether closest points of nearly parallel edges lie in each other's blocks. Exactly parallel edges have
-  /// them at both ends of the overlap; one end is enough. The answer is certain in two cases: every possible pair of
-  /// features certainly passes, or some certainly closest pair certainly passes.
+  /// closest points at both ends of the overlap; one of these pairs is enough. The answer is certain in two cases:
+  /// every possible pair of features certainly passes, or some certainly closest pair certainly passes.
   Membership in_blocks_where_closest(Index other, const EdgePair& pair) const {
     Membership some{false, false, false};
     bool all_certain = true;
@@ -125,8 +125,8 @@ class EdgeQuery {
     return some;
   }
 
-  /// Checks the conditions of the features' blocks, without those that concern only the closest points of the two
-  /// edges.
+  /// Checks the conditions of the features' blocks. Skips conditions beyond which other features of the same two edges
+  /// are closest, because are_closest decides these.
   Membership in_other_blocks(Index other, EdgeFeatures features) const {
     Membership inside;
     visit_pair(mesh_, faces_of(other, features), [&](const PairBoundary& boundary) {
@@ -144,8 +144,8 @@ class EdgeQuery {
     return face.index == mesh_.edge(e)[0] || face.index == mesh_.edge(e)[1];
   }
 
-  /// Adds one of the nine pairs of faces, unless it ties exactly with the closest pair (edges of zero length): there
-  /// the order of closest_features decides.
+  /// Adds one of the nine pairs of faces. A pair that certainly ties with the closest pair (edges of zero length) is
+  /// not added, because the order of closest_features decides between them.
   void enter_features(Index other, const EdgePair& pair, EdgeFeatures features, EdgeFeatures closest,
                       const Membership& rule) {
     const FacePair faces = faces_of(other, features);
@@ -156,7 +156,8 @@ class EdgeQuery {
     }
     const Membership inside = membership(faces);
     if (!inside.possible) return;
-    // Without the rule, the interiors would be entered as well, so the rule puts only other features in doubt.
+    // If the rule for nearly parallel edges may hold, it puts the pair in doubt. Only the interiors are not in doubt:
+    // they are the contact with and without the rule.
     const bool is_interiors = features == EdgeFeatures{EdgeFeature::interior, EdgeFeature::interior};
     const bool unaffected = is_interiors || !rule.possible;
     add(faces, other, is_closest && inside.exact && (is_interiors || !rule.exact),
@@ -202,7 +203,8 @@ std::vector<Box> edge_boxes(const compare::DetectIn& in) {
   return boxes;
 }
 
-/// Returns whether a pair is surely too far apart for a contact, exact or grey, and for lowering a smallest distance.
+/// Returns whether a pair is certainly too far apart to be a contact, exactly or by rounding, and to lower a smallest
+/// distance.
 bool changes_nothing(const compare::DetectIn& in, Index e, Index other, Smallest& of_edge) {
   const compare::Edge &a = in.topology->edges[static_cast<std::size_t>(e)],
                       &b = in.topology->edges[static_cast<std::size_t>(other)];

@@ -1,6 +1,6 @@
-// Runs Algorithm 1 in its order: distance, smallest distances, closest face, feasible region. A separate pass examines
-// the grey zone for every face of every triangle within r, because a doubtful face of a neighbour matters even if
-// Algorithm 1 never examines it.
+// Runs Algorithm 1 in its order: distance, smallest distances, closest face, block. A separate pass examines the grey
+// zone for every face of every triangle within r. A doubtful face of a neighbour matters even if Algorithm 1 never
+// examines it.
 #include "reference/geometry/detect_vertex_facet.hpp"
 
 #include <tbb/blocked_range.h>
@@ -99,8 +99,8 @@ class VertexQuery {
     answer_.contacts.push_back(contact(face));
   }
 
-  /// Notes the faces of a triangle within r that may be closest: whether they are doubtful, and which faces could
-  /// replace them.
+  /// Examines the faces of a triangle within r that may be closest. Notes which of them are doubtful, and which faces
+  /// could replace them.
   void ask_about(Index t, const Corners& corners) {
     const std::uint8_t features = possible_features(corners, x_);
     std::vector<Face> closest;
@@ -111,8 +111,8 @@ class VertexQuery {
     if (!has_area(corners)) note_ties(closest);
   }
 
-  /// Notes the closest faces of a collapsed triangle, which has several: Algorithm 1 takes one, and another order of
-  /// the corners would give another.
+  /// Notes the closest faces of a collapsed triangle. It has several: Algorithm 1 takes one of them, and with another
+  /// order of the corners it would take another.
   void note_ties(const std::vector<Face>& closest) {
     for (const Face face : closest) {
       if (!membership(face).possible) continue;
@@ -165,7 +165,7 @@ class VertexQuery {
     return {inside.exact && below, below || doubtful, inside.certain && below && !doubtful};
   }
 
-  /// Returns whether some triangle of the face makes a pair with the vertex that is not excluded (Eq. 12).
+  /// Returns whether the vertex and some triangle around the face are a pair that is not excluded (Eq. 12).
   bool is_candidate(Face face) const {
     const std::vector<Index> around = triangles_around(face);
     return std::any_of(around.begin(), around.end(), [&](Index t) {
@@ -191,7 +191,8 @@ BoxTree triangle_tree(const compare::DetectIn& in) {
   return BoxTree(std::move(boxes));
 }
 
-/// Returns whether a pair is surely too far apart for a contact, exact or grey, and for lowering a smallest distance.
+/// Returns whether a pair is certainly too far apart to be a contact, exactly or by rounding, and to lower a smallest
+/// distance.
 bool changes_nothing(const compare::DetectIn& in, Index v, Index t, Smallest& of_vertex, Smallest& of_triangle) {
   const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(t)];
   const auto at = [&](Index k) { return in.positions[static_cast<std::size_t>(k)]; };

@@ -1,5 +1,5 @@
-// Computes values from exact margins where a quotient can cancel, and derivatives from the same formulas over dual
-// numbers.
+// Computes values from exact margins, because their quotients in double can lose digits by cancellation. Computes
+// derivatives from the same formulas with dual numbers.
 #include "reference/geometry/edge_parameters.hpp"
 
 #include <algorithm>
@@ -14,7 +14,8 @@ namespace {
 
 using Number = Dual<9>;
 
-/// Returns the four end points relative to the first edge's end_0, as numbers of type T made by `make(value, input)`.
+/// Returns the four end points relative to end_0 of the first edge. `make(value, input)` turns coordinate number
+/// `input` into a T.
 template <class T, class Make>
 std::array<Point<T>, 4> relative_ends(const EdgePair& pair, Make make) {
   const Vec3f& o = pair.first[0];
@@ -51,7 +52,7 @@ double condition_of(const std::array<Number, 2>& parameters, const std::array<Po
   return std::isfinite(worst) ? worst : std::numeric_limits<double>::infinity();
 }
 
-/// Returns m / (m + m'), the parameter of a point; m and m' are its margins from the two ends.
+/// Returns the parameter m / (m + m') of a point; m and m' are its margins from the two ends.
 Number share(const Number& margin, const Number& other) { return margin / (margin + other); }
 
 /// Returns the parameter of the closest point on edge e. The features of both closest points are given.

@@ -14,14 +14,14 @@ struct EdgeParameters {
   /// The larger Σ|∂s/∂δᵢ||δᵢ| of the two parameters s, at least 1; δ are the coordinates relative to the first edge's
   /// end_0. Infinite if undefined.
   double condition = 1;
-  double distance = 0;  ///< of the two points [m]; set by parallel_parameters only
+  double distance = 0;  ///< distance of the two points [m]; set by parallel_parameters only
 };
 
-/// Returns the parameters of the closest points, which lie on the given features.
+/// Returns the parameters of the closest points; `features` are the features that hold them.
 EdgeParameters closest_parameters(const EdgePair& pair, EdgeFeatures features);
 
-/// Returns the parameters for nearly parallel edges: the middle of the overlap on the first edge, and its projection on
-/// the closed second edge. Computes in long double, where no quotient loses digits by cancellation.
+/// Returns the parameters for nearly parallel edges: the middle of the overlap on the first edge, and the projection of
+/// this middle on the closed second edge. Computes in long double; none of the quotients suffers cancellation.
 EdgeParameters parallel_parameters(const EdgePair& pair);
 
 }  // namespace ogc::reference

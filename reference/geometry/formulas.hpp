@@ -1,5 +1,5 @@
-// Holds every polynomial of the contact geometry, once, over a number type: intervals and exact numbers decide its
-// sign, and dual numbers give its sensitivity. Multiplication by positive lengths has removed all roots and divisions.
+// Holds every polynomial of the contact geometry, once, for any number type. Intervals and exact numbers decide its
+// sign; dual numbers give its sensitivity. Roots and divisions are removed by multiplication with positive lengths.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// Sorting by faces, then edges, makes all generators of a contact adjacent, with the lowest-numbered one first.
+// Sorts generated pairs by faces, then by edges. So all generators of a contact are adjacent, the lowest-numbered
+// first.
 #include "reference/geometry/generated_pairs.hpp"
 
 #include <algorithm>
@@ -49,7 +50,8 @@ Candidates candidates_of(std::span<const Generated> sorted) {
   return candidates;
 }
 
-/// Adds the decision about the owner of a certain contact whose lowest generators are doubtful.
+/// Adds a grey decision for a certain contact if its lowest-numbered generators are doubtful: the contact then has one
+/// of several edge pairs.
 void add_doubtful_owner(const Complex& mesh, const Candidate& candidate, std::vector<Grey>& grey) {
   const auto certain = candidate.first_certain();
   if (certain == candidate.generators.begin()) return;
@@ -73,7 +75,7 @@ GreyGroups<FacePair> doubtful_pairs(const Candidates& candidates, const std::vec
   return doubtful;
 }
 
-/// Sorts the decisions; removes repetitions, and decisions that leave no choice.
+/// Sorts the decisions. Removes repeated contacts, and decisions that leave no choice.
 void tidy(std::vector<Grey>& grey) {
   for (Grey& decision : grey) {
     std::sort(decision.contacts.begin(), decision.contacts.end());

@@ -18,10 +18,10 @@ struct Generated {
   friend auto operator<=>(const Generated&, const Generated&) = default;
 };
 
-/// A doubtful pair of faces. Beyond one of its boundaries another pair replaces it (`joined`), or it is absent.
+/// A doubtful pair of faces. Beyond one of its boundaries another pair takes its place (`joined`), or no pair does.
 struct Doubt {
-  FacePair faces, other;  ///< the doubtful pair, and its replacement
-  bool joined = false;    ///< whether `other` replaces it
+  FacePair faces, other;  ///< the doubtful pair, and the pair that takes its place
+  bool joined = false;    ///< whether `other` takes its place
 };
 
 /// The canonical contacts of a detection, and its grey decisions.

@@ -1,4 +1,4 @@
-// Groups contacts that share a grey boundary into one decision: which of them is accepted, and whether none is
+// Groups contacts that share a grey boundary into one decision, and finds out whether an answer with none of them is
 // accepted, too.
 #pragma once
 
@@ -12,13 +12,14 @@ namespace ogc::reference {
 template <class Key>
 class GreyGroups {
  public:
-  /// Adds a doubtful contact. `absence`: beyond one of its boundaries no doubtful contact replaces it.
+  /// Adds a doubtful contact. `absence`: beyond some boundary of it there is no contact in its place.
   void add(const Key& key, bool absence) {
     Entry& entry = entries_.try_emplace(key, Entry{key}).first->second;
     entry.absence = entry.absence || absence;
   }
 
-  /// Joins two contacts on both sides of one boundary. Doubtful ones must have been added when groups() is called.
+  /// Joins the contacts on both sides of a boundary. All doubtful contacts must have been added before groups() is
+  /// called.
   void join(const Key& a, const Key& b) { joins_.emplace_back(a, b); }
 
   /// Returns whether no contact is doubtful.
@@ -32,8 +33,8 @@ class GreyGroups {
     bool absence = false;   ///< whether an answer without any of them is accepted, too
   };
 
-  /// Returns the groups in the order of their smallest keys; keys ascend. A contact that is joined to a certain one may
-  /// be absent.
+  /// Returns the groups in the order of their smallest keys; keys ascend. A doubtful contact that is joined to a
+  /// certain one may be absent.
   std::vector<Group> groups() {
     for (const auto& [a, b] : joins_) unite(a, b);
     std::map<Key, Group> by_root;

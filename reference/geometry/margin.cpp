@@ -29,7 +29,7 @@ using Exact = CGAL::Mpzf;
 /// Sets the rounding mode of intervals while the object lives.
 using UpwardRounding = CGAL::Protect_FPU_rounding<true>;
 
-// Filtered names the kinds of margins first, in their order.
+// Filtered begins with the kinds of margins, in the order of MarginKind.
 static_assert(static_cast<int>(Filtered::along) == static_cast<int>(MarginKind::along) &&
               static_cast<int>(Filtered::gap_lines) == static_cast<int>(MarginKind::gap_lines));
 
@@ -110,7 +110,7 @@ std::optional<int> interval_sign(const Margin& margin) {
   return sign_of(evaluate<Interval>(margin));
 }
 
-/// Returns the difference of two squared distances, times both (positive) denominators.
+/// Returns the difference of two squared distances, times the product of their (positive) denominators.
 template <class T>
 T difference(const Margin& a, const Margin& b) {
   const Quotient<T> p = squared_distance(a.kind, widen<T>(a)), q = squared_distance(b.kind, widen<T>(b));
@@ -124,7 +124,7 @@ std::optional<int> interval_order(const Margin& a, const Margin& b) {
 
 int exact_sign(const Margin& margin) { return static_cast<int>(evaluate<Exact>(margin).sign()); }
 
-/// Returns the points relative to the first one in double: the δ of the grey zone.
+/// Returns the points relative to the first one in double: the coordinates δ of the grey zone.
 std::array<std::array<double, 3>, 4> relative(const Margin& margin) {
   std::array<std::array<double, 3>, 4> delta{};
   const Vec3f& o = margin.at[0];
@@ -156,8 +156,8 @@ double side_sensitivity(const Points<double>& at) {
   return spread(cross(to_c, e), p) + spread(cross(to_p, e), c) + spread(cross(p, to_c) + cross(c, to_p), e);
 }
 
-/// For `turn`, m = (q × v)·(x × v) with v = q₁ − q, the points as x, q, q₁: ∂m/∂x = v × (q × v), through q itself ∂m/∂q
-/// = v × (x × v), and ∂m/∂v = (x × v) × q + (q × v) × x, which counts for q₁ and with the other sign for q.
+/// For `turn`, m = (q × v)·(x × v) with v = q₁ − q and the points x, q, q₁: ∂m/∂x = v × (q × v), at constant v ∂m/∂q =
+/// v × (x × v), and ∂m/∂v = (x × v) × q + (q × v) × x. The last one is added for q₁ and subtracted for q.
 double turn_sensitivity(const Points<double>& at) {
   const Point<double>&x = at[1], &q = at[2], v = at[3] - q, of_q = cross(q, v), of_x = cross(x, v),
         by_v = cross(of_x, q) + cross(of_q, x);
@@ -189,8 +189,8 @@ double gap_sensitivity(const Points<double>& at, double radius, bool is_plane) {
   return spread(by_u, u) + spread(by_w - by_v, w) + spread(by_v, at[3]);
 }
 
-/// Returns Σ|∂m/∂δᵢ||δᵢ| with explicit derivatives, because every doubtful decision needs it. `delta` comes from
-/// `relative`.
+/// Returns Σ|∂m/∂δᵢ||δᵢ|. Uses explicit derivatives for speed, because every doubtful decision needs this sum. `delta`
+/// comes from `relative`.
 double sensitivity_at(const Margin& margin, const std::array<std::array<double, 3>, 4>& delta) {
   const Points<double> at = constants<double>(delta);
   switch (margin.kind) {
@@ -208,9 +208,9 @@ double sensitivity_at(const Margin& margin, const std::array<std::array<double, 
 }
 
 /// Largest error of a value in double, relative to its modulus. At most 18 roundings lie between a coordinate and a
-/// margin (for a plane's gap: a difference twice, a product and a difference for n; a difference, a product and two
-/// sums for the height; that twice, the square, and the difference from r² n²). The modulus may be too small by as
-/// much. Nothing overflows or underflows: terms lie between 2⁻¹⁴⁹ˣ⁶ and 2¹²⁹ˣ⁶.
+/// margin. The gap from a plane has them: a difference twice, a product and a difference for n; a difference, a product
+/// and two sums for the height; all this twice, the square, and the difference from r² n². The modulus may be too small
+/// by the same error. Nothing overflows or underflows: terms lie between 2⁻¹⁴⁹ˣ⁶ and 2¹²⁹ˣ⁶.
 constexpr double rounding = 0x1p-48;
 
 /// Returns the margin in double, with the sum of the moduli of its terms.
@@ -218,7 +218,7 @@ Measured measured(const Margin& margin, const std::array<std::array<double, 3>, 
   return evaluate(margin.kind, constants<Measured>(delta), Measured(margin.radius));
 }
 
-/// Returns x rounded to long double, whose 64 bits hold the leading bits of 106 or more.
+/// Returns x rounded to long double from two doubles, which hold at least the leading 106 bits of x.
 long double to_long_double(const Exact& x) {
   const double high = x.to_double();
   const Exact rest = x - Exact(high);
@@ -232,7 +232,7 @@ float round_down(double x) {
   return static_cast<double>(f) > x ? std::nextafter(f, 0.0f) : f;
 }
 
-/// Returns an interval that holds the distance: from 0 to infinity if the denominator's interval holds 0.
+/// Returns an interval that holds the distance. It is [0, ∞) if the interval of the denominator holds 0.
 std::pair<double, double> distance_interval(const Margin& gap) {
   const UpwardRounding upwards;
   const Quotient<Interval> squared = squared_distance(gap.kind, widen<Interval>(gap));
@@ -242,14 +242,14 @@ std::pair<double, double> distance_interval(const Margin& gap) {
   return {root.inf(), root.sup()};
 }
 
-/// Returns m / √q; the exact q ≥ 0 scales the margin to a length.
+/// Returns m / √q, both exact; returns 0 for q = 0.
 double over_root(const Exact& m, const Exact& q) {
   if (q.is_zero()) return 0;
   return static_cast<double>(to_long_double(m) / std::sqrt(to_long_double(q)));
 }
 
-/// Returns the distance rounded down, from a close guess f. A number f is at most the distance if the gap with radius f
-/// is not negative.
+/// Returns the distance rounded down, from a close guess f. The distance is at least f if the gap with radius f is not
+/// negative.
 float settle_below(const Margin& gap, float f) {
   while (f > 0 && exact_sign(with_radius(gap, f)) < 0) f = std::nextafter(f, 0.0f);
   for (;;) {
@@ -270,15 +270,15 @@ int filtered_sign(const Margin& margin, const Measured& m) {
   return decided ? *decided : exact_sign(margin);
 }
 
-/// Returns an interval that holds the distance; (1, 0) if nothing is known. A numerator is the square of a number or a
-/// vector. Each component has an error of at most `rounding` times its modulus, so the numerator's root has an error of
-/// at most `rounding` times the root of the numerator's modulus.
+/// Returns an interval that holds the distance; (1, 0) if nothing is known. The numerator is the square of a number or
+/// of a vector. Each component has an error of at most `rounding` times its modulus. So the numerator's root has an
+/// error of at most `rounding` times the root of the numerator's modulus.
 std::pair<double, double> filtered_distance(const Margin& gap) {
   const Quotient<Measured> squared = squared_distance(gap.kind, constants<Measured>(relative(gap)));
   const Measured& d = squared.denominator;
   const double least = d.value - rounding * d.modulus;
   if (!(least > 0)) return {1, 0};
-  // Six roundings: two roots, their quotient, the slack and the sums.
+  // The factors of `low` and of the result cover six roundings: two roots, their quotient, the slack and the sums.
   const double root = std::sqrt(squared.numerator.value), slack = rounding * std::sqrt(squared.numerator.modulus);
   const double low = std::max(0.0, root - slack) / std::sqrt(d.value + rounding * d.modulus) * (1 - 0x1p-50);
   return {low, (root + slack) / std::sqrt(least) * (1 + 0x1p-50)};
@@ -317,7 +317,7 @@ MarginAnswer examine(const Margin& margin) {
   const Measured m = measured(margin, delta);
   MarginAnswer answer{filtered_sign(margin, m), false, false, m.value, rounding * m.modulus};
   const double modulus = std::abs(m.value);
-  // The factor 2 keeps the roundings of m from hiding a near case.
+  // Skips the exact sum if even its upper limit is too small; the factor 2 covers the roundings of m.
   if (modulus > 2 * compare::near_factor * degree(margin.kind) * m.modulus) return answer;
   const double reach = sensitivity_at(margin, delta);
   answer.grey = reach > 0 && modulus <= compare::grey_factor * reach;
@@ -348,7 +348,7 @@ GapDistance measure(const Margin& gap) {
   if (known || !one_left) count_filter(Filtered::distance_below, !known);
   if (!known && !one_left) answer.below = settle_below(gap, round_down(answer.distance));
   if (!one_left) return answer;
-  // Only whether `next` is below the distance is undecided, mostly because the distance is exactly `next`.
+  // The distance rounded down is `below` or `next`. Mostly the distance is exactly `next`.
   const Margin about_next = with_radius(gap, next);
   const std::optional<int> decided = interval_sign(about_next);
   count_filter(Filtered::distance_below, !decided);

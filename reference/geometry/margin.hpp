@@ -14,8 +14,8 @@ namespace ogc::reference {
 
 using compare::Vec3f;
 
-/// Names a formula of formulas.hpp. A gap is numerator − r² · denominator of a squared distance: < 0 if the distance is
-/// below r.
+/// Names a formula of formulas.hpp. A gap is the numerator minus r² times the denominator of a squared distance d²: it
+/// has the sign of d² − r².
 enum class MarginKind : std::uint8_t { along, side, turn, parallel, gap_points, gap_line, gap_plane, gap_lines };
 
 /// A formula and its points. The coordinates δ of the grey zone are relative to the first point.
@@ -25,7 +25,7 @@ struct Margin {
   float radius = 0;                     ///< r of a gap [m]
 };
 
-/// Returns how far p is along the edge from a to b.
+/// Returns (p − a)·(b − a): how far p is along the edge from a to b.
 inline Margin along(const Vec3f& a, const Vec3f& b, const Vec3f& p) { return {MarginKind::along, {a, b, p}}; }
 /// Returns on which side of the edge ab, in the plane of abc, p is.
 inline Margin side(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& p) {
@@ -64,7 +64,7 @@ inline Margin with_radius(Margin gap, float radius) {
 struct MarginAnswer {
   int sign = 0;                 ///< exact: −1, 0 or 1
   bool grey = false;            ///< the result of grey(margin)
-  bool near = false;            ///< |m| ≤ 2¹¹ u Σ|∂m/∂δᵢ||δᵢ| (compare::near_factor)
+  bool near = false;            ///< m| ≤ 2¹¹ · 2⁻²⁴ Σ|∂m/∂δᵢ||δᵢ| (compare::near_factor)
   double value = 0, error = 0;  ///< m in double, and an upper limit of its error
 };
 
@@ -77,8 +77,9 @@ int sign(const Margin& margin);
 /// Returns Σ|∂m/∂δᵢ||δᵢ|, where δᵢ are the coordinates relative to the first point. The radius counts as exact.
 double sensitivity(const Margin& margin);
 
-/// Returns whether 0 < 16 u Σ|∂m/∂δᵢ||δᵢ| ≥ |m| (method.md §2.5); the radius counts as exact. If the sum is 0, no
-/// relative change of the δᵢ changes the sign: a vertex straight above a vertex of an axis-parallel grid is not grey.
+/// Returns whether 0 < 16 · 2⁻²⁴ Σ|∂m/∂δᵢ||δᵢ| ≥ |m| (method.md §2.5); the radius counts as exact. If the sum is 0, no
+/// relative change of the δᵢ changes the sign, and the margin is not grey. An example is a vertex straight above a
+/// vertex of an axis-parallel grid.
 bool grey(const Margin& margin);
 
 /// Returns the distance of a gap [m], within 1 ulp of double. The denominator must be positive.
@@ -100,21 +101,21 @@ GapDistance measure(const Margin& gap);
 /// positive.
 bool scaled_distance_less(const Margin& gap, float scale, float b);
 
-/// Compares two distances exactly: returns −1, 0 or 1 if the distance of `a` is smaller than, equal to, or larger than
-/// that of `b`. The denominators must be positive.
+/// Returns −1, 0 or 1 if the distance of `a` is smaller than, equal to, or larger than that of `b`, exactly. The
+/// denominators must be positive.
 int compare_distances(const Margin& a, const Margin& b);
 
 /// Returns (scale · d)² [m²], where d is the distance of the gap, as a fraction in lowest terms: "num/den". The
 /// denominator must be positive.
 std::string squared_distance(const Margin& gap, float scale = 1);
 
-/// Returns the margin as a signed length [m], within 1 ulp of double: for `along` and `side` the distance of the last
-/// point from the plane, for a gap d − r (without cancellation). Returns 0 if the line or plane is not defined. Throws
-/// std::logic_error for `turn` and `parallel`, which are no lengths.
+/// Returns the margin as a signed length [m], within 1 ulp of double. For `along` and `side` it is the distance of the
+/// last point from the plane, for a gap d − r (without cancellation). Returns 0 if the line or plane is not defined.
+/// Throws std::logic_error for `turn` and `parallel`, which are no lengths.
 double signed_length(const Margin& margin);
 
-/// Returns m_k / Σ m_j, each within 1 ulp of double. The margins must not be gaps, and their exact sum must be
-/// positive.
+/// Returns m_k / Σ m_j for each margin m_k, within 1 ulp of double. The margins must not be gaps, and their exact sum
+/// must be positive.
 std::vector<double> shares(std::span<const Margin> margins);
 
 }  // namespace ogc::reference

@@ -1,4 +1,4 @@
-// Finds all pairs of primitives within a distance, without missing one.
+// Finds all pairs of primitives that are nearer to each other than a distance.
 #pragma once
 
 #include "compare/stages/plane.hpp"
@@ -21,11 +21,11 @@ namespace ogc::reference {
 
 /// A vertex and a triangle.
 struct FacetPair {
-  compare::PrimitivePair name;  ///< kind, and numbers of the primitives
+  compare::PrimitivePair name;  ///< kind of the pair, numbers of vertex and triangle
   std::array<Index, 1> first;   ///< the vertex's number
   std::array<Index, 3> second;  ///< the corners' numbers
-  Vec3f point;                  ///< [m]
-  Corners corners;              ///< [m]
+  Vec3f point;                  ///< position of the vertex [m]
+  Corners corners;              ///< positions of the corners [m]
 
   FacetPair(const Complex& mesh, Index v, Index t)
       : name{compare::PrimitivePair::Kind::vertex_triangle, v, t},
@@ -46,7 +46,7 @@ struct FacetPair {
 
 /// Two edges.
 struct EdgesPair {
-  compare::PrimitivePair name;         ///< kind, and numbers of the edges
+  compare::PrimitivePair name;         ///< kind of the pair, numbers of the edges
   std::array<Index, 2> first, second;  ///< the ends' numbers
   EdgePair ends;                       ///< positions of the ends [m]
 
@@ -56,7 +56,7 @@ struct EdgesPair {
         second(mesh.edge(f)),
         ends{{mesh.at(first[0]), mesh.at(first[1])}, {mesh.at(second[0]), mesh.at(second[1])}} {}
 
-  /// Returns the closest features of both.
+  /// Returns the features that hold the closest points of both edges.
   EdgeFeatures closest() const { return closest_features(ends); }
   /// Returns the gap of the edges.
   Margin gap() const { return feature_gap(ends, closest()); }

@@ -1,5 +1,5 @@
-// Computes directions and offsets in long double and stores them. Then decides exactly whether all vertices keep the
-// stored plane, by the same comparison that judges planes (plane.hpp).
+// Computes directions and offsets in long double and rounds them. Then decides exactly whether all vertices keep the
+// rounded plane, by the same comparison that judges planes (plane.hpp).
 #include "reference/geometry/pair_planes.hpp"
 
 #include <tbb/combinable.h>
@@ -37,7 +37,7 @@ Long inner(const Direction& a, const Direction& b) { return a[0] * b[0] + a[1] *
 Direction cross(const Direction& a, const Direction& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-/// Returns `line` or −`line`, whichever points along `way`.
+/// Returns `line` or −`line`, whichever has a non-negative product with `way`.
 Direction along(const Direction& line, const Direction& way) { return inner(line, way) < 0 ? times(-1, line) : line; }
 
 /// Returns the vector from the point to the closest feature of the triangle.
@@ -129,7 +129,7 @@ class PlaneMaker {
     return true;
   }
 
-  /// Returns the first side's share of 2γ_p d; both sides can move.
+  /// Returns the share of 2γ_p d that the first side has, if both sides can move.
   Long first_part(const NearPair& pair) const {
     if (in_.displacement.empty()) return 0.5;
     std::array<Long, 2> approach{0, 0};
@@ -159,7 +159,7 @@ class PlaneMaker {
     const Long gap = bottom - top;
     const bool first_fixed = is_fixed(pair, false), second_fixed = is_fixed(pair, true);
     const Long part = first_part(pair);
-    // The offset of a fixed side is put half way to the other side, and no vertex uses it.
+    // No vertex uses the offset of a fixed side. It is put half way to the other side.
     const auto room = [share](bool fixed, bool other_fixed, Long own_part) {
       return fixed ? Long{0.5} - share : (other_fixed ? 2 * share : 2 * share * own_part);
     };

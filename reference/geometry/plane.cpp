@@ -1,10 +1,10 @@
-// Decides exactly which pairs the answer keeps apart: compares heights in double first, and in exact numbers if
-// rounding could hide the sign. Computes distances only for pairs that no plane separates and that are not surely far
-// enough apart for their vertices' balls.
+// Decides exactly which pairs the planes and balls of an answer keep apart. Compares heights n·x in double first, and
+// in exact numbers if rounding could hide the sign. Computes a distance only if no plane separates the pair and the
+// pair is not certainly far enough apart for its vertices' balls.
 //
-// Measures the room of the vertices in double: the errors of distances (within 2⁻⁴⁰ of their scale) and rooms are far
-// below the units in which they are judged. Decides with the tolerances of a single-precision kernel which pairs must
-// have a plane, so that no rounding in a kernel decides.
+// Measures in double how far the vertices can move: the errors of distances (within 2⁻⁴⁰ of their scale) are far below
+// the units in which freedom is judged. A pair must have a plane only if a single-precision kernel, within its
+// tolerances, must find that, too.
 #include "reference/geometry/plane.hpp"
 
 #include <CGAL/Gmpq.h>
@@ -50,11 +50,12 @@ class AnsweredPlanes {
 
   bool moves(Index v) const { return in_.is_fixed[static_cast<std::size_t>(v)] == 0; }
 
-  /// Returns the offset of the pair's plane in v's half-space, which must exist.
+  /// Returns the offset of v's half-space for this pair, which must exist.
   double offset(Index v, const compare::PrimitivePair& pair) const { return plane_of(v, pair)->offset; }
 
   /// Returns the normal of the plane that separates the pair, from the first side to the second. Empty if no plane
-  /// separates it: a movable vertex has no such half-space, their normals differ, or the sides overlap.
+  /// separates it: a movable vertex has no half-space for this pair, the vertices' normals differ, or the sides
+  /// overlap.
   template <class Pair>
   std::optional<Vec3f> separating_normal(const Pair& pair) const {
     const std::optional<Vec3f> normal = common_normal(pair);
@@ -91,7 +92,8 @@ class AnsweredPlanes {
     return normal;
   }
 
-  /// Returns the height up to which a vertex may move along n: its offset, or its position if it is fixed.
+  /// Returns the height up to which a vertex may move along n: the offset of its half-space, or its own height if it is
+  /// fixed.
   Height limit(Index v, const compare::PrimitivePair& pair, const Vec3f& normal, bool is_second) const {
     if (!moves(v)) return {normal, in_.positions[static_cast<std::size_t>(v)], 0};
     return {{}, {}, is_second ? -offset(v, pair) : offset(v, pair)};
@@ -101,7 +103,8 @@ class AnsweredPlanes {
   const compare::PlaneOut& out_;
 };
 
-/// Counts separated pairs, and pairs that neither a plane nor balls keep apart; `worst` is the first uncovered pair.
+/// Counts the pairs that a plane separates, and the pairs that neither a plane nor balls keep apart. `worst` is the
+/// first of the latter.
 struct Findings {
   std::size_t separated = 0, uncovered = 0;
   PrimitivePair worst;
@@ -130,7 +133,7 @@ class PlaneCheck {
   }
 
  private:
-  /// A bound that is not finite is too large. The product of single-precision numbers is exact in double.
+  /// Returns whether b_v is above γ_p r_q or not finite. The product of single-precision numbers is exact in double.
   bool is_too_large(Index v) const {
     return answered_.moves(v) && in_.topology->on_surface(v) &&
            !(double{out_.bound[at(v)]} <= double{in_.bounds_relaxation} * double{in_.query_radius});
@@ -172,13 +175,13 @@ std::tuple<PrimitivePair::Kind, Index, Index> order(const PrimitivePair& pair) {
   return {pair.kind, pair.first, pair.second};
 }
 
-/// A pair within r_q, or one that a kernel's rounding may put within r_q.
+/// A pair that is within r_q, possibly only by a kernel's rounding.
 struct MeasuredPair {
   PrimitivePair name;
   std::array<Index, 4> vertices{};
   double distance = 0;        ///< d [m]
   double scale = 0;           ///< max(d, Σ|δ|) [m]
-  bool has_room = false;      ///< whether single precision has room for a plane
+  bool has_room = false;      ///< whether single precision can hold a plane for this pair
   bool is_separated = false;  ///< whether the answer's planes separate it
   double together = 0;        ///< how far both sides together may approach along the separating plane's normal [m]
   double division = 0;        ///< PlaneFreedom::division of this pair
@@ -210,8 +213,8 @@ class FreedomCheck {
   }
 
  private:
-  /// Returns whether a kernel may put the pair within r_q. Pairs so slender that their distance has few bits may be
-  /// missing from `pairs_`, so a missing pair is measured here.
+  /// Returns whether a kernel may put the pair within r_q. `pairs_` may lack pairs whose distance has few correct bits,
+  /// so a missing pair is measured here.
   bool may_have_plane(const PrimitivePair& name) const {
     const auto found = std::ranges::lower_bound(pairs_, order(name), {},
                                                 [](const MeasuredPair& pair) { return order(pair.name); });
@@ -264,8 +267,7 @@ class FreedomCheck {
     return std::ranges::any_of(side, [this](Index v) { return answered_.moves(v); });
   }
 
-  /// Returns the distance along `sign` n from the farthest vertex of a side to the side's offset, times the length of
-  /// n.
+  /// Returns how far a side's offset lies beyond the side's farthest vertex along `sign` n, times the length of n.
   template <class Vertices>
   Long way_to_offset(const PrimitivePair& name, const Vertices& side, const Vec3f& n, Long sign) const {
     Long farthest = -Long{infinity}, offset = 0;
@@ -276,7 +278,7 @@ class FreedomCheck {
     return offset - farthest;
   }
 
-  /// Returns the largest `sign` n·w of a side's vertices, over the length of n; it may be negative.
+  /// Returns the largest component along `sign` n of the displacements of a side's vertices; it may be negative.
   template <class Vertices>
   Long speed_of(const Vertices& side, const Vec3f& n, Long sign) const {
     Long largest = -Long{infinity};
@@ -284,8 +286,8 @@ class FreedomCheck {
     return largest / std::sqrt(inner(n, n));
   }
 
-  /// Returns the error of the division. Any division is accepted if rounding can hide whether the sides approach: W/(a
-  /// + b) has no limit there.
+  /// Returns how far the offsets are from the right division of 2γ_p d, in the units of PlaneFreedom::division. Returns
+  /// 0, so that any division is accepted, if a side cannot move or rounding can hide whether the sides approach.
   template <class Pair>
   double division(const Pair& pair, const Vec3f& n, const MeasuredPair& measured) const {
     if (!can_move(pair.first) || !can_move(pair.second)) return 0;
@@ -304,8 +306,8 @@ class FreedomCheck {
     return static_cast<double>(error / (u * (measured.scale + doubtful)));
   }
 
-  /// Returns how far a side may move along `sign` n, times the length of n: the least over its vertices; 0 if no vertex
-  /// can move.
+  /// Returns how far a side may move along `sign` n, times the length of n: the smallest distance of its movable
+  /// vertices; 0 if no vertex can move.
   template <class Vertices>
   double room(const PrimitivePair& name, const Vertices& side, const Vec3f& n, double sign) const {
     double least = infinity;
@@ -319,7 +321,8 @@ class FreedomCheck {
     return least < infinity ? least : 0;
   }
 
-  /// Returns a threshold for each vertex: pairs nearer than this have a plane for any rounding in a kernel.
+  /// Returns a threshold for each vertex. A pair nearer than the thresholds of its vertices has a plane, however a
+  /// kernel rounds.
   std::vector<double> thresholds() const {
     constexpr std::size_t most = compare::planes_of_vertex;
     std::vector<std::vector<double>> distances(in_.positions.size());
@@ -337,7 +340,7 @@ class FreedomCheck {
   void judge_planes(const std::vector<double>& threshold) {
     for (const MeasuredPair& pair : pairs_) {
       const auto is_among_nearest = [&](Index v) { return pair.distance < threshold[at(v)]; };
-      // Only a wrong form has pairs of fixed vertices, no question has.
+      // Skips pairs of fixed vertices. Cases have none, but a wrong form of the answer may have some.
       const auto moves = [&](Index v) { return answered_.moves(v); };
       const bool is_due = pair.has_room && is_within(pair.distance) && std::ranges::any_of(pair.vertices, moves) &&
                           std::ranges::all_of(pair.vertices, is_among_nearest);
@@ -391,8 +394,8 @@ void require(bool holds, const char* what, std::size_t count, std::size_t vertic
 
 }  // namespace
 
-/// Sums seven terms with exact products. Each addition loses at most 2⁻⁵³ of the moduli, all together less than 2⁻⁴⁹ of
-/// the sum of the moduli.
+/// Returns the sign of a − b. Sums eight numbers with exact products; all additions together lose less than 2⁻⁴⁹ of the
+/// sum of the moduli.
 int compared(const Height& a, const Height& b) {
   double sum = a.offset - b.offset, size = std::abs(a.offset) + std::abs(b.offset);
   const auto add = [&](float n, float x, double sign) {

@@ -1,5 +1,5 @@
-// Stage plane: checks whether the planes and balls of an answer keep all pairs apart, and whether they leave enough
-// room (method.md §5.6). Decides exactly, about any contestant's answer.
+// Stage plane: checks exactly whether the planes and balls of a contestant's answer keep all pairs apart, and whether
+// they leave the vertices enough room (method.md §5.6).
 #pragma once
 
 #include "compare/stages/plane.hpp"
@@ -15,8 +15,8 @@ struct Height {
 /// Returns the sign of a − b, exactly. All numbers must be finite.
 int compared(const Height& a, const Height& b);
 
-/// Returns the guarantee and the freedom of an answer. The answer's arrays must have one entry for each vertex and its
-/// numbers must be finite. Throws like plane_guarantee.
+/// Returns whether an answer guarantees separation, and how much freedom it leaves. The answer's arrays must have one
+/// entry for each vertex and its numbers must be finite. Throws like plane_guarantee.
 compare::PlaneTruth plane(const compare::PlaneIn& in, const compare::PlaneOut& out);
 
 /// Checks the guarantee for all pairs within r_q, in parallel. Throws InputError if the answer's arrays do not have one

@@ -1,5 +1,5 @@
 // Computes only the smallest distances of a detection, from which bounds follow. detect_*.hpp adds contacts and grey
-// zones; nearest.hpp adds the exact decision which pair has the distance.
+// zones; nearest.hpp also finds the pair that has each distance.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 namespace ogc::reference {
 
 /// d_min,v, d_min,e and d_min,t [m] (Alg. 1 line 6, Alg. 2; Eq. 22, 24, 26); r_q if no primitive is nearer. They equal
-/// those of detect_vertex_facet and detect_edge_edge bit by bit.
+/// those of detect_vertex_facet and detect_edge_edge bit for bit.
 struct PrimitiveDistances {
   std::vector<float> vertex, edge, triangle;  ///< by number of the primitive [m]
 };

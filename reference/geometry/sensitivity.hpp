@@ -11,7 +11,7 @@ namespace ogc::reference {
 /// A value with its derivatives by N inputs.
 template <std::size_t N>
 struct Dual {
-  double value = 0;               ///< of the expression
+  double value = 0;               ///< value of the expression
   std::array<double, N> slope{};  ///< by input
 
   Dual() = default;
@@ -41,9 +41,8 @@ struct Dual {
 };
 
 /// A value in double, and its modulus: the value of the formula with every term replaced by its absolute value. For a
-/// homogeneous polynomial m of degree k, Σ|∂m/∂δᵢ||δᵢ| ≤ k · modulus, because each monomial has at most k factors. If n
-/// roundings lie on the longest way from an input to the value, they change it by at most n 2⁻⁵³ · modulus, to first
-/// order.
+/// homogeneous polynomial m of degree k, Σ|∂m/∂δᵢ||δᵢ| ≤ k · modulus, because each monomial has k factors. If at most n
+/// roundings lie between an input and the value, the value has an error of at most n 2⁻⁵³ · modulus, to first order.
 struct Measured {
   double value = 0, modulus = 0;
 

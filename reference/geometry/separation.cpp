@@ -1,7 +1,7 @@
-// Gilbert's iteration. w is the difference of a point of the first primitive and a point of the second. The slab
-// perpendicular to w is bounded by one vertex of each primitive. Each step moves w towards the difference of these two
-// vertices, as long as ‖w‖ falls. So w converges to the shortest difference; most pairs are separated in the first
-// step.
+// Implements Gilbert's iteration. The vector w is the difference of a point of the first primitive and a point of the
+// second. Two planes perpendicular to w, through one vertex of each primitive, bound the widest slab between the
+// primitives. Each step moves w towards the difference of these two vertices, as long as ‖w‖ falls. So w converges to
+// the shortest difference; most pairs are separated in the first step.
 #include "reference/geometry/separation.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int most_steps = 8;
 
-/// The first `split` points are those of the first primitive.
+/// Tests two primitives: the first has the first `split` points.
 template <std::size_t split>
 bool surely_beyond(const std::array<compare::Vec3f, 4>& x, double distance) {
   std::array<Point<double>, 4> p;
@@ -23,8 +23,8 @@ bool surely_beyond(const std::array<compare::Vec3f, 4>& x, double distance) {
     p[k] = {double{x[k].x} - x[0].x, double{x[k].y} - x[0].y, double{x[k].z} - x[0].z};
     largest = std::max({largest, std::abs(p[k].x), std::abs(p[k].y), std::abs(p[k].z)});
   }
-  // Each difference of single-precision numbers has one rounding, each projection a few more; 2⁻⁴⁵ of the largest
-  // coordinate covers them by far.
+  // Each difference of single-precision numbers has one rounding, each projection has a few more; 2⁻⁴⁵ of the largest
+  // coordinate is far above all of them.
   const double needed = distance * (1 + 0x1p-40) + 0x1p-45 * largest;
   Point<double> w = p[0] - p[split];
   for (int step = 0; step < most_steps; ++step) {

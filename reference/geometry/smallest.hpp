@@ -1,4 +1,5 @@
-// Smallest distances that several threads lower at once; the minimum does not depend on their order (Alg. 1 line 6).
+// Holds smallest distances that several threads lower at once; the result does not depend on their order (Alg. 1 line
+// 6).
 #pragma once
 
 #include <atomic>
@@ -30,8 +31,8 @@ class Smallest {
   std::vector<float> values_;
 };
 
-/// Factor of the search radius beyond r_q. It finds grey distances just outside r even if r_q = r. The grey zone of a
-/// distance is wider than this only for slender faces, whose distance has fewer than about ten correct bits.
+/// Factor of the search radius beyond r_q. With it, detections find grey distances just outside r even if r_q = r. The
+/// grey zone is wider only for slender faces, whose distance has fewer than about ten correct bits.
 inline constexpr double search_margin = 1 + 1.0 / 64;
 
 }  // namespace ogc::reference

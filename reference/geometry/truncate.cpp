@@ -1,5 +1,5 @@
-// The flag of a ball is the sign of a gap of two points. The scaled position has no cancellation, so long double rounds
-// to the right double.
+// A vertex is cut by its ball if a gap of two points is positive; this sign is exact. The scaled position is computed
+// in long double; as nothing cancels, its rounded value is right.
 //
 // Decides exactly which half-spaces a proposal violates. Positions are in long double: the three products of
 // single-precision numbers in n·x are exact there, and the two sums lose 2⁻⁶⁴ of their moduli.
@@ -132,14 +132,14 @@ class RegionCheck {
     truth_.grey = truth_.grey && !certain;
   }
 
-  /// Accepts any position of the region, for example the current one.
+  /// Accepts any position of the region; the current position is one of them.
   void leave_free() {
     truth_.position = narrow(current_);
     truth_.accepted = infinity;
   }
 
-  /// Finds the largest share of the step that every half-space and the ball allow; `least` is that share if each limit
-  /// keeps its largest distance.
+  /// Finds the largest share of the step that every half-space and the ball allow. `least` is this share if the answer
+  /// keeps the largest permitted distance from each of them.
   void along_path() {
     const Point step = plus(proposal_, -1, current_);
     const double whole = length(step);
@@ -168,8 +168,8 @@ class RegionCheck {
     truth_.accepted = (share - std::max(0.0, least)) * whole + stored_;
   }
 
-  /// Counts the half-spaces that the step does not approach and that rounding of its end may violate. One can be
-  /// repaired by a step away from it; two or more may leave no room.
+  /// Counts the half-spaces that the step does not approach and that the rounded end may violate. If there is one, a
+  /// step away from it mends this; if there are several, no position near the end may be inside all.
   std::ptrdiff_t beside(const Point& end, const Point& step) const {
     return std::ranges::count_if(half_spaces_, [&](const HalfSpace& h) {
       const Point n = wide(h.normal);
@@ -177,8 +177,8 @@ class RegionCheck {
     });
   }
 
-  /// Returns the half-space if exactly one is violated, also by a kernel's rounding; otherwise null. Sets `is_ball` if
-  /// none is violated.
+  /// Returns the half-space if exactly one is violated, even with a kernel's rounding; otherwise null. Sets `is_ball`
+  /// if none is violated.
   const HalfSpace* only_violated(bool& is_ball) const {
     const HalfSpace* only = nullptr;
     int count = 0;
@@ -207,7 +207,7 @@ class RegionCheck {
   }
 
   /// Moves the end of the slide into the ball and sets the accepted error. Accepts any position of the region if
-  /// another half-space may be violated or the error is large against the bound.
+  /// another half-space may be violated, or if the error is large relative to the bound.
   void into_ball(const Point& landed, double error, const HalfSpace* along) {
     const Point away = plus(landed, -1, centre_);
     const double distance = length(away);

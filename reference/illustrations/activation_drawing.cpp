@@ -23,8 +23,8 @@ double force_at(ContactActivation kind, double distance, double stiffness) {
   return 0 - energy_at(kind, distance, stiffness).slope[0];
 }
 
-/// Returns the distance at which the energy has this force. Forces fall with the distance, so 64 bisections of its
-/// logarithm find it to the last bit of a double.
+/// Returns the distance at which the energy has this force. The force falls with the distance, so bisection finds the
+/// distance; 64 halvings of its logarithm give a double to the last bit.
 double distance_of(ContactActivation kind, double force, double stiffness) {
   double near = std::log(0x1p-100), far = 0;
   for (int halving = 0; halving < 64; ++halving) {
@@ -35,7 +35,7 @@ double distance_of(ContactActivation kind, double force, double stiffness) {
 }
 
 DrawingPanel ratio_panel() {
-  constexpr int from = -4, to = 2, each = 60;  // powers of ten, and number of points for each
+  constexpr int from = -4, to = 2, each = 60;  // forces from 10^from to 10^to, with `each` points per power of ten
   DrawingPanel panel{"ratio", "curvature of IPC's energy over that of OGC's at equal force", {}};
   for (const double ratio : stiffness_ratios) {
     DrawingLayer& layer = panel.layers.emplace_back();

@@ -1,4 +1,4 @@
-// Computes Fig. 21d: the force of the contact energies over the distance, by differentiating the functions that
+// Computes the data of Fig. 21d: the force of the contact energies over the distance. Differentiates the functions that
 // Newton's method uses.
 #pragma once
 

@@ -1,5 +1,6 @@
-// A block is the face moved along each of its normals by up to r: vertices sweep cones over the region N_v, edges
-// prisms over the arc N_e, triangles a prism on either side. So each picture is made from the outline of N_a.
+// A block is the set of points that the face reaches when it moves along each of its normals by up to r. For a vertex
+// it consists of cones over the region N_v, for an edge of prisms over the arc N_e, for a triangle of a prism on either
+// side. So each picture is made from the outline of N_a.
 #include "reference/illustrations/block_picture.hpp"
 
 #include <algorithm>
@@ -40,7 +41,7 @@ class Painter {
   }
   BlockPatch& patch(Kind kind, bool closed) { return picture_.patches.emplace_back(BlockPatch{kind, closed, {}, {}}); }
 
-  /// Adds a planar, convex patch. Its outline is its boundary unless `outlines` are given.
+  /// Adds a planar, convex patch. If no `outlines` are given, its outline is its boundary.
   void polygon(Kind kind, bool closed, const std::vector<int>& corners, std::vector<std::vector<int>> outlines = {}) {
     BlockPatch& wall = patch(kind, closed);
     for (std::size_t k = 1; k + 1 < corners.size(); ++k)
@@ -51,7 +52,8 @@ class Painter {
     wall.outlines.back().push_back(corners.front());
   }
 
-  /// Adds the surface between two rows of points. Unless it goes all around, its two open ends are its outlines.
+  /// Adds the surface between two rows of points. Its two open ends are its outlines, unless the rows are closed
+  /// (`around`).
   void strip(Kind kind, bool closed, const std::vector<int>& low, const std::vector<int>& high, bool around) {
     BlockPatch& wall = patch(kind, closed);
     for (std::size_t k = 0; k + 1 < low.size(); ++k) {
@@ -73,7 +75,7 @@ class Painter {
   BlockPicture picture_;
 };
 
-/// Paints the part of the sphere inside an outline, in rings towards the centre.
+/// Triangulates the part of the sphere inside an outline, in rings towards the centre.
 void paint_cap(Painter& painter, const Point3& x, double r, const std::vector<Unit>& rim, const Unit& centre,
                double step) {
   const int rings = std::max(2, static_cast<int>(std::ceil(1.6 / step / 2)));

@@ -1,4 +1,4 @@
-// Draws blocks as triangulated boundaries, computed from the Gauss map. Nothing is decided here.
+// Draws blocks as triangulated boundaries that follow from the Gauss map.
 #pragma once
 
 #include <array>
@@ -9,11 +9,12 @@
 
 namespace ogc::reference {
 
-/// One boundary of a block as triangles over `BlockPicture::points`. For a block without volume, the patch is its flat
-/// or straight part.
+/// One boundary of a block as triangles over `BlockPicture::points`. If the block has no volume, the patch is the
+/// surface or line to which it shrinks.
 struct BlockPatch {
   BlockMargin::Kind kind = BlockMargin::Kind::sphere;  ///< kind of the boundary
-  bool closed = true;  ///< whether it is closed, as printed; open boundaries are drawn dashed (Fig. 7, 8)
+  /// whether the boundary belongs to the block, as printed; open boundaries are drawn dashed (Fig. 7, 8)
+  bool closed = true;
   std::vector<std::array<int, 3>> triangles;  ///< by numbers of points
   std::vector<std::vector<int>> outlines;     ///< polylines around the patch
 };
@@ -21,7 +22,7 @@ struct BlockPatch {
 /// A block as triangles and curves.
 struct BlockPicture {
   std::vector<std::array<double, 3>> points;  ///< [m]
-  std::vector<BlockPatch> patches;            ///< empty if the face has no normals or a vertex has no edges
+  std::vector<BlockPatch> patches;            ///< empty if the face has no normals, or if it is a vertex without edges
 };
 
 /// Returns the picture of U_a with radius r [m], or of U_a^E with `edge_only`; arcs are cut into pieces of at most

@@ -1,4 +1,4 @@
-// The figures, for illustrations.cpp; each file has one kind of subject.
+// Declares the functions that compute the figures; illustrations.cpp lists them.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Computes Fig. 2c to e, 3, 4 and 22a as slices of swept polylines. Contact sets, layers and distances come from the
-// surface; only the drawing is plane.
+// Computes Fig. 2c to e, 3, 4 and 22a as slices of swept polylines. Contact sets, layers and distances are those of the
+// swept surface; only the drawing is two-dimensional.
 #include <algorithm>
 
 #include "reference/definitions/contact_sets.hpp"
@@ -68,8 +68,8 @@ DrawingLayer arrows(const std::string& name, const Slice& slice, const std::vect
   return layer;
 }
 
-/// Returns the segments that sweep some triangles. `without`, if given, leaves out segments that end at this vertex: in
-/// the plane they contain it (Eq. 3).
+/// Returns the segments that sweep some triangles. If `without` is a vertex, leaves out segments that end at it: in the
+/// plane they contain the vertex (Eq. 3).
 std::vector<SliceFace> segments_of(const Slice& slice, const std::vector<Index>& triangles, Index without = -1) {
   const SliceFace own = without < 0 ? SliceFace{true, -2} : slice.face_of(vertex_face(without));
   std::vector<SliceFace> faces;
@@ -109,8 +109,8 @@ DrawingPanel face_set_panel(const std::string& name, const std::string& caption,
   return panel;
 }
 
-/// Returns a grid of nx × ny points over a rectangle, x fastest. The spacing has many digits, so that points rarely lie
-/// on boundaries.
+/// Returns a grid of nx × ny points over a rectangle, x fastest. Its offset 0.501 keeps points from lying on
+/// boundaries.
 template <class Value>
 DrawingLayer field(const std::string& name, const std::array<double, 4>& rectangle, int nx, int ny, Value value) {
   DrawingLayer layer{name, {}, {}, {}, {}, true};
@@ -147,7 +147,7 @@ Slice hairpin() {
                 {-3, -0.8f}});
 }
 
-/// Returns the boundaries of a segment's block in the plane: a layer of the closed lines at distance r, and a layer of
+/// Returns the boundaries of a segment's block in the plane: one layer with the closed lines at distance r, one with
 /// the open walls.
 std::vector<DrawingLayer> segment_block(const Slice& slice, int segment, double r) {
   const Complex mesh = slice.mesh();

@@ -1,4 +1,4 @@
-// Computes Fig. 5 to 8: normals and blocks of single faces on the smallest surfaces that have such faces.
+// Computes Fig. 5 to 8: normals and blocks of single faces, each on the smallest surface that has such a face.
 #include "reference/illustrations/block_picture.hpp"
 #include "reference/illustrations/illustration_parts.hpp"
 
@@ -16,7 +16,7 @@ struct Shape {
   Complex mesh() const { return {topology, positions}; }
 };
 
-/// Returns k triangles around vertex 0; neighbour i has the given height.
+/// Returns k triangles around vertex 0; the i-th neighbour has height heights[i].
 Shape star(const std::vector<float>& heights) {
   const auto k = static_cast<Index>(heights.size());
   std::vector<Vec3f> positions{{0, 0, 0}};

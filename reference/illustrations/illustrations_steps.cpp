@@ -1,6 +1,6 @@
-// Computes Fig. 9 and 22b, in which steps are cut, with the reference's detections, bounds and truncations at the
-// lengths of a cloth. Fig. 9 is a slice of swept polylines, as in illustrations_2d.cpp. The line search of Fig. 9b, for
-// comparison, finds the first root of a quadratic.
+// Computes Fig. 9 and 22b, in which bounds cut the steps. Uses the reference's detections, bounds and truncations, with
+// lengths as in cloth. Fig. 9 is a slice of swept polylines, as in illustrations_2d.cpp. The line search that Fig. 9b
+// shows for comparison finds the first root of a quadratic.
 #include <algorithm>
 
 #include "compare/problem/settings.hpp"
@@ -30,7 +30,7 @@ std::vector<float> bounds_of(const compare::Topology& topology, const std::vecto
       .exact.bound;
 }
 
-/// The position y, stored within the ball about X_prev (Eq. 27, 28).
+/// The result of a truncation to the ball about X_prev (Eq. 27, 28).
 struct Cut {
   Vec3f position;
   bool cut = false;
@@ -78,7 +78,7 @@ std::vector<Point2> singles(const std::vector<Plane>& points) {
   return single;
 }
 
-/// Returns b_v of the vertices of M next to the obstacle.
+/// Returns b_v of the vertices of the moving polyline M next to the obstacle.
 std::vector<float> bounds_beside(const OneStep& step) {
   const Slice line(singles(step.before)), obstacle(singles(step.obstacle));
   std::vector<Vec3f> positions(line.mesh().positions.begin(), line.mesh().positions.end());
@@ -115,8 +115,8 @@ double first_touch(const std::array<Plane, 2>& point, const std::array<Plane, 2>
   return first;
 }
 
-/// Returns the share of the step at which M first touches the obstacle, where a line search with continuous detection
-/// stops.
+/// Returns the share of the step at which M first touches the obstacle. A line search with continuous detection stops
+/// there.
 double first_collision(const OneStep& step) {
   double first = 1;
   for (std::size_t i = 0; i < step.before.size(); ++i) {
@@ -142,7 +142,7 @@ struct Fall {
   std::vector<std::vector<float>> bounds;  ///< b_v at the beginning of each round
 };
 
-/// Returns the positions if near pairs have planes (method.md §5.6).
+/// Returns the truncated positions with planes between near pairs (method.md §5.6).
 std::vector<Cut> cut_by_planes(const compare::Topology& topology, const std::vector<Vec3f>& x,
                                const std::vector<Vec3f>& target, float query_radius) {
   const std::vector<Index> no_groups;
@@ -161,7 +161,8 @@ std::vector<Cut> cut_by_planes(const compare::Topology& topology, const std::vec
   return cuts;
 }
 
-/// Runs rounds of detection and truncation until no vertex is cut. All vertices fall alike, so there is no contact.
+/// Runs rounds of detection and truncation until no vertex is cut. All vertices fall by the same distance, so there is
+/// no contact.
 Fall fall(double speed, compare::Bounds kind = compare::Bounds::ball) {
   Fall f;
   f.start = {{-0.025f, 0, 0}, {-0.005f, 0, 0}, {-0.015f, 0.015f, 0},

@@ -1,4 +1,4 @@
-// Computes the paper's plane drawings as slices of surfaces: a polyline is swept along z, and the surface is cut in the
+// Computes the paper's plane drawings as slices of surfaces: sweeps a polyline along z and cuts the surface in the
 // plane of its middle row of vertices.
 #pragma once
 
@@ -18,8 +18,7 @@ struct SliceFace {
   friend auto operator<=>(const SliceFace&, const SliceFace&) = default;
 };
 
-/// A polyline in the plane z = 0 and the surface that it sweeps. `extra` points are separate vertices with the last
-/// numbers.
+/// A polyline in the plane z = 0 and the surface that it sweeps. `extra` points are separate vertices, numbered last.
 class Slice {
  public:
   /// A point of the plane [m].
@@ -37,7 +36,8 @@ class Slice {
   /// Returns the vertex or segment of the polyline that sweeps this face.
   SliceFace face_of(Face face) const;
 
-  /// Returns the faces of the polyline whose blocks hold the point, ascending, one for each layer.
+  /// Returns the faces of the polyline whose blocks hold the point, ascending. Their number is the number of layers
+  /// (§3.3).
   std::vector<SliceFace> layers(const Vec3f& x, float contact_radius) const;
 
  private:

@@ -20,11 +20,11 @@ double largest_coordinate(const Corners& x) {
 
 class Motion {
  public:
-  /// Takes positions relative to the first vertex and displacements relative to their mean, which changes no distance.
-  /// Let S be the largest relative coordinate plus displacement. A coordinate at a time t ≤ 1 has the roundings of a
-  /// difference, a product, a rounded time and a sum: 4 · 2⁻⁵³ S. Its projection on a unit vector, known to 4 · 2⁻⁵³,
-  /// has about thirty in all. A slab's width has two projections; 2⁻⁴⁶ S is more than both. A rate times a time of at
-  /// most 1 adds the same again.
+  /// Takes positions relative to the first vertex and displacements relative to their mean; this changes no distance.
+  /// Let S be the largest relative coordinate plus the largest displacement. A coordinate at a time t ≤ 1 has an error
+  /// of at most 4 · 2⁻⁵³ S, from a difference, a product, a rounded time and a sum. A projection on a unit vector,
+  /// known to 4 · 2⁻⁵³, has about thirty roundings in all. A slab's width has two projections, whose error is below
+  /// 2⁻⁴⁶ S. The product of a rate and a time of at most 1 adds the same error.
   Motion(compare::ContactSides sides, const Corners& x, const Corners& delta)
       : sides_(sides), split_(sides == compare::ContactSides::edge_edge ? 2 : 1) {
     const Triple<double> mean = 0.25 * (delta[0] + delta[1] + delta[2] + delta[3]);
@@ -57,14 +57,14 @@ class Motion {
     const Triple<double> apart = separation(form.weight, slab.x);
     slab.width = -1;
     widen(slab, apart);
-    // The connection's direction is known to 2⁻⁵³ S over the gap, which tilts the slab. Normals of lines and planes are
-    // more precise.
+    // The direction of the connection has an error of 2⁻⁵³ S over the gap, which tilts the slab. Normals of lines and
+    // planes are more precise.
     if (slab.width < 0.9 * length(apart)) widen(slab, normal_of(form, slab.x, apart));
     return slab;
   }
 
   /// Returns how long the slab stays wider than `thickness`. A slab that is not wider proves nothing, even if all
-  /// vertices leave it.
+  /// vertices move out of it.
   double empty_for(const Slab& slab, double thickness) const {
     if (!(slab.width > thickness)) return 0;
     double time = std::numeric_limits<double>::infinity();
@@ -90,7 +90,7 @@ class Motion {
     if (width > slab.width) slab.width = width, slab.normal = unit;
   }
 
-  /// Returns the normal of the plane, of the two lines or of the line through the closest points, on the side of
+  /// Returns the normal of the plane, of both lines or of the line of the closest points, pointing to the side of
   /// `apart`.
   static Triple<double> normal_of(const ClosestForm& form, const Corners& x, const Triple<double>& apart) {
     const auto at = [&](std::size_t place) { return x[form.at[place]]; };

@@ -1,27 +1,27 @@
-// Additive continuous collision detection (Li et al. 2021, Algorithm 1) of one pair on a straight motion, safe against
-// rounding. The original steps by 0.9 gap/ℓ until a tenth of the first gap is left, where ℓ is the largest possible
-// approach of the two primitives. For needles and parallel edges the formula of the distance can be wrong by more than
-// the distance itself. So the gap here is the width of the empty slab between two parallel planes: for any normal it is
-// at most the distance, and its rounding error is known. The fixed slab gives a second bound: it is empty until a
-// vertex of one side meets a vertex of the other. This bound is exact for pairs that slide past each other, for which ℓ
-// is far too large. The larger bound is used.
+// Implements additive continuous collision detection (Li et al. 2021, Algorithm 1) of one pair on a straight motion,
+// safely against rounding. Let ℓ be the largest possible approach of the two primitives. The original takes steps of
+// 0.9 gap/ℓ until a tenth of the first gap is left. But for needles and parallel edges the formula of the distance can
+// be wrong by more than the distance. So the gap here is the width of the empty slab between two parallel planes: for
+// any normal it is at most the distance, and its rounding error is known.
+//
+// A second bound uses the slab at rest: it is empty until a vertex of one side meets a vertex of the other. This bound
+// is exact for pairs that slide past each other, for which ℓ is far too large. Each step takes the larger bound.
 #pragma once
 
 #include "reference/energies/closest_form.hpp"
 
 namespace ogc::reference {
 
-/// The share of the first gap that is left at the returned time (s of Algorithm 1), and the factor that shortens each
-/// safe step.
+/// The share of the first gap that is left at the returned time (s of Algorithm 1), and the factor of each safe step.
 inline constexpr double ccd_gap_left = 0.1, ccd_rescaling = 0.9;
 
-/// Limit of the steps. Each safe step is at least a ninetieth of what ℓ allows for a tenth of the gap, so the limit
-/// ends only motions that would take unreasonably long. The time reached by then is a safe answer.
+/// Limit of the steps. The limit ends only motions that would take unreasonably long, because a safe step is at least
+/// 1/90 of the step that ℓ allows for a tenth of the gap. The time reached by then is a safe answer.
 inline constexpr int ccd_most_steps = 10000;
 
 /// Returns a time t in [0, until], until ≤ 1. On [0, t] the pair stays more than `thickness` [m] apart while its
-/// vertices move from x to x + delta. Returns `until` if nothing is in the way, and 0 if rounding hides the gap at the
-/// start. Sides are point_triangle or edge_edge.
+/// vertices move from x to x + delta. Returns `until` if the pair does not come that near, and 0 if rounding hides the
+/// gap at the start. Sides are point_triangle or edge_edge.
 double additive_ccd(compare::ContactSides sides, const std::array<Triple<double>, 4>& x,
                     const std::array<Triple<double>, 4>& delta, double thickness, double until = 1,
                     int most_steps = ccd_most_steps);

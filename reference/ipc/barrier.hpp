@@ -1,7 +1,7 @@
-// The barrier energy of IPC (Li et al. 2020, Eq. 6; with a thickness Li et al. 2021, Eq. 10), over any number type. It
-// is a function of the squared distance D, which is a polynomial in the coordinates, or a quotient of two; the distance
-// itself has a root. With a thickness ξ the gap D − ξ² replaces D, and 2 ξ d̂ + d̂² replaces d̂². The barrier then acts
-// for ξ < d < ξ + d̂.
+// The barrier energy of IPC (Li et al. 2020, Eq. 6; with a thickness Li et al. 2021, Eq. 10), for any number type. It
+// is a function of the squared distance D, because D is a polynomial or a quotient of two, while the distance has a
+// root. With a thickness ξ the gap D − ξ² replaces D, and 2 ξ d̂ + d̂² replaces d̂². The barrier then acts for ξ < d <
+// ξ + d̂.
 #pragma once
 
 #include <cmath>
@@ -60,11 +60,12 @@ T squared_form_distance(const ClosestForm& form, const std::array<Triple<T>, N>&
 /// One barrier without κ: w e_k b(D − ξ²).
 template <class Number>
 struct BarrierTermOf {
-  std::array<compare::Index, 4> vertex{-1, -1, -1, -1};  ///< by place of the form; unused entries are −1
-  std::uint8_t count = 0;                                ///< number of vertices
-  ClosestForm form;                                      ///< the closest points, with weights by vertex
-  Number weight = 1.0;                                   ///< number of pairs of primitives with exactly this distance
-  Number rest_squared = 0.0;  ///< ‖ē‖²‖ē'‖² of two mollified edges [m⁴]; 0: e_k = 1
+  /// numbers of the vertices, in the order of the form; unused entries are −1
+  std::array<compare::Index, 4> vertex{-1, -1, -1, -1};
+  std::uint8_t count = 0;     ///< number of vertices
+  ClosestForm form;           ///< the closest points, with a weight for each vertex
+  Number weight = 1.0;        ///< number of pairs of primitives that this barrier stands for
+  Number rest_squared = 0.0;  ///< ‖ē‖²‖ē'‖² if the pair is two mollified edges [m⁴]; 0: e_k = 1
 
   /// Returns the energy without κ [m⁴].
   template <class T, std::size_t N>
@@ -78,8 +79,8 @@ struct BarrierTermOf {
     return value;
   }
 
-  /// Returns the constants, and the properties that barriers side by side must share (head of
-  /// energies/stencil_terms.hpp).
+  /// Lists the constants (`numbers`), and the properties that barriers evaluated side by side must share (`kinds`); see
+  /// energies/stencil_terms.hpp.
   auto numbers() { return std::tie(weight, rest_squared); }
   auto numbers() const { return std::tie(weight, rest_squared); }
   auto kinds() { return std::tie(form.kind, form.at); }

@@ -1,5 +1,5 @@
-// Derivatives of barriers, several of one form side by side, as for other stencils in
-// energies/stencils/stencil_kernels.hpp.
+// Differentiates several barriers of one form at once in the lanes of a register, like
+// energies/stencils/stencil_kernels.hpp for other stencils.
 #pragma once
 
 #include "reference/energies/stencils/stencil_kernels.hpp"

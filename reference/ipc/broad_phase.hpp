@@ -1,4 +1,4 @@
-// Culls pairs by boxes. A box that holds both ends of a primitive's straight way holds the whole way.
+// Preselects pairs by boxes. A box that holds both ends of a primitive's straight motion holds the whole motion.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace ogc::reference {
 
-/// Returns the box of the way of one primitive, given by its vertices, widened by `margin` [m].
+/// Returns the box of the motion of one primitive, given by its vertices, widened by `margin` [m].
 template <class Vertices>
 Box swept_box(const Vertices& vertices, const State& from, const State& to, double margin) {
   Box box;
@@ -25,6 +25,7 @@ Box swept_box(const Vertices& vertices, const State& from, const State& to, doub
   return widened(box, margin);
 }
 
+/// Returns swept_box of each primitive.
 template <class Primitives>
 std::vector<Box> swept_boxes(const Primitives& primitives, const State& from, const State& to, double margin) {
   std::vector<Box> boxes(primitives.size());
@@ -33,16 +34,16 @@ std::vector<Box> swept_boxes(const Primitives& primitives, const State& from, co
   return boxes;
 }
 
-/// Returns whether two primitives make a pair: they share no vertex and are not excluded (one rigid group, or a pair
-/// that the scene excludes).
+/// Returns whether two primitives make a pair: they share no vertex and are not excluded, as members of one rigid group
+/// or by the scene.
 template <class First, class Second>
 bool is_pair(const compare::ExclusionView& exclusions, const First& first, const Second& second) {
   return std::find_first_of(first.begin(), first.end(), second.begin(), second.end()) == first.end() &&
          !is_excluded(exclusions, first, second);
 }
 
-/// Returns the items of `count` queries, ascending if each `query(i, found)` appends items that begin with i. The
-/// number of threads changes nothing.
+/// Returns the items that `count` queries find, in the order of the queries: query(i, found) appends those of query i.
+/// The result does not depend on the number of threads.
 template <class Item, class Query>
 std::vector<Item> found_by(std::size_t count, Query query) {
   constexpr std::size_t grain = 256;

@@ -1,4 +1,4 @@
-// Stage ccd. The oracle decides when faces meet, as for audits: without rounding, and without code of any contestant.
+// Stage ccd. The oracle decides without rounding when faces meet, as in audits, and shares no code with any contestant.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,7 +34,7 @@ double largest_coordinate(const Corners& x, const Triple<double>& from) {
   return largest;
 }
 
-/// Returns an upper limit of the distance: the distance of two points of the faces.
+/// Returns the distance of two points of the faces, an upper limit of the faces' distance.
 double distance_above(compare::ContactSides sides, const Corners& x) {
   const ClosestForm form = sides == compare::ContactSides::edge_edge ? closest_edges(x) : closest_form(sides, x);
   const Triple<double> apart = separation(form.weight, x);

@@ -1,6 +1,6 @@
 // The incremental potential of an IPC step: inertia, elasticity and damping as in Newton-OGC, barriers instead of OGC's
-// contacts, and lagged friction. If prescribed vertices did not reach their targets, it has a pull towards the targets,
-// too. Unknowns are the free vertices, with a pull also the prescribed ones, and after all vertices the frames of rods
+// contacts, and lagged friction. If prescribed vertices did not reach their targets, it also pulls them there. The
+// unknowns are the free vertices, with a pull also the prescribed ones, and then the frames of rods
 // (solvers/rods/rod_system.hpp).
 #pragma once
 
@@ -11,7 +11,8 @@
 
 namespace ogc::reference {
 
-/// The augmented Lagrangian of lagging prescribed vertices: Σ ρ m/(2h²) ‖x − t‖² − λ·(x − t).
+/// Pulls prescribed vertices that lag behind their targets t, as an augmented Lagrangian: Σ ρ m/(2h²) ‖x − t‖² − λ·(x −
+/// t).
 struct Pull {
   double stiffness = 0;  ///< ρ, in units of the inertia m/h² [1]
   State force;           ///< λ, by vertex [N]
@@ -20,23 +21,24 @@ struct Pull {
 /// Energies at one state.
 struct IpcEnergy {
   PotentialTerms elastic;                  ///< elasticity and inertia
-  std::vector<double> barriers, friction;  ///< by term; b without κ [m⁴]; friction [J]
+  std::vector<double> barriers, friction;  ///< by term: b without κ [m⁴]; friction [J]
   double barrier = 0, rest = 0;            ///< κ Σ b; friction and pull [J]
 };
 /// Returns E(to) − E(from) [J]; the barriers of the two states may differ.
 double change(const IpcEnergy& from, const IpcEnergy& to);
-/// Returns the rounding error of the sum [J].
+/// Returns a bound of the rounding error of the energies' sum [J].
 double value_noise(const IpcEnergy& energy);
 
 /// Derivatives of the incremental potential with barriers at one state.
 struct IpcDerivatives {
   std::vector<StencilDerivatives> stencil;
   std::vector<StencilVertices> vertices;  ///< by stencil
-  State gradient;                         ///< by vertex [N], then by segment [N m]; 0 if not unknown
+  State gradient;                         ///< by vertex [N], then by segment [N m]; 0 for what is not an unknown
   double energy_noise = 0;                ///< as in PotentialDerivatives [J]
 };
 
-/// The energies of a step: the potential without contacts, barriers, lagged friction, the pull of prescribed vertices.
+/// The energies of a step: the potential without contacts, barriers, lagged friction, and the pull of prescribed
+/// vertices.
 class IpcForces {
  public:
   /// The scene must be rounded and valid; scene and topology must outlive this.
@@ -49,16 +51,17 @@ class IpcForces {
   /// Computes λ, n and weights of these barriers at x; they stay until the next call.
   void lag_friction(const BarrierSet& set, const State& x, double stiffness);
 
-  /// Returns the energies at x with the barriers of x and κ [J/m⁴]. x may have ω of frames after its vertices.
+  /// Returns the energies at x, with the barriers `set` of x and κ [J/m⁴]. After its vertices, x may have the rotations
+  /// ω of frames.
   IpcEnergy energy(const State& x, const BarrierSet& set, double stiffness) const;
-  /// Returns the derivatives at x. Reuses the memory of `room`, an earlier result: the kernel would have to clear tens
-  /// of megabytes of new memory.
+  /// Returns the derivatives at x. `room` is an earlier result whose memory is used again, because the operating system
+  /// would have to clear tens of megabytes of new memory.
   IpcDerivatives derivatives(const State& x, const BarrierSet& set, double stiffness, HessianProjection projection,
                              IpcDerivatives room = {}) const;
   /// Returns ∇ Σ b of the unknowns [m³].
   State barrier_gradient(const State& x, const BarrierSet& set) const;
 
-  /// Makes prescribed vertices unknowns; without a value, fixes them.
+  /// Makes prescribed vertices unknowns and pulls them; without a value, fixes them.
   void pull(std::optional<Pull> pull) { pull_ = std::move(pull); }
   /// Returns the present pull; empty if nothing is pulled.
   const std::optional<Pull>& pull() const { return pull_; }
@@ -66,10 +69,10 @@ class IpcForces {
   bool unknown(std::size_t index) const {
     return mobility_[index] == Mobility::free || (pull_ && mobility_[index] == Mobility::prescribed);
   }
-  /// Returns m/h² by vertex, for pulled vertices ρ times that [N/m]. For frames returns the term that makes their twist
-  /// definite [N m].
+  /// Returns m/h² by vertex, times ρ for pulled vertices [N/m]. For frames, returns the term that makes the Hessian
+  /// definite in their twist [N m].
   std::vector<double> diagonal() const;
-  /// Returns the part without contacts.
+  /// Returns the potential without contacts.
   const Potential& potential() const { return potential_; }
 
  private:

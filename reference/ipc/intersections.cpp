@@ -1,4 +1,5 @@
-// CGAL's intersection tests require proper triangles and segments. Collapsed ones are tested as segments or points.
+// Tests collapsed triangles as segments, and collapsed segments as points, because CGAL's intersection tests do not
+// allow them.
 #include "reference/ipc/intersections.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -1,5 +1,5 @@
-// Checks the continuous detection: finds edges that meet triangles at a state. Predicates are exact (filtered) on the
-// given doubles.
+// Finds edges that meet triangles at a state, as a check of the continuous detection. Predicates are exact (filtered)
+// on the given doubles.
 #pragma once
 
 #include "reference/ipc/pairs.hpp"
@@ -15,7 +15,8 @@ struct EdgeThroughTriangle {
 std::string describe(const compare::Topology& topology, const EdgeThroughTriangle& meeting,
                      const compare::ElementNames& names = {});
 
-/// Returns all intersections, ascending; touching counts. Pairs inside one rigid group are left out.
+/// Returns all intersections, ascending; touching counts. Pairs that share a vertex or are excluded (PairMesh) are left
+/// out.
 std::vector<EdgeThroughTriangle> intersections(const PairMesh& mesh, const State& x);
 
 }  // namespace ogc::reference

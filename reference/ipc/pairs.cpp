@@ -17,8 +17,8 @@ using compare::Topology;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Returns a term with only the form's vertices. Their order depends only on the vertices, so that equal terms compare
-/// equal.
+/// Returns a term with only the form's vertices. Their order depends only on their numbers, so that equal terms are
+/// found by comparison.
 BarrierTerm lone_term(const ClosestForm& form, const std::array<Index, 4>& vertex) {
   BarrierTerm term;
   term.count = form.kind == FormKind::points ? 2 : form.kind == FormKind::point_line ? 3 : 4;
@@ -65,8 +65,8 @@ BarrierTerm term_of(const PairMesh& mesh, const PrimitivePair& pair, const Measu
 
 auto order_of(const BarrierTerm& term) { return std::tie(term.count, term.vertex); }
 
-/// Merges equal terms of several pairs (points, or points and edges) into one. Weights are sums of ones, so the order
-/// of terms does not matter.
+/// Merges equal terms of several pairs (two vertices, or a vertex and an edge) into one. Its weight is the sum of
+/// weights of one, which has no rounding error; so the order of terms does not matter.
 void merge(std::vector<BarrierTerm>& terms) {
   const auto mergeable = std::stable_partition(terms.begin(), terms.end(),
                                                [](const BarrierTerm& term) { return term.count == 4; });
@@ -83,10 +83,10 @@ void merge(std::vector<BarrierTerm>& terms) {
   if (mergeable != terms.end()) terms.erase(kept + 1, terms.end());
 }
 
-/// The barriers of a part of the pairs.
+/// The barriers of some of the pairs, for one thread.
 struct BarrierPart {
   BarrierSet set;
-  double squared = std::numeric_limits<double>::infinity();  ///< of the closest pair [m²]
+  double squared = std::numeric_limits<double>::infinity();  ///< squared distance of the closest pair [m²]
 
   void add(const PairMesh& mesh, const BarrierShape& shape, const PrimitivePair& pair, const State& x) {
     const Measured m = measured(mesh.topology, pair, x);

@@ -1,6 +1,6 @@
-// The pairs of primitives that can meet, and the pairs on which a barrier acts. One broad phase serves a whole motion:
-// its boxes hold the whole way of each primitive, widened by d̂. So its pairs contain those of the continuous detection
-// and, for every state on the way, those with a barrier.
+// Finds the pairs of primitives that can meet, and the pairs with a barrier. One broad phase serves a whole motion: its
+// boxes hold the whole motion of each primitive, widened by d̂. So its pairs contain those of the continuous detection
+// and, for every state of the motion, those with a barrier.
 #pragma once
 
 #include <vector>
@@ -26,7 +26,7 @@ struct PairMesh {
   const std::vector<float>& edge_length_squared;  ///< ‖ē‖² [m²]
 };
 
-/// Returns the vertices of the pair's two sides: vertex | triangle, or edge | edge.
+/// Returns the vertices of the pair: the vertex and the triangle's corners, or the ends of both edges.
 std::array<compare::Index, 4> vertices_of(const compare::Topology& topology, const PrimitivePair& pair);
 /// Returns the entries of `values` for four vertices.
 std::array<Triple<double>, 4> corners_of(const std::array<compare::Index, 4>& vertex, const State& values);
@@ -34,9 +34,9 @@ std::array<Triple<double>, 4> corners_of(const std::array<compare::Index, 4>& ve
 std::string describe(const compare::Topology& topology, const PrimitivePair& pair,
                      const compare::ElementNames& names = {});
 
-/// Returns all pairs, ascending, whose boxes come within `distance` [m] of each other; a box holds the primitive's
-/// straight way from `from` to `to`. Leaves out pairs with a shared vertex or inside one rigid group. The number of
-/// threads changes nothing.
+/// Returns all pairs whose boxes come within `distance` [m] of each other, ascending. A box holds the primitive's
+/// straight motion from `from` to `to`. Pairs that share a vertex or are excluded are left out. The result does not
+/// depend on the number of threads.
 std::vector<PrimitivePair> near_pairs(const PairMesh& mesh, const State& from, const State& to, double distance);
 
 /// Barriers at one state.
@@ -47,7 +47,7 @@ struct BarrierSet {
   std::vector<double> squared;          ///< their squared distances [m²]
   double smallest = 0;                  ///< smallest distance of active pairs, or ξ + d̂ if there is none [m]
   PrimitivePair closest;                ///< the pair at the smallest distance
-  std::vector<PrimitivePair> touching;  ///< pairs without a gap, for which no barrier is defined
+  std::vector<PrimitivePair> touching;  ///< pairs with a gap ≤ 0, for which no barrier is defined
 };
 
 /// Returns the barriers of `pairs` at x.

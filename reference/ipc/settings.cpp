@@ -1,4 +1,4 @@
-// Limits of settings are exact in single precision, so that rounding cannot take a setting out of its range.
+// The limits of settings are single-precision numbers, so that rounding cannot take a setting out of its range.
 #include "reference/ipc/settings.hpp"
 
 #include <array>

@@ -1,4 +1,4 @@
-// IPC's own settings, besides the problem's and those that it shares with Newton's method.
+// Holds the settings that only IPC has. It shares other settings with Newton's method.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,12 @@ namespace ogc::reference {
 /// Selects how IPC's barrier stiffness κ adapts: by distances (Li et al. 2020), or by gaps, the distances minus the
 /// thickness (Li et al. 2021).
 enum class IpcAdaptation : std::uint8_t { distance, gap };
-/// Selects when an IPC step has converged. `displacement`: ‖p‖_∞ < tolerance · diagonal · h (Li et al. 2020), the
-/// diagonal being that of the smallest free body (moving_diagonal). `velocity`: the root mean square of ‖p_v‖/h over
-/// the last three iterations is below velocity_tolerance (2021).
+/// Selects when an IPC step has converged. `displacement`: ‖p‖_∞ < tolerance · moving_diagonal · h (Li et al. 2020),
+/// with the diagonal of the smallest free body. `velocity`: the root mean square of ‖p_v‖/h over the last three
+/// iterations is below velocity_tolerance (2021).
 enum class IpcStopping : std::uint8_t { displacement, velocity };
-/// Selects the pairs that bound an IPC step. `partial`: the active pairs; all others allow a motion of d̂/2, unless
-/// that takes more than half of the step (Li et al. 2020). `full`: all pairs (2021).
+/// Selects the pairs that bound an IPC step. `partial`: the active pairs; because of all others no vertex moves farther
+/// than d̂/2, unless this would take more than half of the step (Li et al. 2020). `full`: all pairs (2021).
 enum class IpcCcd : std::uint8_t { partial, full };
 
 /// IPC's settings. The table of settings has their ranges and defaults.
@@ -29,7 +29,8 @@ struct IpcSettings {
   IpcCcd ccd;                ///< which pairs bound a step
   double tolerance;  ///< for `displacement`, in units of moving_diagonal per second [1/s]; 0: all iterations run
   double velocity_tolerance;  ///< for `velocity` [m/s]; 0: all iterations run
-  std::int64_t iterations;    ///< limit of a step; at the limit the step ends as it is, as in the published codes
+  /// limit of iterations of a step; the step then ends without convergence, as in the published codes
+  std::int64_t iterations;
 };
 
 /// Reads the settings from the problem's settings, where their names begin with "ipc_".

@@ -58,7 +58,7 @@ class IpcSimulation : public compare::Simulation {
     return rows;
   }
 
-  /// Returns the state without bounds: IPC has none, so a certificate has no meaning.
+  /// Returns the state with bounds of 0, because IPC has no bounds.
   compare::Snapshot snapshot() override {
     const std::vector<compare::Vec3f> position = rounded(position_);
     return {number_,
@@ -74,7 +74,8 @@ class IpcSimulation : public compare::Simulation {
             orientations_};
   }
 
-  /// Restores a snapshot of this solver to the last bit; a stored frame has rounded numbers.
+  /// Restores a snapshot: to the last bit if it has exact positions, otherwise from rounded numbers, as in a stored
+  /// frame.
   void restore(const compare::Snapshot& snapshot) override {
     if (snapshot.exact_positions.empty())
       return set_state(snapshot.step, widened(snapshot.positions), widened(snapshot.velocities), snapshot.orientations);
@@ -104,7 +105,7 @@ class IpcSimulation : public compare::Simulation {
   IpcSolver solver_;
   std::int64_t number_ = 0;
   State position_, velocity_;
-  std::vector<compare::Quaternion> orientations_;  ///< rounded: a frame has no gap that rounding could remove
+  std::vector<compare::Quaternion> orientations_;  ///< rounded; rods' frames have no gap that rounding could remove
 };
 
 }  // namespace

@@ -11,10 +11,10 @@
 namespace ogc::reference {
 namespace {
 
-constexpr double smallest_share = 1e-10;             ///< share of p below which a step has stalled
+constexpr double smallest_share = 1e-10;             ///< share of the direction p below which a step has stalled
 constexpr std::size_t window = 3;                    ///< number of iterations over which `velocity` averages
 constexpr double first_pull = 1e3, most_pull = 1e8;  ///< ρ (Li et al. 2020, supplement)
-/// Share of their way after which prescribed vertices are fixed.
+/// Share of their total distance after which prescribed vertices are fixed.
 constexpr double pulled_enough = 0.999;
 constexpr std::size_t most_named = 20;  ///< largest number of pairs in a message
 
@@ -22,7 +22,7 @@ double now_ms() {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Moves vertices; ignores the frames of p.
+/// Returns x + share p for the vertices; ignores the frames of p.
 State moved(const State& x, double share, const State& p) {
   State to = x;
   for (std::size_t v = 0; v < x.size(); ++v) to[v] = x[v] + share * p[v];
@@ -178,7 +178,7 @@ void IpcSolver::start_stiffness() {
   stiffness_ = initial_stiffness(derivatives_.gradient, forces_.barrier_gradient(x_, set_), bounds_);
 }
 
-/// Moves all prescribed vertices by the same share of their ways; the other vertices stay.
+/// Moves all prescribed vertices by the same share of their displacements; the other vertices stay.
 void IpcSolver::move_prescribed() {
   const std::vector<Mobility>& mobility = forces_.potential().mobility();
   State p(x_.size());
@@ -204,7 +204,7 @@ void IpcSolver::move_prescribed() {
 IpcSolver::Outcome IpcSolver::solve() {
   for (std::int64_t solve = 1;; ++solve) {
     const Outcome outcome = solve_once();
-    // If the last solve had nothing to do, friction has settled.
+    // If the first iteration of this solve already converged, friction has settled.
     if (outcome != Outcome::converged || solve >= newton_.friction_solves || (solve > 1 && iterations_ <= 1))
       return outcome;
     forces_.lag_friction(set_, x_, stiffness_);
@@ -237,7 +237,7 @@ std::optional<IpcSolver::Outcome> IpcSolver::iterate() {
   if (!std::isfinite(metrics_.residual)) return Outcome::not_finite;
   const bool is_noise = iterations_ > 1 && largest <= 0x1p-52 * largest_component(x_);
   const bool done = is_noise || converged(*p);
-  // Algorithm 1 also takes the last, small step (README.md), which leaves an error of second order.
+  // Algorithm 1 also takes the last, small step (README.md). With this step the error is of second order.
   const bool is_taken = !done || (ipc_.stopping == IpcStopping::displacement && !is_noise);
   if (is_taken && !take(*p, done)) return Outcome::stuck;
   if (done && pulled_home()) return Outcome::converged;
@@ -263,7 +263,8 @@ bool IpcSolver::take(const State& p, bool is_last) {
   return true;
 }
 
-/// Converts frames to lengths: a frame that turns by ω moves points fixed to it by up to the segment's length times ω.
+/// Converts the frames' rotations to lengths: a frame that turns by ω moves points fixed to it by up to the segment's
+/// length times ω.
 State IpcSolver::as_motion(State p) const {
   for (std::size_t i = x_.size(); i < p.size(); ++i) p[i] = forces_.potential().rods().length(i - x_.size()) * p[i];
   return p;
@@ -271,7 +272,8 @@ State IpcSolver::as_motion(State p) const {
 
 State IpcSolver::of_vertices(const State& p) const { return {p.begin(), p.begin() + std::ssize(x_)}; }
 
-/// Returns p. Along the gradient frames stay, because their diagonal does not determine how far they would turn.
+/// Returns the direction p: Newton's, or the negative gradient over the diagonal. Along the gradient frames do not
+/// turn, because their diagonal does not determine how far they would turn.
 std::optional<State> IpcSolver::direction() {
   System& now = system();
   const std::vector<double> diagonal = forces_.diagonal();
@@ -301,7 +303,7 @@ std::optional<State> IpcSolver::direction() {
   });
 }
 
-/// Tests the stopping rule; both published rules require at least one step.
+/// Tests the stopping rule. Both published rules require at least one step, so the first iteration never converges.
 bool IpcSolver::converged(const State& p) {
   if (ipc_.stopping == IpcStopping::displacement)
     return iterations_ > 1 && largest_component(as_motion(p)) < ipc_.tolerance * moving_diagonal_ * settings_.time_step;
@@ -316,8 +318,8 @@ bool IpcSolver::converged(const State& p) {
   return iterations_ > 1 && std::sqrt(mean) < ipc_.velocity_tolerance;
 }
 
-/// With a pull, a converged state minimises only the present Lagrangian. Then ρ is doubled up to most_pull; after that,
-/// λ is updated.
+/// Returns whether there is no pull. A converged state with a pull minimises only the present Lagrangian: doubles ρ up
+/// to most_pull, and after that updates λ.
 bool IpcSolver::pulled_home() {
   if (!forces_.pull()) return true;
   Pull pull = *forces_.pull();
@@ -360,7 +362,7 @@ IpcSolver::Bounded IpcSolver::bounded(const State& p) {
   return bound;
 }
 
-/// Returns x, followed by the share of p by which frames turn.
+/// Appends to x the rotations of frames, which are the given share of those in p.
 State IpcSolver::with_frames(State x, double share, const State& p) const {
   for (std::size_t i = x.size(); i < p.size(); ++i) x.push_back(share * p[i]);
   return x;
@@ -371,8 +373,8 @@ bool IpcSolver::intersects(const State& x) {
   return timed(IpcStage::guard, [&] { return !intersections(mesh_, x).empty(); });
 }
 
-/// Returns the accepted share of p. A full step may also raise the energy by less than its rounding error, which hides
-/// decreases near the minimum.
+/// Returns the accepted share of p. The largest allowed step is also accepted if it raises the energy by no more than
+/// its rounding error, because near the minimum this error hides a decrease.
 double IpcSolver::searched(const State& p, const Bounded& bound) {
   const IpcEnergy before = timed(IpcStage::line_search, [&] { return forces_.energy(x_, set_, stiffness_); });
   const double noise = derivatives_.energy_noise + value_noise(before);

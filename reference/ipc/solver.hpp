@@ -7,15 +7,16 @@
 //        ▲                                                                                                ▼
 //        └──────────────────────── adapt κ, or the pull ─────────────────────────────────────── p small? ─┘
 //
-// The step is bounded as in the official code: CCD of the active pairs, and a motion of d̂/2 for all others (a CFL-like
-// rule). If that rule would take more than half of the step, CCD of all pairs replaces it. One broad phase serves an
-// iteration: its boxes hold the whole motion and reach d̂ further, so it finds the pairs for the continuous detection
-// and for the barriers of every trial state.
+// The step is bounded as in the official code: by CCD of the active pairs, and by d̂/2 as the largest motion because of
+// all others (a CFL-like rule). If that rule would take more than half of the step, CCD of all pairs replaces it. One
+// broad phase serves an iteration: its boxes hold the whole motion and reach d̂ further. So it finds the pairs for the
+// continuous detection and for the barriers of every trial state.
 //
-// If a step stalls (below 1e-10 of p), the next direction is the negative gradient over the diagonal. If that stalls,
-// too, the step ends as not converged. Each such event is added to the notes of the step, with the pair that caused it.
+// If a step stalls (below 1e-10 of p), the next direction is the negative gradient over the diagonal. If this step
+// stalls, too, the time step ends without convergence. Each of these events is added to the notes of the step, with the
+// pair that caused it.
 //
-// Positions stay doubles from step to step, because rounding could remove a gap. Stored positions are rounded.
+// Positions are doubles in all steps, because rounding could remove a gap. Positions in files are rounded.
 #pragma once
 
 #include <array>
@@ -34,7 +35,7 @@
 
 namespace ogc::reference {
 
-/// The stages by which the time of a step is divided.
+/// The stages into which the time of a step is divided.
 enum class IpcStage : std::uint8_t {
   broad_phase,
   barriers,
@@ -45,11 +46,11 @@ enum class IpcStage : std::uint8_t {
   line_search,
   guard
 };
-inline constexpr std::size_t ipc_stage_count = 8;
+inline constexpr std::size_t ipc_stage_count = 8;  ///< number of stages
 /// Returns the names in the order of IpcStage.
 std::vector<std::string> ipc_stage_names();
 
-/// The result of a step [m], [m/s]; that of a failed step must not be used.
+/// The result of a step [m], [m/s]; the result of a failed step must not be used.
 struct IpcStep {
   State position, velocity;
   compare::StepMetrics metrics;
@@ -74,13 +75,13 @@ class IpcSolver {
   /// Returns the limits of κ's adaptation.
   const StiffnessBounds& stiffness_bounds() const { return bounds_; }
   double stiffness() const { return stiffness_; }  ///< present κ [J/m⁴]
-  /// Called for each accepted step of the line search with the energy's change at constant κ, and its rounding error
-  /// [J].
+  /// Called for each accepted step of the line search. `change` is the energy's change at constant κ, `noise` its
+  /// rounding error [J].
   std::function<void(double change, double noise)> on_accepted;
 
  private:
   enum class Outcome { converged, limit, indefinite, stuck, not_finite };
-  /// The system of the free vertices and frames, with a pull also of the prescribed vertices.
+  /// The linear system of the free vertices and frames, with a pull also of the prescribed vertices.
   struct System {
     BlockMatrix matrix;
     Factor factor;
@@ -138,14 +139,14 @@ class IpcSolver {
   StiffnessBounds bounds_;
   StiffnessGuard guard_;
   System free_;
-  std::unique_ptr<System> pulled_;  ///< made when it is first needed
+  std::unique_ptr<System> pulled_;  ///< built when a pull first needs it
 
   State start_, target_, x_;
-  BarrierSet set_;              ///< at x
-  IpcDerivatives derivatives_;  ///< of the last iteration
+  BarrierSet set_;              ///< the barriers at x
+  IpcDerivatives derivatives_;  ///< derivatives of the last iteration
   double stiffness_ = 0;
   double prescribed_way_ = 0;    ///< Σ ‖t − xᵗ‖² of prescribed vertices [m²]
-  std::int64_t iterations_ = 0;  ///< of the current solve
+  std::int64_t iterations_ = 0;  ///< iterations of the current solve
   bool descend_ = false;         ///< the next direction is the negative gradient
   std::deque<double> speeds_;    ///< mean squared ‖p_v‖/h of the last iterations [m²/s²]
   double started_ms_ = 0;

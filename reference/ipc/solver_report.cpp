@@ -1,4 +1,4 @@
-// The report of an IPC step: notes, rows of iterations, the row of the step. No iteration depends on it.
+// Writes the report of an IPC step: its notes, the rows of its iterations, and its row. No iteration depends on it.
 #include <algorithm>
 #include <limits>
 
@@ -7,7 +7,7 @@
 
 namespace ogc::reference {
 
-/// Adds a text to the notes, each text once a step.
+/// Adds a text to the notes, at most once in each step.
 void IpcSolver::note(const std::string& what) {
   const std::string text = "step " + std::to_string(metrics_.step) + ": " + what;
   if (std::find(metrics_.notes.begin(), metrics_.notes.end(), text) == metrics_.notes.end())

@@ -1,4 +1,4 @@
-// The stages by which an IPC solver's kernels are judged: ccd and barrier.
+// Computes the truth of the stages ccd and barrier, by which the judge tests IPC kernels.
 #pragma once
 
 #include "compare/stages/barrier.hpp"
@@ -6,8 +6,8 @@
 
 namespace ogc::reference {
 
-/// Returns the impacts, decided without rounding (compare/oracle/first_meeting.hpp), and `early` from additive_ccd with
-/// the remaining distance as its thickness.
+/// Returns the impacts, decided without rounding (compare/oracle/first_meeting.hpp). `early` is the time of
+/// additive_ccd with the remaining distance as its thickness.
 compare::CcdTruth ccd_truth(const compare::CcdIn& in);
 
 /// Computes the truth with barrier_slopes, in double.

@@ -1,4 +1,4 @@
-// Computes the common share of a direction by which all vertices may move before the first pair meets.
+// Computes the share of a displacement by which all vertices may move before the first pair meets.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,8 @@ struct StepBound {
   std::optional<PrimitivePair> pair;  ///< the pair that gives this bound, if any
 };
 
-/// Runs additive CCD of each pair from x along `direction` [m] and returns the smallest time, or `until` if none is
-/// smaller. The number of threads changes nothing.
+/// Runs additive CCD of each pair from x along `direction` [m]. Returns the smallest time, or `until` if no time is
+/// smaller. The result does not depend on the number of threads.
 StepBound step_bound(const PairMesh& mesh, const std::vector<PrimitivePair>& pairs, const State& x,
                      const State& direction, double thickness, double until = 1);
 

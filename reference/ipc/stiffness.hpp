@@ -1,5 +1,5 @@
-// The barrier's stiffness κ (Li et al. 2020, supplement; constants of the official code). Energies are those of a step
-// in joules, mass/h² times squared lengths. So κ has the unit J/m⁴ and is the official κ divided by h².
+// The barrier's stiffness κ (Li et al. 2020, supplement; constants of the official code). A step's energies are in
+// joules here, in the official code they are multiplied by h². So κ has the unit J/m⁴ and is the official κ over h².
 #pragma once
 
 #include <optional>
@@ -10,25 +10,24 @@
 
 namespace ogc::reference {
 
-/// Length and stiffness with which κ scales.
+/// The length and the stiffness to which κ is proportional.
 struct StiffnessScale {
-  double diagonal = 0;  ///< of the rest box [m]
+  double diagonal = 0;  ///< diagonal of the rest box [m]
   double inertia = 0;   ///< mean m/h² of the free vertices [N/m]
 };
 
 /// Limits of κ. At the lower limit the barrier's curvature at a distance of 1e-8 diagonals is 1e11 mean inertias; the
-/// upper limit is a hundred times the lower one. With `distance` that distance is from the surface, with `gap` it is
-/// added to the thickness.
+/// upper limit is a hundred times the lower one. With `gap`, the thickness is added to that distance.
 struct StiffnessBounds {
   double lower = 0, upper = 0;  ///< [J/m⁴]
 };
 /// Returns the limits of κ for a scene.
 StiffnessBounds stiffness_bounds(const BarrierShape& shape, const StiffnessScale& scale, IpcAdaptation adaptation);
 
-/// Returns the κ within the limits that minimises ‖∇E + κ ∇b‖; the lower limit if there is no barrier.
+/// Returns the κ between the limits that minimises ‖∇E + κ ∇b‖; the lower limit if there is no barrier.
 double initial_stiffness(const State& energy_gradient, const State& barrier_gradient, const StiffnessBounds& bounds);
 
-/// Finds pairs that were closer than 1e-9 diagonals and have come closer; κ is then doubled.
+/// Finds pairs that were closer than 1e-9 diagonals at the last call and have come closer; κ is then doubled.
 class StiffnessGuard {
  public:
   StiffnessGuard(const StiffnessScale& scale, const BarrierShape& shape, IpcAdaptation adaptation);
@@ -42,7 +41,7 @@ class StiffnessGuard {
     PrimitivePair pair;
     double squared;
   };
-  double near_squared_;  ///< [m²]
+  double near_squared_;  ///< square of the distance below which a pair is close [m²]
   std::vector<Close> close_;
 };
 

@@ -1,4 +1,4 @@
-// The units of length of IPC's distances and tolerances, and the speed below which a step ends.
+// Computes the units of length of IPC's distances and tolerances, and the speed below which a step ends.
 #pragma once
 
 #include "compare/problem/scene.hpp"
@@ -12,8 +12,8 @@ double rest_diagonal(const compare::Scene& scene);
 /// is free. A step's tolerance is a share of it (reference/README.md).
 double moving_diagonal(const compare::Scene& scene);
 
-/// Returns the speed below which the stopping rule ends an IPC step, whatever motion is left [m/s]; 0 if all iterations
-/// run.
+/// Returns the speed below which the stopping rule ends an IPC step [m/s]; 0 if all iterations run. At the end of a
+/// step vertices may still have this speed.
 double ipc_end_speed(const compare::Scene& scene);
 
 }  // namespace ogc::reference

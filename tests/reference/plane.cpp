@@ -1,5 +1,5 @@
-// Tests stage plane on two sheets an eighth of an edge apart, whose planes are derived by hand: each fault is found,
-// and nothing else.
+// Tests stage plane on two sheets an eighth of an edge apart, whose planes are derived by hand: each planted fault is
+// found, and no other fault is reported.
 #include "reference/geometry/plane.hpp"
 
 #include "reference/geometry/pair_planes.hpp"
@@ -219,7 +219,7 @@ TEST_CASE("plane: what an answer takes from the vertices is told", "[unit]") {
     CHECK(reference::plane_freedom(two.in(), out).missing == due);
   }
   SECTION("room between two sides, however little") {
-    // together both sides lose 2⁻¹⁷ of the gap; Σ|δ| is up to 23 gaps, so 69 u are accepted
+    // Together both sides lose 2⁻¹⁷ of the gap. Σ|δ| is up to 23 gaps, so 69 · 2⁻²⁴ of the gap are accepted.
     const double height = 0x1p-18 * gap;
     for (VertexPlane& plane : out.planes.items) plane.offset -= height;
     CHECK(reference::plane_freedom(two.in(), out).narrowing > compare::plane_narrowing_tolerance);
@@ -242,7 +242,8 @@ TEST_CASE("plane: a fixed side leaves the other all the room", "[unit]") {
   compare::PlaneOut out = reference::pair_planes(two.in());
   CHECK(reference::plane_guarantee(two.in(), out).kept());
   CHECK(reference::plane_freedom(two.in(), out).narrowing <= compare::plane_narrowing_tolerance);
-  // Planes with only γ_p of the gap lose 0.45 · 2²⁴ u of the gap, where Σ|δ| is up to 23 gaps.
+  // Planes that leave γ_p of the gap instead of 2γ_p are too narrow by 0.45 · 2²⁴ units of 2⁻²⁴ gap; Σ|δ| is up to 23
+  // gaps.
   for (VertexPlane& plane : out.planes.items) plane.offset -= double{relaxation} * double{gap};
   CHECK(reference::plane_freedom(two.in(), out).narrowing > 1e5);
 }

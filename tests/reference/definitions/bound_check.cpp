@@ -1,4 +1,4 @@
-// Tests bounds_above_exact: the reference's own bounds never exceed the exact ones, and are hardly below them.
+// Tests bounds_above_exact: the reference's own bounds never exceed the exact ones, and lie just below them.
 #include "reference/definitions/bound_check.hpp"
 
 #include <algorithm>
@@ -84,7 +84,7 @@ TEST_CASE("bound_check: Eq. 27, moves within the bounds never make an intersecti
       auto after = before;
       for (std::size_t v = 0; v < after.size(); ++v) {
         const double x = normal(random), y = normal(random), z = normal(random), length = std::hypot(x, y, z);
-        // The factor leaves more room than the sums lose by rounding.
+        // The factor 0.999999 covers the rounding errors of the sums.
         const double step = 0.999999 * static_cast<double>(bounds[v]) / length;
         after[v] = {after[v].x + step * x, after[v].y + step * y, after[v].z + step * z};
       }

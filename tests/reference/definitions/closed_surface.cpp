@@ -1,5 +1,5 @@
-// Tests §3.9 outside the body: which points are inside, and the blocks, which extend only outward. Both decisions share
-// no formula, so each tests the other.
+// Tests §3.9 outside the body: which points are inside, and blocks that extend only outward. The two decisions share no
+// formula, so each tests the other.
 #include "reference/definitions/closed_surface.hpp"
 
 #include <algorithm>
@@ -114,9 +114,9 @@ TEST_CASE(
   CHECK(a.locate({1, 1, 2}).on_surface);  // on a diagonal between two triangles
   CHECK(a.locate({2, 2, 2}).on_surface);  // a vertex
   CHECK(a.locate({-1, 0, 0}).outside());  // the ray runs along an edge
-  CHECK(a.locate({-1, 1, 1}).outside());  // and through diagonals
+  CHECK(a.locate({-1, 1, 1}).outside());  // the ray runs through diagonals
   CHECK(a.locate({0, 3, 0}).outside());
-  CHECK(b.locate({1.75f, 1.75f, 1.75f}).outside());  // the former corner
+  CHECK(b.locate({1.75f, 1.75f, 1.75f}).outside());  // where the corner of the cube was before it moved inward
   CHECK(b.locate({0.25f, 0.25f, 0.25f}).inside());
   CHECK(c.locate({1, 1, 1}).outside());
   CHECK(c.locate({0.25f, 1, 1}).winding == 1);
@@ -129,7 +129,7 @@ TEST_CASE("closed surface: the block of a nearest face is outward exactly where 
   std::mt19937 random(9);
   std::size_t inside = 0, outside = 0, on_surface = 0;
   for (const Surface& surface : bodies()) {
-    // The nearest face of overlapping cubes may lie inside the body.
+    // Skips overlapping cubes, whose nearest face may lie inside the body.
     if (surface.triangles.size() == overlapping_cubes().triangles.size() && surface.positions[8].x == 1.25f) continue;
     const Body body(surface);
     const ClosedSurface closed(body.mesh());

@@ -1,5 +1,6 @@
 // Tests that three computations of the contact sets agree: by definition over all faces, by the algorithms over all
-// pairs, and by the algorithms with CGAL's tree. The detections, with their own tree and grey zone, are a fourth.
+// pairs, and by the algorithms with CGAL's tree. Compares them also with the detections, which have their own tree and
+// grey zone.
 #include "reference/definitions/contact_sets.hpp"
 
 #include <algorithm>

@@ -156,9 +156,9 @@ TEST_CASE(
   const Vec3f on_edge_0{0, 0, 0}, on_edge_2{1, 0, 1};  // closest points of both edges, √2 apart
   const auto closest = reference::closest_features({{mesh.at(0), mesh.at(1)}, {mesh.at(3), mesh.at(4)}});
   REQUIRE(closest == reference::EdgeFeatures{compare::EdgeFeature::end_1, compare::EdgeFeature::interior});
-  // Edge 0 enters {e, a} with a = the interior of edge 2.
+  // Algorithm 2 as printed, run for edge 0, enters the pair with a = the interior of edge 2.
   CHECK(in_edge_only_block(mesh, edge_face(2), on_edge_0, r));
-  CHECK_FALSE(in_edge_only_block(mesh, vertex_face(1), on_edge_2, r));  // edge 2 refuses a = vertex 1
+  CHECK_FALSE(in_edge_only_block(mesh, vertex_face(1), on_edge_2, r));  // run for edge 2, it refuses a = vertex 1
   const auto contacts = reference::detect_edge_edge(question(bend, topology, r, r)).exact.contacts;
   // Only the pair that both edges accept is a contact.
   CHECK(contacts == std::vector<compare::EdgeEdgeContact>{{edge_face(1), edge_face(2), 1, 2}});

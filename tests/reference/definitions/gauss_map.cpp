@@ -74,7 +74,8 @@ TEST_CASE("gauss_map: convex, mixed and saddle vertices by hand", "[unit]") {
   CHECK(kind_of(saddle(), 0) == VertexKind::saddle);
   CHECK(kind_of(saddle(), 1) == VertexKind::convex);  // at the rim two triangles meet in a ridge
   CHECK(kind_of(grid(3), 4) == VertexKind::convex);   // flat
-  // (0,2,−1/4) lies above the line between its neighbours, and that line is still a ridge.
+  // Vertex 2 at (0, 2, −1/4) lies above the line between its neighbours, so the edge to it is a ridge; at (0, 2, −3/2)
+  // the edge is a valley.
   CHECK(kind_of(five_spokes(-0.25f), 0) == VertexKind::convex);
   CHECK(kind_of(five_spokes(-1.5f), 0) == VertexKind::mixed);
   CHECK(kind_of({{{0, 0, 0}, {1, 0, 0}}, {}, {{0, 1}}, {}}, 0) == VertexKind::convex);
@@ -187,9 +188,9 @@ TEST_CASE(
       if (!polygon || !polygon->closed) continue;
       ++closed;
       CHECK(polygon->normals.size() == topology.vertex_triangles[static_cast<std::size_t>(v)].size());
-      // An area on the sphere is known up to whole spheres. If the star passes through itself, the area is known only
-      // up to half spheres: an arc between two normals that pass through opposite directions changes to the other side
-      // of the sphere.
+      // The area of a spherical polygon is defined up to whole spheres (4π). If the star passes through itself, it is
+      // defined only up to half spheres: when neighbouring normals become opposite, the arc between them changes to the
+      // other side of the sphere.
       const bool crosses_itself = specimen.name.starts_with("folded sheet") || specimen.name.starts_with("jittered") ||
                                   specimen.name.starts_with("soup");
       const double turns = (polygon->area - angle_deficit(mesh, v)) / (crosses_itself ? 2 * pi : 4 * pi);

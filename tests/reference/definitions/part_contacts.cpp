@@ -1,5 +1,5 @@
-// Compares the contacts with a volume of triangles, which the sides of the nearest faces decide, with winding numbers,
-// with the contacts of each part alone, and with results by hand.
+// Compares the contacts with a volume of triangles with winding numbers, with the contacts of each part alone, and with
+// results by hand. The contacts follow from the side of the nearest face, so winding numbers are independent of them.
 #include "reference/definitions/part_contacts.hpp"
 
 #include <algorithm>
@@ -209,7 +209,7 @@ TEST_CASE("the depth is r from both sides of the surface, and every deep point i
   CHECK(depth_at(2.125f) == 0.125);
   CHECK(depth_at(1.5f) == 0.75);
   CHECK(body.ask({0.75f, 1, 2.25f}, 0.25f).empty());
-  // r does not limit the search: the middle is one metre from all faces.
+  // A small r does not limit the search inside: the middle is one metre from all faces.
   const std::vector<PartContact> middle = body.ask({1, 1, 1}, 0x1p-10f);
   REQUIRE(middle.size() == 1);
   CHECK(middle[0].depth == 1 + 0x1p-10);

@@ -1,5 +1,5 @@
-// Tests §3.9 inside the body: the depth by the definition of Chen et al. 2023, on bodies whose depth has another
-// derivation.
+// Tests §3.9 inside the body: the depth by the definition of Chen et al. 2023, on bodies whose depth can also be
+// derived in another way.
 #include "reference/definitions/tet_volume.hpp"
 
 #include <algorithm>

@@ -104,8 +104,8 @@ void examine_edges(const Complex& mesh, const std::set<Face>& blocks, const Vec3
   }
 }
 
-/// Checks for a ⊂ t that a holds the closest point of t. Then dis(x, a) ≤ dis(x, b) for all faces b of t, with < if b ⊂
-/// a.
+/// Checks the faces a of a triangle t whose blocks hold x: a must hold the closest point of t. Then dis(x, a) ≤ dis(x,
+/// b) for all faces b of t, with < if b ⊂ a. Also counts triangles with two such faces.
 void examine_triangles(const Complex& mesh, const std::set<Face>& blocks, const Vec3f& x, Findings& findings) {
   for (std::size_t i = 0; i < mesh.topology.triangles.size(); ++i) {
     const auto t = static_cast<Index>(i);
@@ -256,7 +256,7 @@ TEST_CASE("theorems: the block of a vertex without normals is the vertex itself,
 
 TEST_CASE("theorems: orthogonality, the connection of a point in a block with the face is perpendicular to it",
           "[property]") {
-  // Decides without rounding: the closest points of a, and of the edges of a, lie in the interior of a only.
+  // The connection is perpendicular if the closest point of a lies in its interior; this is decided without rounding.
   for (const Specimen& specimen : mesh_zoo()) {
     if (specimen.collapsed) continue;
     CAPTURE(specimen.name);

@@ -98,7 +98,7 @@ TEST_CASE("where a point lies is what winding numbers say, and only on the surfa
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const VolumePartTruth& part = truth.parts[i].front();
     REQUIRE(part.inside == closed.locate(asked[i]).inside());
-    // The limit is 16 u of the sum of the moduli of three differences of coordinates, each below 100 m.
+    // The limit is 16 · 2⁻²⁴ times the sum of the moduli of three differences of coordinates, each below 100 m.
     if (part.may_be_inside && part.may_be_outside) REQUIRE(part.held.front().depth - 0.5 <= 16 * 0x1p-24 * 300);
   }
   const std::vector<Vec3f> corner{body.surface.positions[0]};

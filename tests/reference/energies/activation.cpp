@@ -141,7 +141,8 @@ TEST_CASE("activation: the curves of the drawing are those of the energies", "[u
   for (std::size_t i = 0; i < reference::stiffness_ratios.size(); ++i)
     for (const auto& point : panels[1].layers[i].points)
       CHECK(point[1] == reference::curvature_ratio(point[0], reference::stiffness_ratios[i]));
-  // Up to forces of k_c r/2 OGC's curvature is k_c = 1, so the ratio is IPC's curvature, which the first panel has.
+  // Forces below k_c r/2 belong to OGC's quadratic stage, whose curvature is k_c = 1. So the ratio equals IPC's
+  // curvature, which is a value of the first panel's layer ipc_log.
   const reference::DrawingLayer& ipc = panels[0].layers[3];
   REQUIRE(ipc.name == "ipc_log");
   for (std::size_t i = 280; i < 399; ++i) {  // 0.7 r and beyond: forces up to 0.34

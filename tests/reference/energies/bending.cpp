@@ -15,8 +15,8 @@ using compare::BendingCase;
 
 namespace {
 
-/// Returns the angle between the unit vectors perpendicular to the edge, without normals: 0 if flat, positive about x1
-/// − x0.
+/// Returns the hinge's angle from unit vectors perpendicular to the edge, without normals of triangles: 0 if flat,
+/// positive about x1 − x0.
 double angle(const std::array<Point, 4>& x) {
   Point edge = minus(x[1], x[0]);
   const double length = norm(edge);
@@ -61,7 +61,7 @@ BendingCase isometric_case(Draw& draw) {
   return c;
 }
 
-/// Returns ℓ from the vertices themselves, not from differences.
+/// Returns ℓ of the isometric model, Σ w x, from the vertices themselves instead of their differences.
 Point curvature(const std::array<Point, 4>& x, const BendingCase& c) {
   const std::array<double, 4> w{-double{c.weight[0]} - c.weight[1] - c.weight[2], c.weight[0], c.weight[1],
                                 c.weight[2]};
@@ -136,7 +136,8 @@ TEST_CASE("the reference's hinge block is positive semidefinite, and the force v
     c.rest_angle = static_cast<float>(angle(points(c.vertex)));
     c.damping = 0;
     const compare::ForceAnswer rest = reference::bending(c)[0];
-    // θ₀ is the angle, rounded to single precision: its error is one unit of a condition that includes θ₀ itself.
+    // θ₀ is the angle, rounded to single precision. force_scale includes the sensitivity to θ₀, so this error is at
+    // most one unit.
     CHECK(norm({rest.force.x, rest.force.y, rest.force.z}) <= 2 * compare::unit_roundoff * rest.force_scale);
   }
 }
@@ -164,7 +165,7 @@ TEST_CASE("a hinge with a needle may count as collapsed, and a sound one may not
   c.stiffness = 1;
   c.own = 3;
   REQUIRE(reference::bending(c).size() == 1);
-  c.vertex[2].y = 0x1p-20f;  // sine 32 u at either end
+  c.vertex[2].y = 0x1p-20f;  // the sine of the angle at either end is 32 · 2⁻²⁴
   const auto needle = reference::bending(c);
   REQUIRE(needle.size() == 2);
   CHECK(norm({needle[0].force.x, needle[0].force.y, needle[0].force.z}) > 0.5);
@@ -252,8 +253,8 @@ TEST_CASE("a force that vanishes because angle and gradient both do keeps the pr
   const compare::ForceAnswer answer = reference::bending(c)[0];
   const double error = compare::bending_force_tolerance * compare::unit_roundoff * answer.force_scale;
   CHECK(norm({answer.force.x, answer.force.y, answer.force.z}) < 1e-20);
-  // A single-precision kernel has an error of 1.5e-22 N here. The moment's error is u c, the gradient's is u over the
-  // height.
+  // A single-precision kernel has an error of 1.5e-22 N here: the error of the moment times the error of the gradient,
+  // which is 2⁻²⁴ over the height.
   CHECK(error > 1.5e-22);
   CHECK(error < 1e-3 * c.stiffness / 0.0668945 * 0x1p-24);
 }

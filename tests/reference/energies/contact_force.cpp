@@ -172,7 +172,7 @@ TEST_CASE("the mollifier is that of the last detection, for two edges of meshes 
     return exact(c).force.z;
   };
   c.rest_squared = {4, 0};
-  REQUIRE(at(0) == Approx(1));  // λ/2 at one end of four
+  REQUIRE(at(0) == Approx(1));  // λ/2 on each of the four ends
   c.rest_squared = {4, 4};
   REQUIRE(at(0) == 0);
   REQUIRE(at(std::sqrt(1e-3 / 2)) == Approx(0.75).epsilon(1e-6));
@@ -196,7 +196,7 @@ TEST_CASE("two edges without triangles share the energy by their overlap where t
     REQUIRE(at(-2, 6, slope) == Approx(1));     // all of the first
     REQUIRE(at(-2, 3, slope) == Approx(0.75));  // three quarters of the first
   }
-  REQUIRE(at(4, 6, 0) == Approx(1));      // they share only a point: another rule applies
+  REQUIRE(at(4, 6, 0) == Approx(1));      // the projections share only a point, so the edges are not nearly parallel
   REQUIRE(at(3, 5, 0.01f) == Approx(1));  // not nearly parallel
   c.rest_squared = {4, 0};
   REQUIRE(at(3, 5, 0) == Approx(1));
@@ -217,7 +217,7 @@ TEST_CASE("nearly parallel edges meet in the middle of their overlap", "[unit]")
 TEST_CASE("where a decision is grey both answers are accepted, the exact one first", "[unit]") {
   REQUIRE(reference::contact_force(above(0.3f)).size() == 1);
   const auto at_radius = reference::contact_force(above(std::nextafter(0.5f, 0.0f)));
-  REQUIRE(at_radius.size() == 1);  // no jump there
+  REQUIRE(at_radius.size() == 1);  // force and block do not jump at r
   REQUIRE(at_radius[0].force_scale > 0);
   ContactForceCase beside = above(0.3f);
   beside.vertex[0] = {5, 5, 0.3f};  // above the middle of the side between the second and the third corner
@@ -236,7 +236,7 @@ TEST_CASE("of a needle no force is accepted that is larger than at the exact dis
   const auto needle = reference::contact_force(c);
   REQUIRE(needle.size() == 2);
   CHECK(needle[1].force == compare::Vec3{});
-  // The scale is k (r − d).
+  // The accepted error of the force is k (r − d), that of the block is k.
   CHECK(compare::contact_force_tolerance * compare::unit_roundoff * needle[1].force_scale ==
         Approx(8 * (0.5 - 0.3)).epsilon(1e-4));
   CHECK(compare::contact_block_tolerance * compare::unit_roundoff * needle[1].block_scale == Approx(8).epsilon(1e-4));

@@ -1,5 +1,5 @@
 // Makes random contacts, and finds closest points without features, to test the reference's contact stages. Minima come
-// from alternating projections or are the smallest of all candidates; no region is decided.
+// from alternating projections or are the smallest of all candidates; no Voronoi region is tested.
 #pragma once
 
 #include <algorithm>

@@ -114,8 +114,8 @@ TEST_CASE("the reference's membrane exerts no net force and, without damping, no
       }
       scale += answer.force_scale;
     }
-    // Gradients of a turned stencil are rounded to single precision again: an input has an error of u, one unit of the
-    // condition. Arms are shorter than 3 m.
+    // Gradients of a turned stencil are rounded to single precision again: an input has an error of 2⁻²⁴, one unit of
+    // the scale. Arms are shorter than 3 m.
     CHECK(norm(force) < 4 * compare::unit_roundoff * scale);
     CHECK(norm(torque) < 12 * compare::unit_roundoff * scale);
   }

@@ -165,7 +165,7 @@ TEST_CASE(
 }
 
 TEST_CASE("what a lost length leaves of a stitch's block is accepted, no block is not", "[property]") {
-  SpringCase c;  // 10⁻⁸ of the length beside the middle of the edge, a fifth of the rounding error
+  SpringCase c;  // the vertex lies 10⁻⁸ beside the middle of an edge of length 1, a fifth of the rounding error
   c.vertex = {{{0.5f, 1e-8f, 0}, {0, 0, 0}, {1, 0, 0}}};
   c.start = c.vertex;
   c.stiffness = 16;
@@ -174,7 +174,8 @@ TEST_CASE("what a lost length leaves of a stitch's block is accepted, no block i
     c.rest_length = rest_length;
     const compare::ForceAnswer answer = reference::spring(c);
     const double accepted = compare::spring_block_tolerance * compare::unit_roundoff * answer.block_scale;
-    // The missing part is that of I − n nᵀ; `missing` leaves out the entry along n.
+    // The lost part of the block is the multiple of I − n nᵀ with n = e₂. `missing` is the norm of xx and zz, without
+    // yy.
     const double missing = std::sqrt(answer.block[0] * answer.block[0] + answer.block[5] * answer.block[5]);
     CHECK((missing <= accepted) == (rest_length > 0));
     CHECK(std::sqrt(missing * missing + answer.block[3] * answer.block[3]) > accepted);

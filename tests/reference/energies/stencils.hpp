@@ -1,5 +1,5 @@
-// Makes random stencils and writes the energies in plain doubles again, for the tests of reference/energies. The
-// expected derivatives must not come from the differentiation under test.
+// Makes random stencils for the tests of reference/energies, and writes the energies in plain doubles a second time, so
+// that expected derivatives do not come from the differentiation under test.
 #pragma once
 
 #include <array>

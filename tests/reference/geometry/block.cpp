@@ -28,8 +28,8 @@ Point operator+(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y, 
 Point operator*(double s, const Point& a) { return {s * a.x, s * a.y, s * a.z}; }
 double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/// Collects the conditions of a block as margins that must be ≥ 0; the smallest decides. `inside` returns nothing if it
-/// is too small for double.
+/// Collects the conditions of a block as margins that must be ≥ 0; the smallest margin decides. `inside` returns
+/// nothing if this margin is too small for double.
 class Printed {
  public:
   void need(double margin) { least_ = std::min(least_, margin); }
@@ -168,7 +168,7 @@ void compare_all(const Mesh& mesh, Kind kind, Counts& counts) {
   }
 }
 
-/// Compares on soups and on folded sheets.
+/// Compares answers on random triangle soups and on folded sheets.
 Counts compare_on_random_meshes(Kind kind) {
   std::mt19937 random(11);
   Counts counts;
@@ -219,8 +219,8 @@ TEST_CASE(
 }
 
 TEST_CASE("block: a boundary is grey within rounding of it, and decided exactly", "[unit]") {
-  // The line to the boundary between the blocks of vertices 0 and 1 is slanted, so that coordinates cancel: (1 + δ) − 1
-  // with both signs of 1.
+  // The edge from vertex 0 to vertex 1 is slanted, so that terms cancel in the margin of its end plane at vertex 0:
+  // with x = 2 + δ it is (1 + δ) − 1.
   const auto about = [](float x) {
     const Surface surface{{{1, 1, 0}, {2, 2, 0}, {x, 0, 5}, {9, 9, 9}, {9, 8, 9}}, {}, {{0, 1}, {2, 3}, {3, 4}}, {}};
     return Mesh(surface).ask({{Kind::vertex_in_surface, 2, {FaceKind::vertex, 0}}});
@@ -236,7 +236,8 @@ TEST_CASE("block: a boundary is grey within rounding of it, and decided exactly"
 }
 
 TEST_CASE("block: the point of an edge is that inside it or its nearer end", "[unit]") {
-  // The edge lies above vertex 0. If it is slanted, the foot lies beyond x = 0; if it is short, at its end.
+  // The closest point of the edge lies above vertex 0, above it at the edge's end, beside it, and beside it because the
+  // edge is slanted.
   const auto inside = [](const Vec3f& from, const Vec3f& to, Face a) {
     return Mesh(patch(from, to)).ask({{Kind::edge_in_edges, 8, a}}).inside[0];
   };

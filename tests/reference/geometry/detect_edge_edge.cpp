@@ -382,7 +382,8 @@ TEST_CASE("detect_edge_edge: boundaries of every kind are grey on both sides", "
     REQUIRE(truth.grey.size() == 1);
     CHECK(truth.grey[0].absence_accepted);
   }
-  // At the limit between nearly parallel and not, the other answer is end to interior.
+  // At the limit of the rule for nearly parallel edges, the other accepted answer is a contact of an end with an
+  // interior.
   const auto limit = detect(two_edges({0, 0, 0}, {4, 0, 0}, {1, 0, 1}, {5, 0, 1.004f}), 2, 3);
   REQUIRE(limit.grey.size() == 1);
   CHECK(limit.grey[0].contacts ==
@@ -391,7 +392,7 @@ TEST_CASE("detect_edge_edge: boundaries of every kind are grey on both sides", "
 
 TEST_CASE("detect_edge_edge: moving every coordinate by a unit in the last place stays within the grey decisions",
           "[property]") {
-  // Coordinates and differences have the same size, so a last place is less than 16 u of every difference.
+  // Coordinates and differences have the same size, so a last place is less than 16 · 2⁻²⁴ of every difference.
   std::mt19937 random(18);
   std::uniform_int_distribution<int> step(-1, 1);
   const Surface flat = together(mapped(grid(4), turned), mapped(grid(4, 0.5f), turned));
@@ -404,8 +405,8 @@ TEST_CASE("detect_edge_edge: moving every coordinate by a unit in the last place
     CHECK(accepted(truth, truth.exact.contacts));
     for (int k = 0; k < 10; ++k) CHECK(accepted(truth, detect(mapped(flat, moved), r, 30).exact.contacts));
   }
-  // Edges 01 and 23 are exactly parallel. Their blocks hold one end of the overlap, the other end, both, or none, or
-  // have their boundary there.
+  // Edges 01 and 23 are exactly parallel. In 81 cases their blocks contain one end of the overlap, the other end, both
+  // ends or neither, or have their boundary at an end.
   for (int way = 0; way < 81; ++way) {
     const auto lean = [way](int place) { return static_cast<float>(way / place % 3 - 1); };
     const Surface surface{{{0, 0, 0},

@@ -1,5 +1,5 @@
-// Tests the grey zone's measure: compares the written derivatives of the margins with forward differentiation of the
-// formulas.
+// Tests the sensitivity that measures the grey zone: compares the written derivatives of the margins with forward
+// differentiation of the formulas.
 #include "reference/geometry/margin.hpp"
 
 #include "compare/judge/cases/random.hpp"

@@ -1,4 +1,4 @@
-// Tests which pairs detections leave out if only their exact answer is needed.
+// Tests which pairs detections skip if only their exact answer is needed.
 #include "reference/geometry/separation.hpp"
 
 #include <random>

@@ -54,7 +54,7 @@ TEST_CASE("truncate: truncated positions keep direction and have the bound's len
 
 namespace {
 
-/// Returns a move from the origin to (3, 0, 5) below the half-space z ≤ 1.
+/// Returns a move from the origin to (3, 0, 5), which the half-space z ≤ 1 limits.
 compare::TruncateIn below_a_ceiling(float bound, const std::array<float, 6>& block, bool is_prescribed) {
   compare::TruncateIn in{{{0, 0, 0}}, {{3, 0, 5}}, {bound}};
   in.half_spaces = {{0, 1}, {{{0, 0, 1}, 1}}, {{0, 0, 0}}, {block}, {static_cast<std::uint8_t>(is_prescribed)}};

@@ -58,7 +58,8 @@ class MotionLadder {
     for (std::size_t k = 0; k < (m.edges ? 2u : 1u); ++k) m.x[k][2] += gap;
   }
 
-  /// Moves the first primitive down by 0.4 to 2.5 gaps and along the plane, and every vertex by a little more.
+  /// Moves the first primitive down by 0.4 to 2.5 gaps and along the plane. In half of the cases every vertex also has
+  /// a motion of its own.
   void move(PairMotion& m, int i, double gap) {
     const double down = gap * std::pow(10.0, between(-0.4, 0.4)), slide = i % 4 == 3   ? between(0, 1)
                                                                           : i % 4 == 2 ? gap

@@ -67,7 +67,7 @@ TEST_CASE("IPC: a cloth far from everything falls as -g h^2 n(n+1)/2", "[propert
   const double h = 0.01, fallen = 9.81 * h * h * 10 * 11 / 2;
   for (const compare::Vec3f& x : result.end.positions) CHECK(double{x.y} == Approx(-fallen).epsilon(1e-6));
   for (const compare::StepMetrics& row : result.rows) {
-    // One step, and an iteration that finds nothing left to do.
+    // The first iteration takes the step, the second finds nothing left to do.
     CHECK(row.iterations == 2);
     CHECK(row.continuous_detections >= 1);
     // Detections take place at the start, at the single trial state, and at another one if rounding leaves more than
@@ -77,8 +77,8 @@ TEST_CASE("IPC: a cloth far from everything falls as -g h^2 n(n+1)/2", "[propert
   }
 }
 
-/// The mean over three iterations continues a solve after the first iteration; rounding of the positions hides the
-/// rest.
+/// The rule `velocity` averages over three iterations, so a solve continues after the first one. Rounding of the
+/// positions hides what these iterations change.
 TEST_CASE("IPC: a cloth that is not strained falls by either rule of stopping and either membrane", "[property]") {
   for (const auto model : {compare::MembraneModel::st_venant_kirchhoff, compare::MembraneModel::stable_neo_hookean})
     for (const auto rule : {reference::IpcStopping::displacement, reference::IpcStopping::velocity}) {

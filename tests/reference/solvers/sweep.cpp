@@ -138,7 +138,7 @@ TEST_CASE("without energies a sweep takes every vertex to its target", "[unit]")
 TEST_CASE("a sheet at rest stays", "[unit]") {
   const Question q(scene_of({sheet(3, 0)}));
   const std::vector<Vec3f> x = q.swept().position;
-  // The rest gradients are rounded: strains of u. Stiffnesses are at least that of inertia.
+  // Rest gradients are rounded, which causes strains of 2⁻²⁴ and moves a vertex by a few times that.
   for (std::size_t v = 0; v < x.size(); ++v) CHECK(distance({x[v].x, x[v].y, x[v].z}, q.old[v]) <= 8 * 0x1p-24);
 }
 
@@ -217,7 +217,7 @@ TEST_CASE("forces of all stencils add up to nothing where all vertices are read 
     }
   }
   CHECK(moduli > 1);
-  // The gradients ∇N₀ of two corners are rounded to single precision, by u of each force.
+  // The gradients ∇N₀ of two corners are rounded to single precision, which changes each force by 2⁻²⁴ of it.
   CHECK(std::hypot(sum.x, sum.y, sum.z) <= 0x1p-24 * moduli);
 }
 
@@ -233,7 +233,8 @@ TEST_CASE("with inertia ahead of stiffness every sweep lowers the energy until n
   for (int sweep = 0; sweep < 60; ++sweep) {
     q.old = q.swept().position;
     const double after = energy(q, q.old);
-    // Positions are stored to u; the remaining energy limits its slope.
+    // Positions are rounded to 2⁻²⁴, which can raise the energy by this times its slope. The remaining energy limits
+    // the slope.
     CHECK(after <= before + 1e-6 * start);
     before = after;
   }

@@ -59,8 +59,8 @@ TEST_CASE(
 TEST_CASE("reference VBD lowers the residual from 1 to the noise of doubles, single-precision storage left out",
           "[property]") {
   compare::Scene scene = two_sheets();
-  // Contacts that are stiff compared with the inertia slow convergence (at 100 N/m and 1/100 s thousands of iterations
-  // are not enough).
+  // Contacts that are stiff compared with the inertia slow convergence: with 100 N/m and h = 1/100 s, thousands of
+  // iterations are not enough.
   for (compare::Body& body : scene.bodies) body.material.contact_stiffness = 10;
   scene.settings.time_step = 1.0 / 400;
   scene.settings.iterations = 250;
@@ -75,8 +75,8 @@ TEST_CASE("reference VBD lowers the residual from 1 to the noise of doubles, sin
                       [](const auto& row) { return row.detected == 1; }) >= 49);
 }
 
-/// With w² in the blocks, two partners that are solved at once each remove their whole overlap. The same number of
-/// sweeps then leaves twelve times as much (Fig. 17).
+/// If blocks had w² instead of the factor of method.md §7.4, two partners that are solved at once would each remove the
+/// whole overlap. The same number of sweeps would then leave a residual twelve times as large (Fig. 17).
 TEST_CASE(
     "reference VBD: where contact is stiff more sweeps come closer, also with colours that facing vertices of equal "
     "sheets share",

@@ -124,7 +124,7 @@ Change change_by(const reference::Potential& potential, compare::Index v, const 
 /// Counts over all updates.
 struct Count {
   int all = 0, rises = 0, large = 0;  ///< large: rises by more than a tenth of the model's decrease
-  int bent = 0;                       ///< truncated to a point where the model itself is higher
+  int bent = 0;                       ///< updates that truncation moves to a point where the model is higher
   double worst = 0;                   ///< largest rise as a share of the model's decrease
   std::vector<double> shares{};
 

@@ -107,10 +107,10 @@ Matrix<N> lane_of(const LowerTriangle<N, Lanes<Packs>>& h, std::size_t lane) {
   return m;
 }
 
-/// Error bound of a projection. Both solvers change the basis from both sides, by N − 2 reflections and about two
-/// rotations for each of the N(N − 1)/2 entries off the diagonal. Each has an error of at most 8 u ‖H‖ (Frobenius).
-/// Clamping does not enlarge the error; the modulus enlarges it by at most √2 (Araki and Yamagami 1981). Adding N terms
-/// of rank one adds a few u of the norm each.
+/// Error bound of the difference of two projections. Both solvers change the basis from both sides, by N − 2
+/// reflections and about two rotations for each of the N(N − 1)/2 entries off the diagonal. Each has an error of at
+/// most 8 · 2⁻⁵³ ‖H‖ (Frobenius). Clamping does not enlarge the error; the modulus enlarges it by at most √2 (Araki and
+/// Yamagami 1981). The sum of N terms of rank one adds a few 2⁻⁵³ of the norm for each term.
 template <std::size_t N>
 constexpr double projection_bound = 0x1p-53 * 2 * 1.5 * (2 * 8.0 * (N - 2 + N * (N - 1)) + 4 * N);
 
@@ -210,9 +210,9 @@ TEST_CASE("contacts side by side have the derivatives of each alone, to the bit,
     }
 }
 
-/// Three variables replace nine; derivatives agree up to roundings. The eigenvalues of a projected sum of products of w
-/// by w are ‖w‖² times those by Σ w x, so projections agree, too. The limit of 10⁻¹³ of the largest entry is about a
-/// thousand roundings of 10⁻¹⁶.
+/// Kernels differentiate such an energy by the weighted sum: three variables replace nine, and derivatives agree up to
+/// roundings. The eigenvalues of the projected Hessian are those by the sum times ‖w‖², so projections agree, too. The
+/// limit of 10⁻¹³ of the largest entry is about a thousand roundings of 10⁻¹⁶.
 TEST_CASE("what depends on one weighted sum has the derivatives of the energy over all vertices, side by side or alone",
           "[property]") {
   Draw draw(13);

@@ -238,7 +238,8 @@ TEST_CASE(
     for (std::size_t k = static_cast<std::size_t>(vertex_count(sides)); k < 4; ++k) x[k] = {};
     const ClosestForm form = closest_form(sides, x);
     const double d = form_distance(form, x);
-    // Differences must not cross the ends of the stages or come near the pole.
+    // Skips cases whose differences would cross r or r/2, where stages of the activation end, or come near its pole d =
+    // 0.
     if (d > 0.95 * r || d < 0.1 * r || std::abs(d - r / 2) < 1e-3 * r || form.kind == FormKind::fixed_weights) continue;
     ++forms[static_cast<std::size_t>(form.kind)];
     check_all<4>(x, 0.1 * r, true, [&](const auto& at) { return term.energy(form, at); });
@@ -307,7 +308,7 @@ TEST_CASE(
   }
 }
 
-/// If the energy were a difference of terms of size μ, as printed, it would be lost below strains of 10⁻⁸.
+/// As a difference of terms of size μ, as printed, the energy would be lost in rounding below strains of 10⁻⁸.
 TEST_CASE("a stable Neo-Hookean triangle next to rest has the energy of small strains, not the rounding of its terms",
           "[property]") {
   MembraneTerm term;

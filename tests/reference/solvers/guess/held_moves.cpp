@@ -54,7 +54,7 @@ struct Sheets {
 TEST_CASE("what closes a contact is taken, and what opens it or goes along it is left", "[unit]") {
   CHECK(held_by(above({}), {1, 2, -3}) == Move{1, 2, 0});
   CHECK(held_by(above({}), {1, 2, 3}) == Move{1, 2, 3});
-  // From below, the weight is negative.
+  // If the vertex lies below its partner, its weight is negative.
   CHECK(held_by(above({}, 0, -1), {1, 2, 3}) == Move{1, 2, 0});
   CHECK(held_by(above({}, 0, -0.5), {1, 2, -3}) == Move{1, 2, -3});
 }
@@ -65,7 +65,7 @@ TEST_CASE("a partner that makes room is followed, and one that comes is not fled
   CHECK(held_by(above({0, 0, 4}), {0, 0, -3}) == Move{0, 0, -3});
   CHECK(held_by(above({0, 0, -1}), {0, 0, -3}) == Move{0, 0, 0});
   CHECK(held_by(above({0, 0, -1}), {0, 0, 0}) == Move{0, 0, 0});
-  // A corner with half the weight moves twice as far in the same room.
+  // A vertex with the weight 1/2 may move twice as far as its partner.
   CHECK(held_by(above({0, 0, 1}, 0, 0.5), {0, 0, -3}) == Move{0, 0, -2});
 }
 

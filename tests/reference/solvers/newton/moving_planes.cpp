@@ -1,4 +1,4 @@
-// Tests steps that are cut pair by pair: nothing intersects on the way, and sheets that travel together are not cut.
+// Tests steps that are cut pair by pair: nothing intersects during a step, and sheets that move together are not cut.
 #include "reference/solvers/newton/moving_planes.hpp"
 
 #include <cmath>

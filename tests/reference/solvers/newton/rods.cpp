@@ -153,7 +153,7 @@ TEST_CASE("rods: a cantilever under its weight sinks as a beam does, in proporti
     return -double{newton->snapshot().positions.back().y};
   };
   const double density = 4e-4, bend = 1e-4, load = density * 9.81;
-  // The fixed segment's frame is clamped at its middle, half a segment before the free part.
+  // The rod is clamped at the middle of its fixed segment, half a segment before the free part.
   const double length = 100.5e-3, sunk = deflection(density, bend);
   CHECK(sunk == Approx(load * std::pow(length, 4) / (8 * bend)).epsilon(0.01));
   CHECK(deflection(density, 2 * bend) == Approx(sunk / 2).epsilon(2e-3));
@@ -177,13 +177,13 @@ TEST_CASE("rods: a ring of a straight rod with k_b = GJ leaves its plane at a tw
       scene.mesh.positions[static_cast<std::size_t>(k)] = {radius * std::sin(angle * k), radius * std::cos(angle * k),
                                                            is_held ? 0 : ripple * radius * std::sin(2 * angle * k)};
     }
-    // Frames follow the polygon; each is turned about its director by the ring's twist up to there. The director of a
-    // side is x turned by -angle (e + 1/2) about z.
+    // Frames follow the polygon. Each is turned about its director by the twist that the ring has at this side. The
+    // director of side e is the x axis, turned by -angle (e + 1/2) about z.
     const double twist = share_of_critical * std::sqrt(3.0) * angle;
     for (Index e = 0; e < n; ++e) {
       const double way = -angle * (e + 0.5) / 2, turn = twist * e / 2, half = std::sqrt(0.5);
-      // First the twist about z, then a turn about y from z to x: (0, 0, sin way, cos way) (0, s, 0, c) (0, 0, sin,
-      // cos).
+      // Product of three rotations, the right one first: the twist about z, a quarter turn about y that takes z to x,
+      // and `way` about z: (0, 0, sin way, cos way) (0, half, 0, half) (0, 0, sin turn, cos turn).
       const double x = half * std::sin(turn), y = half * std::cos(turn), z = half * std::sin(turn),
                    w = half * std::cos(turn);
       scene.orientations.push_back({static_cast<float>(std::cos(way) * x - std::sin(way) * y),
@@ -207,7 +207,8 @@ TEST_CASE("rods: a ring of a straight rod with k_b = GJ leaves its plane at a tw
     for (const compare::Vec3f& x : newton->snapshot().positions) largest = std::max(largest, std::abs(double{x.z}));
     return largest / (ripple * radius);
   };
-  // The fixed sides and the missing one, 3 of 61, do not bend and make the ring stiffer by this share.
+  // Three of the ring's 61 sides do not bend: both fixed sides and the missing one. So the ring is stiffer by about
+  // 3/61, and its critical twist is higher by this share.
   CHECK(growth(1) < 1);
   CHECK(growth(1.08) > 10);
 }

@@ -60,7 +60,8 @@ TEST_CASE("Newton: a cloth far from everything falls as -g h^2 n(n+1)/2, in one 
   const Run result = run(scene, 10);
   REQUIRE(clean(result));
   const double h = 0.01, fallen = 9.81 * h * h * 10 * 11 / 2;
-  // Positions below 1 m are stored to 2⁻²⁵ m, and the velocity keeps each rounding: at most n(n+1)/2 times.
+  // Each step rounds positions below 1 m, to 2⁻²⁵ m, and thus the velocity with which later steps go on. In n steps the
+  // errors add up to at most n(n + 1)/2 roundings.
   for (const Vec3f& x : result.end.positions) CHECK(std::abs(double{x.y} + fallen) <= 55 * 0x1p-25);
   for (const compare::StepMetrics& row : result.rows) {
     CHECK(row.iterations <= 1);
@@ -70,8 +71,8 @@ TEST_CASE("Newton: a cloth far from everything falls as -g h^2 n(n+1)/2, in one 
 
 TEST_CASE("Newton: sheets in contact that fly together stay as they are, however many balls they cross in a step",
           "[property]") {
-  // Sheets fly 3 cm per step, and a few millimetres between two detections. If the guess loop left vertices in contact
-  // behind, the sheets would be pulled apart and folded.
+  // Sheets fly 3 cm per step, and a few millimetres between two detections. If the guess loop did not move vertices in
+  // contact along, the sheets would be pulled apart and folded.
   compare::Scene scene;
   scene.name = "flight";
   compare::Material material;
@@ -97,8 +98,9 @@ TEST_CASE("Newton: sheets in contact that fly together stay as they are, however
 }
 
 TEST_CASE("Newton: a stiff sheet that one close vertex holds back leaves as fast as its balls grow", "[property]") {
-  // The sheet flies 1 cm per step away from a patch 10 µm below its middle. The distance grows by γ_p of itself in an
-  // iteration if all vertices move alike. Along δ' the middle would stay behind, and the sheet would bend.
+  // The sheet flies 1 cm per step away from a patch 10 µm below its middle. If all vertices move alike, the distance
+  // grows by γ_p of itself in an iteration. With the direction δ', truncated vertex by vertex (method.md §7.6), the
+  // middle would stay behind, and the sheet would bend.
   compare::Scene scene;
   scene.name = "held";
   compare::Material stiff = heavy();
@@ -113,15 +115,15 @@ TEST_CASE("Newton: a stiff sheet that one close vertex holds back leaves as fast
   const Run result = run(scene, 1);
   REQUIRE(clean(result));
   CHECK(double{result.end.positions[24].y} > 0.0099);
-  // 10⁻⁵ m · 1.45ᵏ reaches 1 cm at k = 18.6; with full balls a smooth solve takes a few more iterations. With δ' first
+  // 10⁻⁵ m · 1.45ᵏ reaches 1 cm at k = 18.6; a solve with full balls takes a few more iterations. If δ' is tried first,
   // it takes 36.
   CHECK(result.rows[0].iterations <= 19 + 8);
 }
 
 TEST_CASE("Newton: sheets that are nearly closed and travel far together converge quadratically", "[property]") {
-  // The middle of two sheets 10 µm apart lands on a patch, and their rims fly on for 3 mm. Truncation alone leaves each
-  // of two facing vertices a thousandth of its way, and as little of their relative motion. Springs on cut vertices
-  // (method.md §7.6) leave all of it.
+  // The middle of two sheets 10 µm apart lands on a patch, and their rims fly on for 3 mm. Truncation alone scales the
+  // motion of each of two facing vertices to a thousandth, and with it their relative motion. Springs on cut vertices
+  // (method.md §7.6) keep the relative motion.
   compare::Scene scene;
   scene.name = "closed";
   compare::Material material;
@@ -188,9 +190,10 @@ TEST_CASE("Newton converges quadratically on a smooth problem", "[property]") {
 }
 
 TEST_CASE("Newton converges quadratically where stencils are indefinite and the whole is not", "[property]") {
-  // A compressed sheet folds, and only its inertia resists. With projection stencil by stencil it converges linearly.
+  // A compressed sheet folds, and only its inertia resists. If each stencil's Hessian were projected, convergence would
+  // be linear.
   compare::Material material;
-  // The limit 100 in quadratic_steps includes the third derivatives of this model.
+  // The factor 100 in quadratic_steps covers the third derivatives of this model.
   material.membrane = compare::MembraneModel::st_venant_kirchhoff;
   compare::Scene scene;
   scene.name = "pressed";

@@ -71,8 +71,8 @@ Asked askew_sheets() {
   return Asked(std::move(scene));
 }
 
-/// Returns Σ‖f_t‖ / Σ‖f‖ of the contact forces on the inner vertices of the level sheet. At its rim, contacts next to
-/// it rightly push outwards.
+/// Returns Σ‖f_t‖ / Σ‖f‖ of the contact forces on the inner vertices of the level sheet. Vertices at its rim are left
+/// out, because contacts beside them push them outwards.
 double tangential_share(const Asked& asked, reference::ContactSet set) {
   const reference::State x = reference::widened(asked.positions);
   reference::Potential potential(asked.scene, asked.topology);
