@@ -350,7 +350,7 @@ CaseData friction_distance(Random& random) {
                                                 : near_radius(random));
 }
 
-/// Takes no slip, or a slip of one lattice step.
+/// Makes slips of 0 or of one lattice step.
 CaseData friction_lattice(Random& random) {
   Shape shape = on_grid(random);
   shape.previous = shape.x;

@@ -82,14 +82,16 @@ CaseData large(Random& random) {
   return finish(random, builder, {random.between(0.05, 0.3), random.between(0.2, 1)});
 }
 
-/// Makes a soup on small integers: ties, and triangles that touch, intersect, are coplanar or collapsed.
+/// Makes a soup (strips and loose edges) on small integers. It has ties, and triangles that touch, intersect, are
+/// coplanar or collapsed.
 CaseData lattice(Random& random) {
   MeshBuilder builder = soup_of(random, 3 + random.below(18));
   for (Vec3& p : builder.points) p = on_lattice(random, 1);
   return finish(random, builder, {0, random.one_in(2) ? 0 : 0.5 * (1 + random.below(4))});
 }
 
-/// Makes a soup with random bits for coordinates and radii, which gives needles, and edges of 10⁻⁶ beside edges of 10⁶.
+/// Makes a soup (strips and loose edges) with random bits for coordinates and radii. It has needles, and edges of 10⁻⁶
+/// beside edges of 10⁶.
 CaseData bits(Random& random) {
   MeshBuilder builder = soup_of(random, 3 + random.below(8));
   MeshCase mesh;

@@ -1,6 +1,6 @@
 // Moves points from a canonical frame into a case. In the canonical frame the coordinate that makes the degeneracy lies
-// near 0, so it can be approached by 10⁻¹². Exact symmetries come first: signed permutations and powers of two keep
-// every bit. In half of the cases a rotation follows; its rounding adds another small deviation.
+// near 0, so a case can be 10⁻¹² from the degeneracy. Exact symmetries come first: signed permutations and powers of
+// two keep every bit. In half of the cases a rotation follows; its rounding adds another small deviation.
 #pragma once
 
 #include <array>
