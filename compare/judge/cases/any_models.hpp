@@ -28,8 +28,8 @@ Choice another(Random& random, Choice usual) {
   return count == 1 ? others[0] : random.pick(std::span<const Choice>(others.data(), count));
 }
 
-/// Sets a random activation, form of damping, and model of each body that has one. Adds up to three springs by
-/// add_springs. Rounds the scene again.
+/// Sets a random activation and, in one of three scenes, another form of damping. Replaces each membrane and bending
+/// model of a body, except `none`, by a random model. Adds springs by add_springs and rounds the scene again.
 void choose_models(Random& random, Scene& scene);
 
 /// Adds up to three springs, each between two vertices, or between a vertex and a point between two others. At least
@@ -37,7 +37,7 @@ void choose_models(Random& random, Scene& scene);
 /// round the scene.
 void add_springs(Random& random, Scene& scene);
 
-/// Gives each body with a bending energy a model other than hinges.
+/// Replaces the bending model of each body that bends by a random model other than discrete hinges.
 void bend_otherwise(Random& random, Scene& scene);
 
 }  // namespace ogc::compare

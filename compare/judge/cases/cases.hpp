@@ -173,7 +173,7 @@ Case& case_of(CaseData& data) {
 
 /// A case and the name from which it can be made again.
 struct TestCase {
-  CaseName name;  ///< a smaller case has the name of the original
+  CaseName name;  ///< if the case was made smaller: name of the original case
   CaseData data;  ///< of the stage's own type
 };
 

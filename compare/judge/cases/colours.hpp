@@ -19,8 +19,8 @@ Neighbours element_neighbours(const Scene& scene, const Topology& topology);
 Neighbours segment_neighbours(const Scene& scene);
 
 /// Returns a colour for each free vertex and −1 for all others; no two vertices of an element share a colour. Colours
-/// are greedy in a random order: few, so that contacts occur inside one colour. In one of eight cases each vertex has a
-/// colour of its own (pure Gauss–Seidel).
+/// are assigned greedily in a random order. They are few, so vertices of a contact may share a colour. In one of eight
+/// cases each vertex has a colour of its own (pure Gauss–Seidel).
 std::vector<Index> random_colours(Random& random, const Scene& scene, const Topology& topology);
 
 /// Returns a colour for each free segment of a rod and −1 for all others; no two neighbours share a colour.

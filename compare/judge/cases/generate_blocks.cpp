@@ -1,5 +1,5 @@
-// Makes cases of block: meshes of the detections, with questions about faces near each other. In the regular families
-// nearly every answer depends on a point at the end of a block, exactly or up to a rung.
+// Makes cases of block: meshes of the detections, with questions about faces near each other. In meshes of regular
+// families nearly every questioned point lies on the boundary of a block or one rung from it.
 #include <algorithm>
 #include <array>
 #include <limits>

@@ -1,6 +1,6 @@
 // Makes cases of contact_force and friction_force. In the canonical frame the contact point of the second side is near
 // the origin and the normal along z, so distance and slip along the normal are single coordinates. Ladders approach
-// - the boundaries between closest features, and collapse as far as it is legal,
+// - the boundaries between closest features, and collapsed triangles and edges as far as they are legal,
 // - parallel edges and the limit of nearly parallel ones,
 // - d = r, d ≫ r, d = τ and d = 0,
 // - for friction also a slip of 0, a slip of ε_v h, and motion along the normal.
@@ -46,7 +46,7 @@ void put_edge(Shape& shape, double t, double length) {
   shape.x = {Vec3{0, 0, shape.distance}, Vec3{-t * length, 0, 0}, Vec3{(1 - t) * length, 0, 0}, Vec3{}};
 }
 
-/// Puts a point above the point of a triangle whose second and third corner have the weights b and c.
+/// Puts a point above the triangle's point with the barycentric weights b of the second corner and c of the third.
 void put_triangle(Shape& shape, const Vec3& second, const Vec3& third, double b, double c) {
   const Vec3 foot = sum(scaled(second, b), scaled(third, c));
   shape.x = {Vec3{0, 0, shape.distance}, scaled(foot, -1), sum(second, scaled(foot, -1)), sum(third, scaled(foot, -1))};
@@ -71,7 +71,7 @@ Base any_base(Random& random, double size) {
   return {{size * random.between(0.5, 1.5), 0, 0}, {size * x, size * y, 0}};
 }
 
-/// Puts the contact's sides at the parameters s and t.
+/// Places both sides so that the closest points have the parameters s and t.
 void put(Random& random, Shape& shape, double s, double t) {
   switch (shape.sides) {
     case ContactSides::point_edge: return put_edge(shape, s, other_length(random, shape));
@@ -86,7 +86,7 @@ void put(Random& random, Shape& shape, double s, double t) {
   }
 }
 
-/// Returns a contact of the interiors of both sides.
+/// Returns a contact between interior points of both sides.
 Shape inside(Random& random, ContactSides sides, double share) {
   Shape shape = sized(random, sides, share);
   const bool triangle = sides == ContactSides::point_triangle;
@@ -113,7 +113,7 @@ Shape near_feature(Random& random) {
   return shape;
 }
 
-/// Returns a triangle or edges that are thin or short.
+/// Returns a contact whose triangle has a small height or side, or whose one edge is short, relative to the size.
 Shape thin_by(Random& random, double thinness) {
   Shape shape = sized(random, random.one_in(4) ? ContactSides::edge_edge : ContactSides::point_triangle,
                       random.between(0.05, 1));
@@ -133,12 +133,13 @@ Shape thin_by(Random& random, double thinness) {
   return shape;
 }
 
-/// Return shapes down to where needles begin (compare/stages/contact_force.hpp) or exactly collapsed ones, and needles.
+/// Return contacts by thinness. The first is at least about the limit of needles (compare/stages/contact_force.hpp) or
+/// exactly 0; the second is a needle.
 Shape thin(Random& random) { return thin_by(random, random.one_in(4) ? 0.0 : random.magnitude(-2.4, -0.5)); }
 Shape needle(Random& random) { return thin_by(random, random.magnitude(-9, -2.4)); }
 
-/// Makes edges at angles around the limit of nearly parallel edges, and towards 0. Their overlap may end inside of an
-/// edge or beyond it.
+/// Makes edges whose angle is near the limit of nearly parallel edges or near 0. In two of three cases they do not
+/// cross, but overlap by a part of their length, meet at their ends, or leave a gap.
 Shape nearly_parallel(Random& random) {
   Shape shape = sized(random, ContactSides::edge_edge, random.between(0.05, 1));
   const double sine = random.one_in(2) ? 1e-3 * (1 + random.rung()) : std::min(1.0, std::abs(random.rung()));
@@ -147,7 +148,7 @@ Shape nearly_parallel(Random& random) {
     shape.x = crossing(shape, length, sine, random.between(0.05, 0.95), random.between(0.05, 0.95));
     return shape;
   }
-  // The second edge continues the first: they overlap by a share of the first, not at all, or meet at their ends.
+  // The second edge begins beside the end of the first: their overlap is up to half of the first, 0, or negative.
   const double overlap = random.one_in(2) ? random.between(-0.5, 0.5) : random.rung(),
                aside = random.one_in(2) ? 0.0 : random.between(-1, 1) * shape.contact_radius;
   shape.x = crossing(shape, length, sine, 1 - overlap, 0);
@@ -180,8 +181,8 @@ float squared_length(const Vec3f& a, const Vec3f& b) {
   return static_cast<float>(x * x + y * y + z * z);
 }
 
-/// Returns the case of a shape; `moved` is the motion of each vertex since the start of the step. One rigid motion
-/// moves both out of the canonical frame.
+/// Returns the case of a shape; `moved` is the motion of each vertex since the start of the step. The same rigid motion
+/// takes the points now, at the last detection and at the start out of the canonical frame.
 FrictionForceCase placed(Random& random, const Shape& shape, const std::array<Vec3, 4>& moved) {
   std::array<Vec3, 12> points;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -223,7 +224,7 @@ double any_share(Random& random) { return random.between(0.02, 1.15); }
 Shape near_radius(Random& random) { return inside(random, any_sides(random), 1 + random.rung()); }
 /// Approaches d = τ = r/2.
 Shape near_switch(Random& random) { return inside(random, any_sides(random), 0.5 * (1 + random.rung())); }
-/// Approaches d = 0 beyond 2⁻²³ r.
+/// Approaches d = 0, also below 2⁻²³ r.
 Shape near_touching(Random& random) {
   return inside(random, any_sides(random), random.one_in(8) ? 0 : random.magnitude(-9, -1));
 }
@@ -256,7 +257,7 @@ CaseData contact_parallel(Random& random) {
   return question;
 }
 CaseData contact_radius(Random& random) { return contact_case(random, near_radius(random)); }
-/// Takes d = r (1 ± k u) for small k, where single precision decides whether d < r. Also takes d up to 10⁴ r, which
+/// Takes d = r (1 ± k 2⁻²⁴) for small k, where single precision decides whether d < r. Also takes d up to 10⁴ r, which
 /// occurs if vertices move far after the last detection.
 CaseData contact_beyond(Random& random) {
   const double share = random.one_in(2) ? 1 + random.sign() * random.below(9) * 0x1p-24 : random.magnitude(0, 4);
@@ -265,7 +266,7 @@ CaseData contact_beyond(Random& random) {
 CaseData contact_switch(Random& random) { return contact_case(random, near_switch(random)); }
 CaseData contact_touching(Random& random) { return contact_case(random, near_touching(random)); }
 
-/// Returns a shape where features or parts of the activation change, or between such places.
+/// Returns a shape at a boundary between features, at a distance where the activation changes, or a generic one.
 Shape any_shape(Random& random) {
   switch (random.below(5)) {
     case 0: return near_feature(random);
@@ -279,7 +280,7 @@ ContactActivation any_activation(Random& random) {
   return random.pick(std::span<const ContactActivation>(choices<ContactActivation>));
 }
 
-/// Returns a shape next to a boundary: of a feature, at d = r, or at d = τ.
+/// Returns a fine shape at a boundary between features, at d = r, or at d = τ.
 Shape near_boundary(Random& random) {
   random.be_fine();
   switch (random.below(4)) {
@@ -303,7 +304,7 @@ CaseData contact_together(Random& random) {
   return question;
 }
 
-/// Approaches c = ε and c = 0 of the mollifier, at the last detection.
+/// Approaches c = ε and c = 0 of the mollifier, where c is the squared sine of the edges' angle at the last detection.
 CaseData contact_mollifier(Random& random) {
   Shape shape = inside(random, ContactSides::edge_edge, any_share(random));
   const double sine = random.one_in(2) ? std::sqrt(1e-3) * (1 + random.rung()) : std::abs(random.rung());
@@ -349,7 +350,7 @@ CaseData friction_distance(Random& random) {
                                                 : near_radius(random));
 }
 
-/// Takes no slip, or a slip of one lattice step.
+/// Makes slips of 0 or of one lattice step.
 CaseData friction_lattice(Random& random) {
   Shape shape = on_grid(random);
   shape.previous = shape.x;
@@ -361,7 +362,7 @@ CaseData friction_lattice(Random& random) {
   return question;
 }
 
-/// Takes random bits also for the motion.
+/// Takes random bits for the positions and for the motion.
 CaseData friction_bits(Random& random) {
   FrictionForceCase question = placed(random, of_bits(random), points_of_bits(random));
   question.friction = static_cast<float>(random.between(0.01, 1.5));

@@ -1,5 +1,5 @@
 // Makes cases of membrane and bending: a rest shape, its deformation, a material. Ladders approach the rest shape,
-// where strains cancel; collapse; tr G = 0, where the stress changes; and folds by ±π.
+// where the terms of the strain cancel; collapsed triangles; tr G = 0, where the stress changes; and folds by ±π.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -44,8 +44,8 @@ void set_material(Random& random, MembraneCase& question) {
   question.damping = random.one_in(2) ? 0 : single(random.magnitude(-3, 1));
 }
 
-/// Moves the corners of the rest shape by `deform`. In half of the cases the start is near the result, otherwise at
-/// rest. One rigid motion moves both out of the canonical frame.
+/// Moves the corners of the rest shape by `deform`. In half of the cases the positions at the start of the step are
+/// near the deformed ones, otherwise at rest. The same rigid motion takes both out of the canonical frame.
 template <class Deform>
 CaseData membrane_case(Random& random, Deform deform, bool lattice = false) {
   MembraneCase question;
@@ -80,7 +80,7 @@ CaseData membrane_lattice(Random& random) {
       random, [=](const Vec3& p) { return stretched(p, xx, xy, yy); }, true);
 }
 
-/// Takes random bits for points; the start gets other ones or the same.
+/// Sets `points` to random bits, and `start` to other random bits or to the same points.
 template <std::size_t N>
 void place_bits(Random& random, std::array<Vec3f, N>& points, std::array<Vec3f, N>& start) {
   const std::array<Vec3, 4> now = points_of_bits(random), before = points_of_bits(random);
@@ -135,8 +135,8 @@ CaseData membrane_corner(Random& random) {
   return question;
 }
 
-/// Takes a model other than the default. A row keeps its name even if the name is that of one model, because the names
-/// of cases contain it.
+/// Replaces the default model of a case by another one. Rows of the table may be named after one of these models; they
+/// keep their names if models are added, because problem strings contain the names.
 template <CaseData (*make)(Random&)>
 CaseData other_membrane(Random& random) {
   MembraneCase question = case_of<MembraneCase>(make(random));
@@ -144,7 +144,7 @@ CaseData other_membrane(Random& random) {
   return question;
 }
 
-/// Takes another form of damping, and a random model.
+/// Replaces strain damping by another form, and the model by a random one.
 template <CaseData (*make)(Random&)>
 CaseData membrane_damped_otherwise(Random& random) {
   MembraneCase question = case_of<MembraneCase>(make(random));
@@ -273,7 +273,7 @@ CaseData bending_needle(Random& random) {
   return bending_case(random, with_angle(shape, angle), with_angle(shape, angle), random.one_in(2));
 }
 
-/// Takes the isometric model; the rest shape is `now` unfolded, or another one.
+/// Makes a case of the isometric model. Its rest shape is `now` without the fold, or a random hinge.
 CaseData isometric_case(Random& random, const HingeShape& now, const HingeShape& start) {
   BendingCase question = case_of<BendingCase>(bending_case(random, now, start, random.one_in(2)));
   HingeShape rest = random.one_in(2) && now.height_a > 0.1 && now.height_b > 0.1 ? now : hinge_shape(random);
@@ -291,13 +291,14 @@ CaseData bending_isometric(Random& random) {
                         with_angle(shape, std::clamp(angle + random.between(-0.3, 0.3), -3.0, 3.0)));
 }
 
-/// Approaches ℓ = 0.
+/// Approaches ℓ = 0, a flat hinge.
 CaseData isometric_flat(Random& random) {
   const HingeShape shape = hinge_shape(random);
   return isometric_case(random, with_angle(shape, random.rung()), with_angle(shape, random.rung()));
 }
 
-/// Takes damping at angles that jump and at triangles without an angle.
+/// Adds damping to hinges near θ = ±π, where the angle jumps. In half of the cases a triangle is nearly or exactly
+/// collapsed, so that the angle is undefined.
 CaseData isometric_damping(Random& random) {
   HingeShape shape = hinge_shape(random);
   if (random.one_in(2)) shape.height_a = random.one_in(4) ? 0.0 : random.rung();
@@ -308,7 +309,7 @@ CaseData isometric_damping(Random& random) {
   return question;
 }
 
-/// Takes another form of damping.
+/// Replaces strain damping by another form.
 template <CaseData (*make)(Random&)>
 CaseData bending_damped_otherwise(Random& random) {
   BendingCase question = case_of<BendingCase>(make(random));

@@ -11,8 +11,8 @@ namespace {
 
 using namespace placement;
 
-/// Runs of at least this many cases take nearly all of them from rows whose meshes have thousands of vertices. A device
-/// answers these cases a hundred times as fast.
+/// A run with at least this many cases takes nearly all of them from generators whose meshes have thousands of
+/// vertices. A device needs a hundredth of the time for a case of a large mesh.
 constexpr std::uint64_t large_run = 1000000;
 
 constexpr std::array<int, 6> small_sizes{0, 1, 2, 3, 5, 10};
@@ -82,14 +82,16 @@ CaseData large(Random& random) {
   return finish(random, builder, {random.between(0.05, 0.3), random.between(0.2, 1)});
 }
 
-/// Makes a soup on small integers: ties, and triangles that touch, intersect, are coplanar or collapsed.
+/// Makes a soup (strips and loose edges) on small integers. It has ties, and triangles that touch, intersect, are
+/// coplanar or collapsed.
 CaseData lattice(Random& random) {
   MeshBuilder builder = soup_of(random, 3 + random.below(18));
   for (Vec3& p : builder.points) p = on_lattice(random, 1);
   return finish(random, builder, {0, random.one_in(2) ? 0 : 0.5 * (1 + random.below(4))});
 }
 
-/// Makes a soup with random bits for coordinates and radii, which gives needles, and edges of 10⁻⁶ beside edges of 10⁶.
+/// Makes a soup (strips and loose edges) with random bits for coordinates and radii. It has needles, and edges of 10⁻⁶
+/// beside edges of 10⁶.
 CaseData bits(Random& random) {
   MeshBuilder builder = soup_of(random, 3 + random.below(8));
   MeshCase mesh;
@@ -216,8 +218,7 @@ CaseData strands(Random& random) {
 }
 
 /// Makes rods with right angles, half turns and straight parts, exactly or up to a rung. Several segments lie within
-/// the radius. There the end of a segment stops being its closest point to another rod, and the next segment becomes
-/// closer.
+/// the radius. So closest points change from one segment to the next at common vertices.
 CaseData bends(Random& random) {
   MeshBuilder builder;
   const double gap = random.magnitude(-1.5, 0);
@@ -248,8 +249,8 @@ CaseData flat(Random& random) {
   return finish(random, builder, {jitter_rung(random), random.between(0.8, 2.5)});
 }
 
-/// Adds something to one end of an edge, or to both: a triangle on the edge, a triangle beside it, or another edge. It
-/// points towards what lies above, away from it, along the plane between, or in a direction one rung from these.
+/// Adds neighbours of the edge ab: a triangle on it, and at each end a loose edge, a triangle or nothing. New vertices
+/// lie above or below the edge, in its plane, or one rung from the plane.
 void hang(Random& random, MeshBuilder& builder, Index a, Index b) {
   constexpr std::array<double, 4> ways{-1, 0, 0, 1};
   const auto arm = [&](Index at) {
@@ -266,7 +267,7 @@ void hang(Random& random, MeshBuilder& builder, Index a, Index b) {
 }
 
 /// Returns edges one above the other, parallel or tilted by a rung. Their ends lie above each other, beside each other
-/// or anywhere. `hang` adds neighbours, which decide whether one end, both or none of the overlap lie in the blocks.
+/// or anywhere. `hang` adds neighbours, whose blocks may exclude one end of the edges' overlap, both ends or none.
 MeshBuilder pile_of(Random& random, double gap) {
   MeshBuilder builder;
   for (int k = 0, count = 2 + random.below(3); k < count; ++k) {
@@ -280,7 +281,7 @@ MeshBuilder pile_of(Random& random, double gap) {
   return builder;
 }
 
-/// Puts piles in a row along their edges, so that tilts keep their digits.
+/// Puts piles in a row along x, the direction of their edges. So y and z stay small, and tilts are not rounded away.
 CaseData parallel(Random& random) {
   constexpr double spacing = 10;
   MeshBuilder builder;
@@ -304,8 +305,8 @@ CaseData groups(Random& random) {
   return finish(random, builder, {random.one_in(2) ? 0.1 : jitter_rung(random), radius_at(random, gap)});
 }
 
-/// Makes two or three sheets whose borders are stitched, vertex to vertex or vertex to edge. Pairs beside a seam are
-/// excluded; pairs at its ends and behind it are not.
+/// Makes two or three sheets whose borders are stitched, vertex to vertex or vertex to edge. Only the pairs of stitched
+/// vertices are excluded; pairs at the seam's ends and one row away are not.
 CaseData seams(Random& random) {
   MeshBuilder builder;
   const double gap = random.magnitude(-2, 0);
@@ -330,8 +331,8 @@ CaseData seams(Random& random) {
   return finish(random, builder, {random.one_in(2) ? 0.1 : jitter_rung(random), radius_at(random, gap)});
 }
 
-/// Makes a stack or sheets next to a boundary: the radius just reaches them, and jitter changes only the last digits.
-/// In a stack this holds for nearly every vertex and edge.
+/// Makes a fine case of a stack or of sheets: the radius differs from the gap only in the last digits, and so does
+/// jitter. In a stack this holds for nearly every vertex and edge.
 CaseData boundary(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 4> ladders{stack, stack, stack, sheets};
   random.be_fine();
@@ -340,7 +341,7 @@ CaseData boundary(Random& random) {
 
 /// Makes 64 stacks side by side in one mesh, because a device takes as long for twenty vertices as for a thousand. The
 /// gap in each stack is one rung from the radius. The stacks are on a lattice near the origin, so that single precision
-/// resolves the lower rungs.
+/// resolves rungs of 10⁻⁵ and some smaller ones.
 CaseData field(Random& random) {
   constexpr int side = 4;
   constexpr double spacing = 5;  // a stack is at most 3 wide, and r is below 1.5

@@ -59,7 +59,7 @@ CaseData strands(Random& random) { return of_detection(random, "ladder.strands")
 CaseData seams(Random& random) { return of_detection(random, "ladder.seams"); }
 CaseData groups(Random& random) { return of_detection(random, "ladder.groups"); }
 
-/// Finishes the mesh with r_q in edge lengths.
+/// Turns the mesh into a case. `query_radius` is r_q in edge lengths.
 CaseData finished(Random& random, const MeshBuilder& builder, double query_radius, double jitter) {
   const MeshCase mesh = finish(random, builder, {jitter, query_radius});
   return with_planes(random, mesh, mesh.contact_radius);
@@ -171,8 +171,8 @@ CaseData solid(Random& random) {
   return with_planes(random, mesh, static_cast<float>(random.magnitude(-2, 0)));
 }
 
-/// Gives each free vertex a displacement. Its size is independent of the gap, because displacements only divide the
-/// gap.
+/// Adds a random displacement of each free vertex, from 10⁻⁴ to 10² r_q. Displacements set only the shares in which
+/// planes divide a gap, so they may exceed the gap.
 CaseData divided(Random& random, const CaseData& data) {
   auto test = case_of<PlaneCase>(data);
   const double size = test.query_radius * random.magnitude(-4, 2), common = random.one_in(3) ? size : 0;
@@ -187,12 +187,12 @@ CaseData divided(Random& random, const CaseData& data) {
   return test;
 }
 
-/// Divides the gaps of any state.
+/// Makes a generic state with displacements, in whose proportion planes divide the gaps.
 CaseData approach(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 4> states{soup, cloth, few, groups};
   return divided(random, random.pick(std::span<CaseData (*const)(Random&)>(states))(random));
 }
-/// Divides the gaps of pairs that are close, collapsed, crowded or fixed.
+/// Makes a state with displacements whose pairs are close, collapsed, crowded or fixed.
 CaseData close_approach(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 5> states{gap, collapsed, crowd, fixed, corner};
   return divided(random, random.pick(std::span<CaseData (*const)(Random&)>(states))(random));

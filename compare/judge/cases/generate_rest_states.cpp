@@ -1,6 +1,6 @@
-// Makes cases of rest_state: one to three bodies of random materials, each a mesh of the detections' families without
-// what `validate` refuses, or a few hinges. The start is the rest shape at twice the size, which reveals what is
-// computed of the wrong one.
+// Makes cases of rest_state: one to three bodies of random materials, or a few hinges. The meshes are those of the
+// detections' generators, without faces that `validate` refuses. The start is the rest shape at twice the size, which
+// reveals rest data computed from the start.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,7 +31,8 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 class Cleaner {
  public:
   explicit Cleaner(const MeshCase& mesh) : mesh_(mesh) {
-    // At 2⁻¹⁸ m whole triangles would fall onto a plane of coordinates, and be folded or flat by chance.
+    // Enlarges meshes of about 2⁻¹⁸ m. Otherwise many of their coordinates would become 0, which flattens or folds
+    // triangles.
     float largest = 0;
     for (const Vec3f& p : mesh.positions) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     const float scale = largest < 0x1p-10f ? 0x1p10f : largest > 0x1p17f ? 0.125f : 1.0f;
@@ -137,7 +138,7 @@ constexpr std::string_view soup = "soup", cloth = "cloth", any_bits = "bits", la
                            sheets = "ladder.sheets", fold = "ladder.fold", fan = "ladder.fan", book = "ladder.book",
                            strands = "ladder.strands";
 
-/// Makes bodies of meshes of the detections' generator `family`.
+/// Makes bodies from meshes of the detections' generator `family`.
 template <const auto& family>
 CaseData of(Random& random) {
   Scene scene;
@@ -147,7 +148,7 @@ CaseData of(Random& random) {
   return finished(std::move(scene));
 }
 
-/// Takes any bits that a mesh may have for coordinates of triangles, and any for materials.
+/// Takes random bits for coordinates, as far as they give legal triangles, and for materials.
 CaseData bits(Random& random) {
   RestStateCase test = case_of<RestStateCase>(of<any_bits>(random));
   Scene scene = *test.scene;
@@ -186,19 +187,19 @@ CaseData hinges(Random& random, Shape shape_of) {
   return finished(std::move(scene));
 }
 
-/// Lets angles tend to 0.
+/// Approaches an angle of 0.
 CaseData flat(Random& random) {
   return hinges(random, [&] { return HingeShape{random.between(0.1, 1.5), random.between(0.1, 1.5), random.rung()}; });
 }
 
-/// Lets angles tend to ±π, where the sign jumps.
+/// Approaches angles of ±π, where the sign jumps.
 CaseData crease(Random& random) {
   return hinges(random, [&] {
     return HingeShape{random.between(0.1, 1.5), random.between(0.1, 1.5), std::numbers::pi + random.rung()};
   });
 }
 
-/// Lets triangles tend to a line, as far as single precision and the shortest legal coordinate allow.
+/// Approaches triangles of height 0, as far as single precision and the shortest legal coordinate allow.
 CaseData needle(Random& random) {
   const auto height = [&] {
     return random.one_in(3) ? random.between(0.1, 1.5) : std::pow(10.0, -1 - random.below(10));
@@ -225,7 +226,7 @@ CaseData solid(Random& random) { return block_beside_sheet(random, random.betwee
 /// Makes tetrahedra with nearly no thickness.
 CaseData sliver(Random& random) { return block_beside_sheet(random, std::pow(10.0, -random.below(6))); }
 
-/// Adds a rod of this plan as another body, turned by a symmetry of the cube or by anything.
+/// Adds a rod of this plan as another body, turned by a symmetry of the cube and in half of the cases by a rotation.
 void add_rod(Random& random, Scene& scene, const RodPlan& plan, double scale) {
   Mesh mesh = rod_mesh(random, plan);
   permute(random, mesh.positions);
@@ -239,7 +240,7 @@ void add_rod(Random& random, Scene& scene, const RodPlan& plan, double scale) {
   append_body(scene, body, mesh);
 }
 
-/// Makes chains, rings and branches, alone or beside a sheet, with edges that run against each other.
+/// Makes chains, rings and branches, alone or beside a sheet. Consecutive edges may have opposite directions.
 CaseData rods(Random& random) {
   Scene scene;
   if (random.one_in(3))
@@ -249,10 +250,11 @@ CaseData rods(Random& random) {
   return finished(std::move(scene));
 }
 
-/// Lets directions tend to −e₃, or to the reverse of the one before, as far as single precision allows.
+/// Makes rods whose segments nearly reverse the direction of the segment before, or nearly continue it. Symmetries of
+/// the cube also bring directions near −e₃.
 CaseData turned_rods(Random& random) {
-  // The least angle to exact reversal, which is refused. Ends are off by 2⁻²⁴ of a few lengths, so this is never
-  // rounded to it.
+  // Least angle between a segment and the reverse of the segment before; exact reversal is refused. Rounding moves ends
+  // by 2⁻²⁴ of a few lengths, so it cannot reduce this angle to 0.
   constexpr double least_turn = 0x1p-18;
   Scene scene;
   RodPlan plan{.segments = 2 + random.below(4), .jitter = 0};
@@ -262,7 +264,7 @@ CaseData turned_rods(Random& random) {
   return finished(std::move(scene));
 }
 
-/// Makes equal, extreme and zero stiffnesses and frictions of five small bodies.
+/// Makes five small bodies with equal, extreme and zero contact stiffnesses and frictions.
 CaseData meetings(Random& random) {
   constexpr std::array<double, 6> stiffnesses{0, 0, 100, 100, 0x1p-30, 0x1p40},
       frictions{0, 0, 0.2f, 0.2f, 0x1p10, 0x1p-20};

@@ -71,8 +71,8 @@ struct StepBuilder {
     return m;
   }
 
-  /// Adds nx × ny vertices at `origin` with alternating diagonals and one velocity [m/s]. `origin` is in spacings; two
-  /// more are added, so that no jitter brings a coordinate next to 0.
+  /// Adds nx × ny vertices with alternating diagonals and one velocity [m/s]. `origin` is in units of `spacing`. The
+  /// sheet is shifted by two spacings along each axis, so that jitter brings no coordinate near 0.
   void sheet(int nx, int ny, const Vec3& origin, const Vec3& velocity, bool fixed = false) {
     Mesh mesh;
     for (int j = 0; j < ny; ++j)
@@ -234,8 +234,8 @@ CaseData collide(Random& random) {
   return builder.finish();
 }
 
-/// Returns a motion of the same vertices with keyframes, in which each vertex has its own path. The step ends between
-/// two keyframes, at one, or after the last.
+/// Returns a motion of the vertices of `like` with keyframes, in which each vertex has its own path. The step ends
+/// between two keyframes, at one, or after the last.
 PrescribedMotion keyframed(Random& random, const StepBuilder& builder, const PrescribedMotion& like) {
   const double h = builder.scene.settings.time_step;
   PrescribedMotion motion;
@@ -356,8 +356,9 @@ CaseData few(Random& random) {
   return builder.finish();
 }
 
-/// Takes random bits for numbers of strips, as far as answers can be compared. Velocities and materials span at least
-/// eight powers of two, materials within the limits of inertia. Coordinates get random last bits.
+/// Takes random bits for velocities and materials of strips, and random last bits for coordinates. Velocities and
+/// materials span at least eight powers of two. Stiffnesses stay in proportion to inertia, so that answers can be
+/// compared.
 CaseData bits(Random& random) {
   StepBuilder builder(random);
   const auto single = [](double x) { return static_cast<float>(x); };
@@ -492,15 +493,15 @@ CaseData with_bounds(const CaseData& data, Bounds bounds) {
 }
 CaseData with_planes(const CaseData& data) { return with_bounds(data, Bounds::planes); }
 
-/// Takes half-spaces instead of balls.
+/// Limits vertices by half-spaces instead of balls.
 CaseData planes(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 3> scenes{onto, collide, handle};
   return with_planes(random.pick(std::span<CaseData (*const)(Random&)>(scenes))(random));
 }
 CaseData planes_at_rest(Random& random) { return with_planes(at_rest(random)); }
 
-/// Takes half-spaces that approach divides and at which vertices stop. In half of the cases a detection follows each
-/// iteration.
+/// Limits vertices by dat: half-spaces that divide gaps by approach, at which vertices stop instead of sliding. In half
+/// of the cases a detection follows each iteration.
 CaseData dat(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 4> scenes{onto, collide, handle, at_rest};
   const CaseData data = random.pick(std::span<CaseData (*const)(Random&)>(scenes))(random);

@@ -31,7 +31,7 @@ struct Cloth {
 struct Motion {
   double jitter = 0;              ///< largest shift of X_prev
   Vec3 slip;                      ///< displacement of the last body since xᵗ, in addition to `wander`
-  double wander = 0, step = 0.3;  ///< largest distances from X_prev of xᵗ, and of x and y
+  double wander = 0, step = 0.3;  ///< largest distance of xᵗ from X_prev; largest distance of x and y from X_prev
   double bound = 0;       ///< above 0: bounds follow from y and bound_rung; 0: random bounds, or the largest legal ones
   double bound_rung = 0;  ///< if `bound` > 0: y lies at 1 + bound_rung times the bound
   bool exact = false;     ///< true: only scales and symmetries that keep every bit
@@ -145,7 +145,7 @@ double wave(const Vec3& p, double height) { return height * std::sin(1.3 * p.x) 
 
 int cells(Random& random) { return random.one_in(6) ? 5 + random.below(4) : 1 + random.below(4); }
 
-/// Returns two wavy sheets, one above the other; waves and jitter are too small for the sheets to touch, as in a step.
+/// Returns two wavy sheets, one above the other. Waves and jitter are smaller than the gap, so the sheets do not touch.
 Cloth two_sheets(Random& random, bool fixed_below) {
   Cloth cloth;
   cloth.contact_radius = random.between(0.2, 0.9);
@@ -271,7 +271,7 @@ CaseData at_radius(Random& random) {
   return finish(random, std::move(cloth), motion);
 }
 
-/// Takes small d and large k_c.
+/// Makes distances that are small relative to r, and contact stiffnesses of up to 10⁶ N/m.
 CaseData stiff(Random& random) {
   Cloth cloth = flat_sheets(random, random.magnitude(-3, -0.3));
   for (Body& b : cloth.scene.bodies) b.material.contact_stiffness = random.magnitude(2, 6);
@@ -352,7 +352,7 @@ CaseData at_bound(Random& random) {
   return finish(random, std::move(cloth), motion);
 }
 
-/// Takes random bits for numbers, as far as answers can be compared. Materials and time step span twelve powers of two.
+/// Takes random bits for materials and time step, over twelve powers of two, so that answers can be compared.
 /// Coordinates and bounds get random last bits only, because stencils keep their shapes and contacts exist only near
 /// the old positions.
 CaseData bits(Random& random) {

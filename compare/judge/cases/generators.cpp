@@ -12,8 +12,9 @@ namespace ogc::compare {
 
 namespace {
 
-// Real states have no limit of grey decisions. In a regular sheet every vertex lies on the planes of its neighbours,
-// and parallel edges meet at the borders of blocks. So grey decisions in frames do not reveal errors of a kernel.
+// The limit of grey decisions does not apply to real states. In a regular sheet every vertex lies on the planes of its
+// neighbours, and parallel edges meet at the borders of blocks. So many decisions are grey without an error of a
+// kernel.
 constexpr Generator real_states{"states", 50, false, nullptr}, mutated_states{"mutated", 50, false, nullptr};
 
 }  // namespace

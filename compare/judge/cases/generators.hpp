@@ -19,13 +19,13 @@ struct Generator {
   double share;           ///< weight of the row among a stage's cases
   bool generic;           ///< true if it aims at no degeneracy: few of its decisions may be grey (grey_share_limit)
   CaseData (*make)(Random&);
-  /// Least number of cases of a run that uses the row; in smaller runs one of its meshes would be too large a share.
+  /// The row is used only in runs with at least this many cases; in a smaller run one mesh would be too large a share.
   std::uint64_t least = 0;
   /// Another stage that the contestant must have: `tetrahedron` for solids, `plane` for half-spaces, `volume_depth` for
   /// volumes, `orientation` for rods.
   std::optional<Stage> also_needs = std::nullopt;
   bool has_cavities = false;  ///< makes volumes with cavities, for contestants that support them
-  bool divides = false;       ///< divides gaps by approach, for contestants that support it
+  bool divides = false;       ///< has displacements by which planes divide gaps (dat), for contestants that support it
 };
 
 /// Returns the generators of a stage, except the two that need real states: `states` and `mutated`

@@ -9,8 +9,8 @@
 
 namespace ogc::compare {
 
-/// The largest modulus of coordinates [m], velocities [m/s] and accelerations [m/s²]. Scenes end at 2²⁰; generators
-/// exceed that, so that no stage relies on it. There is no smallest modulus (method.md §2.4).
+/// The largest modulus of coordinates [m], velocities [m/s] and accelerations [m/s²] of a question. It is above the
+/// limit of scenes, 2²⁰, so that no stage relies on that limit. There is no smallest modulus (method.md §2.4).
 inline constexpr float most_coordinate = 0x1p30f;
 
 /// `least_length` and `most_length` limit radii, distances and steps; `vast` limits stiffnesses and bounds.
@@ -49,8 +49,8 @@ class FirstProblem {
   std::string text_;
 };
 
-/// Notes a nonzero distance below `least` between points of a stencil, a longest one below `least_longest`, and
-/// distances above 2²² (compare/stages/force.hpp).
+/// Notes a problem if two points of a stencil have a nonzero distance below `least` or above 2²², or if the largest
+/// distance is nonzero and below `least_longest` (compare/stages/force.hpp).
 void check_lengths(FirstProblem& problem, std::span<const Vec3f> points, float least, float least_longest = 0x1p-30f);
 
 /// Checks that rest shape, materials and settings are valid for a scene. Positions are not checked, because triangles

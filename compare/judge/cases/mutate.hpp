@@ -9,16 +9,15 @@
 
 namespace ogc::compare {
 
-/// Moves a few points in one or more ways. A point moves next to another point, or next to the middle of two others, by
-/// a rung times their distance. It takes the place or one coordinate of another point, moves by a rung, or all points
-/// are rounded to few binary digits. In a step velocities move, in a sweep xᵗ and the targets. In rest_state the rest
-/// shape moves as long as it stays legal. A distance becomes another distance, the radius or half of it, or moves by a
-/// rung.
+/// Changes a few points, one to four times. One change moves a point by a rung times a distance, or puts it that near
+/// to another point or to the middle of two points. It may also copy a point or a coordinate, or round all points to
+/// few binary digits. In a step velocities change, in a sweep xᵗ and the targets, in rest_state the rest shape as long
+/// as it stays legal. A distance becomes another distance, the radius or half of it, or changes by a rung.
 void mutate(Random& random, TestCase& test);
 
-/// Moves points in the ways of `mutate`.
+/// Changes points as `mutate` does.
 void mutate_points(Random& random, std::span<Vec3f> points);
-/// Returns the vectors, moved in the ways of `mutate` and rounded to single precision.
+/// Returns the vectors, changed as `mutate` does and rounded to single precision.
 std::vector<Vec3> mutated(Random& random, const std::vector<Vec3>& vectors);
 
 /// Moves the points of several arrays together, so that a point may take the place of a point of another array.

@@ -1,6 +1,6 @@
 // Moves points from a canonical frame into a case. In the canonical frame the coordinate that makes the degeneracy lies
-// near 0, so it can be approached by 10⁻¹². Exact symmetries come first: signed permutations and powers of two keep
-// every bit. In half of the cases a rotation follows; its rounding adds another small deviation.
+// near 0, so a case can be 10⁻¹² from the degeneracy. Exact symmetries come first: signed permutations and powers of
+// two keep every bit. In half of the cases a rotation follows; its rounding adds another small deviation.
 #pragma once
 
 #include <array>
@@ -37,8 +37,8 @@ std::array<Vec3, 4> points_on_lattice(Random& random, int extent);
 void permute(Random& random, std::span<Vec3> points);
 /// Applies one rotation by a random axis and angle to all points, then a shift within the unit box.
 void rotate(Random& random, std::span<Vec3> points);
-/// Permutes the points, rotates them in half of the cases, and scales them by 1, 2^±10 or 1000. Fine cases are always
-/// rotated, because a coordinate near 0 has no error that could matter.
+/// Permutes the points, rotates them in half of the cases, and scales them by 1, 2^±10 or 1000. Points of a fine case
+/// are always rotated: without rotation a coordinate near 0 would be exact, and no decision would be in doubt.
 void place(Random& random, std::span<Vec3> points);
 
 }  // namespace ogc::compare::placement

@@ -55,7 +55,7 @@ class Random {
     const double direction = sign();
     return direction * powers[fine_ ? 4 + below(8) : below(12)];
   }
-  /// Restricts all further rungs to 10⁻⁵ and below, for cases next to a decision boundary.
+  /// Makes all further rungs 0 or ±10⁻⁵ … ±10⁻¹², for a fine case, next to a decision boundary.
   constexpr void be_fine() { fine_ = true; }
   constexpr bool is_fine() const { return fine_; }
 

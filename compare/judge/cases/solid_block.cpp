@@ -11,7 +11,8 @@ namespace ogc::compare {
 
 namespace {
 
-/// Orders of axes of the paths from a cell's lowest corner to its highest one; even permutations come first.
+/// One row for each tetrahedron of a cell: the order of axes along a path from the lowest corner to the highest one.
+/// Even permutations come first.
 constexpr std::array<std::array<std::size_t, 3>, 6> paths{
     {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {1, 0, 2}, {2, 1, 0}}};
 
@@ -65,8 +66,8 @@ Mesh jittered_hollow(Random& random, double size, double height) {
   }
   const auto first = static_cast<Index>(mesh.positions.size());
   const double share = random.between(0.3, 0.5);
-  // A side of the block is at most a tenth of a cell away from its mean. So a box of half the block's size does not
-  // meet it.
+  // Each side of the block deviates from its mean plane by at most a tenth of a cell. So a box of up to half of the
+  // block's size does not meet the sides.
   const auto between = [share](double a, double b, int side) { return (a + b) / 2 + (side - 0.5) * share * (b - a); };
   for (int v = 0; v < 8; ++v)
     mesh.positions.push_back(

@@ -27,7 +27,7 @@ struct Diagnosis {
   std::uint64_t forms = 0;  ///< number of forms that were tried
   /// what all failing cases have in common and right ones lack, for example "activation is ogc"; may be empty
   std::string where{};
-  std::uint64_t elsewhere = 0;           ///< number of right cases that lack it
+  std::uint64_t elsewhere = 0;           ///< right cases that lack what `where` states
   std::vector<SecondMistake> seconds{};  ///< forms that fit failing cases which the first form does not fit
 };
 

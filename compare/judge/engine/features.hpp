@@ -13,7 +13,7 @@
 
 namespace ogc::compare {
 
-// If a feature of an answer does not exist, its name says so.
+// Each function also names a feature that does not exist in the mesh, because an answer may contain one.
 
 /// Returns "vertex 2 of the triangle", "edge (0,1) of the triangle", "the interior of the triangle".
 std::string feature_name(TriangleFeature feature);

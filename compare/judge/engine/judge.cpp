@@ -103,9 +103,9 @@ class GeneratorRun {
 
   bool is_over() const { return stopped_ || next_ == batches_; }
 
-  /// Returns how many batches may be begun beyond the merged ones: four for each thread if the number of batches is
-  /// known. In a mesh stage at most one for each thread, and not more than are missing, estimated from the cases of a
-  /// batch so far.
+  /// Returns how many batches may be begun beyond the merged ones. If the number of batches is known, these are four
+  /// for each thread. A mesh stage begins at most one for each thread, and at most as many as it still needs. This
+  /// number is estimated from the cases of the merged batches.
   std::uint64_t ahead() const {
     if (!is_mesh_stage(stage_)) return 4 * options_.threads;
     if (merged_count_ == 0) return options_.threads;

@@ -59,7 +59,7 @@ struct Mismatch {
 
 /// Counts of one generator, or of several.
 struct GeneratorTally {
-  /// as in Tally::count; mismatches
+  /// numbers as in Tally::count, and the number of mismatches
   std::uint64_t cases = 0, decisions = 0, grey = 0, near = 0, mismatches = 0;
   /// grey decisions whose accepted answer differs from the exact one, or lies on the other side of a jump
   std::uint64_t not_exact = 0;

@@ -10,8 +10,8 @@
 
 namespace ogc::compare {
 
-/// Returns the error in units of u · scale; 0 if the error is 0, whatever the scale. Numbers below the smallest normal
-/// one, 2⁻¹²⁶, are rounded to multiples of 2⁻¹⁴⁹, so no kernel can avoid an error of u · 2⁻¹²⁶ there.
+/// Returns the error in units of 2⁻²⁴ · scale; 0 if the error is 0. The unit is at least 2⁻²⁴ · 2⁻¹²⁶, because numbers
+/// below 2⁻¹²⁶ are rounded to multiples of 2⁻¹⁴⁹.
 inline double in_units(double error, double scale) {
   return error == 0 ? 0 : error / (unit_roundoff * (scale + 0x1p-126));
 }

@@ -37,7 +37,7 @@ class VolumeQuestion {
   const Topology& topology_;
   VolumeSurface surface_;
   std::shared_ptr<const Topology> own_;
-  /// `asking_as_`: for each tested vertex the vertex of a volume that it is, or −1
+  /// tested vertices, and for each its own number if it is a vertex of a volume, otherwise −1
   std::vector<Index> asking_, asking_as_;
   float contact_radius_;
 };

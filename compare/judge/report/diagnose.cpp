@@ -15,13 +15,14 @@ namespace ogc::compare {
 
 namespace {
 
-// Largest numbers of cases that are tried: enough to tell chance from rule, with a second or two of the authority's
-// time.
+// Largest numbers of cases that are tried. They are large enough to exclude chance, and take the authority one or two
+// seconds.
 constexpr std::size_t most_failing = 120, most_failing_meshes = 24;
 constexpr std::size_t sampled = 600, sampled_of_mesh_stage = 2;
 // A property of all failing cases is reported if at least this many right cases lack it.
 constexpr std::uint64_t least_elsewhere = 10;
-// If a form fits a tenth of the cases, it fits one of these with a probability of 92 %.
+// Number of cases on which each form is tried first. A form that fits a tenth of all cases fits at least one of 24 with
+// a probability of 92 %.
 constexpr std::size_t most_tried = 24;
 // Largest number of mistakes that are named in addition to the first.
 constexpr std::size_t most_seconds = 3;
@@ -103,8 +104,8 @@ class Diagnosing {
     }
   }
 
-  /// Takes the form as the best one if it fits enough failing cases and fewer cases contradict it than the best one so
-  /// far.
+  /// Stores the form as the best one if it fits enough failing cases, and fewer cases contradict it than the best form
+  /// so far. If equally many do, adds the form's name to `as_well`.
   void consider(const WrongForm& form, Diagnosis& best) const {
     const auto wanted = std::max<std::uint64_t>(
         least_fits, static_cast<std::uint64_t>(std::ceil(least_share * static_cast<double>(best.failing))));
@@ -153,8 +154,8 @@ class Diagnosing {
                                [&](const Evidence* one) { return fits(form, *one, authority) || (left -= 1) >= 0; });
   }
 
-  /// Checks whether the form fits at least one of a few sampled cases. Most forms fit none, which saves trying them on
-  /// all cases.
+  /// Checks whether the form fits at least one of a few sampled cases. Most forms fit none and need not be tried on all
+  /// cases.
   static bool may_fit(const WrongForm& form, const Authority& authority, const std::vector<const Evidence*>& rest) {
     const std::size_t count = std::min(most_tried, rest.size());
     for (std::size_t i = 0; i < count; ++i)

@@ -15,9 +15,11 @@ namespace ogc::compare {
 inline constexpr std::uint64_t least_fits = 3;
 inline constexpr double least_share = 0.9;
 /// If no form fits that many, a kernel may have two mistakes, and further forms are fitted to the remaining failing
-/// cases. They are named if the first form fits `least_share_of_first`, or if all together fit `least_share`. Each
-/// further form must fit `least_share_of_second` of the failing cases and `least_share_of_right` of the right ones,
-/// because a form that fits some failing cases by chance contradicts right cases.
+/// cases.
+/// - The forms are named if the first fits the share `least_share_of_first` of the failing cases, or if all together
+///   fit `least_share`.
+/// - Each further form must fit `least_share_of_second` of the failing cases, and `least_share_of_right` of the right
+///   ones: a form that fits some failing cases by chance contradicts right cases.
 inline constexpr double least_share_of_first = 0.5, least_share_of_second = 0.05, least_share_of_right = 0.99;
 
 /// Returns the diagnosis. `failing` are cases of the stage with a wrong answer, without those that got no answer.

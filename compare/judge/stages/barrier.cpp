@@ -1,5 +1,7 @@
-// Makes the traits of stage barrier. Ladders approach g = H, where barrier, slope and curvature end; g = 0, where the
-// logarithm grows; and thicknesses far above d̂.
+// Makes the traits of stage barrier. With D = squared distance, g = D − ξ² and H = d̂ (d̂ + 2ξ), ladders approach
+// - g = H, above which energy, slope and curvature are 0,
+// - g = 0, where the logarithm grows,
+// - thicknesses ξ far above d̂.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,7 +29,7 @@ bool tells_gap(const BarrierCase& c) {
   return gap_of(c) >= 0x1p-40 * support_of(c) && gap_of(c) >= 0x1p-18 * c.squared_distance;
 }
 
-/// Returns the case with legal lengths; D becomes the least legal one if it is below.
+/// Returns the case with legal lengths; raises D to its least legal value.
 BarrierCase legal(BarrierCase c) {
   c.activation_distance = std::clamp(c.activation_distance, ranges::least, ranges::most);
   if (c.thickness != 0)
@@ -39,7 +41,7 @@ BarrierCase legal(BarrierCase c) {
   return c;
 }
 
-/// Returns a case whose g is `share` of the support H.
+/// Returns a case with g = `share` H.
 BarrierCase at_share(double share, float distance, float thickness) {
   BarrierCase c{0, distance, thickness};
   c = legal(c);

@@ -55,7 +55,7 @@ CaseData edge_plane(Random& random) {
                 corners);
 }
 
-/// Approaches both planes near the corner a.
+/// Approaches the planes of `corner_plane` and `edge_plane` at once, near corner a.
 CaseData corner_edge(Random& random) {
   return placed(random, {random.rung(), random.rung(), random.one_in(2) ? random.rung() : random.between(-1, 1)},
                 canonical(random));
@@ -114,7 +114,7 @@ CaseData offset(Random& random) {
   return finish(points);
 }
 
-/// Takes the lower rungs of the ladders towards the planes.
+/// Takes cases of the ladders towards the planes with rungs of at most 10⁻⁵.
 CaseData boundary(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 3> ladders{corner_plane, edge_plane, corner_edge};
   random.be_fine();

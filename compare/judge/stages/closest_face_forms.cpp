@@ -107,7 +107,8 @@ Weights moduli(Weights w) {
   return w;
 }
 
-/// Makes this point the truth. Its weights are not compared, because the mistake is the choice of the point.
+/// Makes the point with weights w the truth. Its weights are not compared, because the mistake is the choice of the
+/// point.
 void say_point(const ClosestFaceIn& in, std::size_t i, const Weights& w, ClosestFaceTruth& truth) {
   truth.weights[i] = w;
   truth.weight_condition[i] = std::numeric_limits<double>::infinity();
@@ -159,7 +160,8 @@ void add_permutations(std::vector<WrongForm>& forms) {
 
 // Forms that choose an edge or corner that is not the nearest.
 
-/// Makes the closest point of one edge, by the authority, the answer; an edge without length is its first end.
+/// Makes the closest point of one edge the truth. The authority computes it by closest_points; for an edge without
+/// length it is the edge's first end.
 void take_edge(const Authority& authority, const ClosestFaceIn& in, std::size_t i, std::size_t edge,
                ClosestFaceTruth& truth) {
   const std::size_t from = edge, to = (edge + 1) % 3;
@@ -190,8 +192,8 @@ void take_corner(const ClosestFaceIn& in, std::size_t i, std::size_t corner, Clo
   round_answer(truth, i);
 }
 
-/// Makes a form in which `choose(authority, in, i, truth)` chooses the closest point if this point is not in the
-/// interior and the triangle has an area.
+/// Makes a form that replaces the truth by `choose(authority, in, i, truth)` for triangles with an area whose closest
+/// point is not in the interior.
 template <class Choose>
 WrongForm chosen_outside(std::string name, std::string meaning, Choose choose) {
   return form_of(std::move(name), std::move(meaning), [choose](const Authority& authority) {
@@ -207,7 +209,8 @@ WrongForm chosen_outside(std::string name, std::string meaning, Choose choose) {
   });
 }
 
-/// Makes the form that takes the first edge in this order beyond which the foot lies.
+/// Makes the form that takes the closest point of an edge: the first edge in this order that separates the foot from
+/// the triangle.
 WrongForm first_edge_of(const std::array<std::size_t, 3>& order) {
   constexpr std::array<const char*, 3> edges{"01", "12", "20"};
   const std::string which = std::string(edges[order[0]]) + "_" + edges[order[1]] + "_" + edges[order[2]];
@@ -246,7 +249,7 @@ void by_clamping(const Authority&, const ClosestFaceIn& in, std::size_t i, Close
   round_answer(truth, i);
 }
 
-/// Choose the nearest corner, and the edge whose line is nearest.
+/// Make the answer the nearest corner, or the closest point of the edge whose line is nearest.
 void nearest_corner(const Authority&, const ClosestFaceIn& in, std::size_t i, ClosestFaceTruth& truth) {
   const Seen seen(in, i);
   const auto squared = [](const Vec3& v) { return dot(v, v); };
@@ -289,7 +292,7 @@ void add_choices(std::vector<WrongForm>& forms) {
 // Forms that add areas.
 
 constexpr unsigned inside_bit = 1u << static_cast<unsigned>(TriangleFeature::interior);
-/// A bound of the error of a sum of three weights, each with ten roundings in double.
+/// A bound of the rounding error of a sum of three weights, each with ten roundings in double.
 constexpr double sum_rounding = 30 * 0x1p-53;
 
 /// Makes the form that counts the foot as inside if the areas of its three triangles, added without signs, exceed the
@@ -399,7 +402,8 @@ bool is_nan_of_needle(const Evidence& evidence, const Authority& authority) {
   return is_nan ? is_needle(in) : agrees(evidence, authority);
 }
 
-/// Checks whether `distance` is that to the plane if the foot is outside, and the answer is right otherwise.
+/// Checks whether `distance` is the distance to the triangle's plane if the closest point is not in the interior, and
+/// the answer is right otherwise. A right distance is accepted, too.
 bool is_distance_of_plane(const Evidence& evidence, const Authority& authority) {
   const ClosestFaceIn in = question_of(evidence);
   const ClosestFaceTruth truth = authority.closest_face(in);
@@ -410,8 +414,8 @@ bool is_distance_of_plane(const Evidence& evidence, const Authority& authority) 
   return off <= closest_face_distance_tolerance * unit_roundoff * std::max(plane, size) || agrees(evidence, authority);
 }
 
-/// Checks whether the answer is right except for its feature, whose distance single precision cannot distinguish from
-/// the right one.
+/// Checks whether the answer is right if its feature is accepted in addition to the right ones. Single precision may
+/// not distinguish the distances of both features.
 bool is_rounded_choice(const Evidence& evidence, const Authority& authority) {
   const ClosestFaceIn in = question_of(evidence);
   const ClosestFaceOut out = evidence.answered.closest_face(in);

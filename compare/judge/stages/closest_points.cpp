@@ -57,7 +57,7 @@ CaseData threshold(Random& random) {
   return placed(random, crossing(random, 1e-3 * (1 + random.rung()), height(random)));
 }
 
-/// Makes parallel or tilted edges whose projections overlap by a rung, far apart or one inside the other.
+/// Makes edges that are parallel or tilted by a rung. Along the first edge they overlap by a rung or are a rung apart.
 CaseData overlap(Random& random) {
   const double length = random.magnitude(-1, 1), shift = random.one_in(2) ? 1 : -length,
                tilt = random.one_in(2) ? 0 : random.rung();
@@ -113,7 +113,7 @@ CaseData offset(Random& random) {
   return finish(points);
 }
 
-/// Takes the lower rungs of the ladders towards ends, overlaps and the limit of nearly parallel edges.
+/// Takes cases of the ladders towards ends, overlaps and the limit of nearly parallel edges with rungs of at most 10⁻⁵.
 CaseData boundary(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 3> ladders{threshold, overlap, end};
   random.be_fine();
@@ -450,8 +450,7 @@ struct ClosestPoints : BatchStage<ClosestPoints, &Contestant::closest_points, &A
                     out.distance_below);
   }
 
-  /// Lists the rounded part of an answer, with the given parameters and contact distance, which the truth has in
-  /// double.
+  /// Lists an answer. Parameters and contact distance are given separately, because a truth has them in double.
   static std::vector<Quantity> outputs(const Out& out, const Quantity& parameters, double contact_distance) {
     return {word("first_feature", feature_name(out.first_feature.at(0), "first")),
             word("second_feature", feature_name(out.second_feature.at(0), "second")),

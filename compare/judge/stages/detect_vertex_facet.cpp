@@ -13,7 +13,8 @@ bool is_part(const Topology& topology, const Face& a, const Face& b) {
   return a.kind == FaceKind::vertex ? has(topology.triangles[i]) : has(topology.triangle_edges[i]);
 }
 
-/// Checks whether the block of a lies on the other side of a boundary of the block of b.
+/// Checks whether two contacts of one vertex exclude each other: if a's face is part of b's, a boundary separates their
+/// blocks.
 bool excludes(const Topology& topology, const VertexFacetContact& a, const VertexFacetContact& b) {
   return a.vertex == b.vertex && is_part(topology, a.face, b.face);
 }

@@ -1,14 +1,14 @@
 // Holds the common parts of both detections: the verdict about a contact set, the traits of a stage whose case is a
-// state, and forms that change the question or limit a list. The verdict sorts both sets and compares keys:
+// state, and forms that change the question or limit a list. The verdict sorts the exact set and the answered set and
+// compares them:
 //
-//   exact, not answered        accepted if a grey decision lists it, and another contact of this decision is
-//                              answered or its absence is accepted
-//   answered, not exact        accepted if a grey decision lists it
-//   a and b answered, a ⊂ b    wrong in one grey decision, because their blocks share no point (§3.3, local
-//                              exclusiveness). Accepted for two triangles at a slightly concave edge, and for pairs
-//                              of edges, by the rule for nearly parallel ones
-//
-// If nothing replaces a missing contact, the message names the gap in the covering, through which a vertex could pass.
+// - A missing contact (exact, not answered) is accepted if a grey decision lists it, and the answer has another contact
+//   of this decision or the decision accepts that all are missing. Otherwise a vertex could pass through the gap in the
+//   covering by blocks.
+// - An extra contact (answered, not exact) is accepted if a grey decision lists it.
+// - Two answered contacts of one grey decision are wrong if a boundary separates their blocks (§3.3, local
+//   exclusiveness). Both are accepted for two triangles at a slightly concave edge, and for pairs of edges because of
+//   the rule for nearly parallel ones.
 #pragma once
 
 #include <algorithm>
@@ -44,8 +44,8 @@ bool lists(const GreyDecision<Contact>& decision, const Contact& contact) {
   return std::find(decision.contacts.begin(), decision.contacts.end(), contact) != decision.contacts.end();
 }
 
-/// Compares two sets of contacts. `excludes(topology, a, b)` returns whether a's block lies on the other side of a
-/// boundary of b's block.
+/// Compares two sets of contacts. `excludes(topology, a, b)` returns whether a boundary of b's block separates it from
+/// a's block, so that only one of both contacts may be answered.
 template <class Contact>
 class SetVerdict {
  public:

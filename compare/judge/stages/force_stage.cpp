@@ -9,7 +9,7 @@ namespace ogc::compare {
 
 namespace {
 
-/// Errors relative to one accepted answer, in units of u · scale.
+/// Errors relative to one accepted answer, in units of 2⁻²⁴ · scale.
 struct ForceErrors {
   double force = 0, block = 0;
 };
@@ -28,7 +28,7 @@ bool is_within(const ForceErrors& errors, std::span<const MetricInfo> infos) {
   return errors.force <= infos[0].tolerance && errors.block <= infos[1].tolerance;
 }
 
-/// Returns the accepted answer whose larger error, divided by its tolerance, is least.
+/// Returns the accepted answer for which the larger ratio of error to tolerance is least.
 const ForceAnswer& nearest(const std::vector<ForceAnswer>& accepted, const Vec3f& force,
                            const std::array<float, 6>& block, std::span<const MetricInfo> infos) {
   const auto share = [&](const ForceAnswer& exact) {

@@ -76,7 +76,7 @@ struct ForceStage : BatchStage<S, contestant, authority>, TakenWhole, Parameters
     return all;
   }
 
-  /// Makes the question of the unchanged cases.
+  /// Makes a question that consists of the unchanged cases.
   static In question(Cases cases) { return case_question(cases, &In::cases); }
   static void judge(Cases cases, const In&, const Truth& truth, const Out& out, Tally& tally) {
     judge_force(cases, truth, out, tally);

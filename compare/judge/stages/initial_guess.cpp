@@ -1,5 +1,5 @@
-// Makes the traits of stage initial_guess. To approach a bound, a generator derives the bound from y in double, which
-// is within a few u of every contestant's y.
+// Makes the traits of stage initial_guess. Ladders approach bounds: a generator sets b_v to 1 + rung times ‖y − X_prev‖
+// in double. This differs from every contestant's value by only a few roundings to single precision.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -90,7 +90,7 @@ InitialGuessCase bound(Random& random) {
   return c;
 }
 
-/// Takes the lower rungs of `bound`.
+/// Takes cases of `bound` with rungs of at most 10⁻⁵.
 InitialGuessCase boundary(Random& random) {
   random.be_fine();
   return bound(random);

@@ -1,5 +1,5 @@
-// Makes the traits of stage plane. An answer may choose the pairs whose planes it stores. The truth follows the answer:
-// it tells which pairs these planes separate, and how much room vertices have.
+// Makes the traits of stage plane. An answer may choose the pairs for which it stores planes, so the truth is about the
+// answer: which pairs its planes and balls do not separate, and where they restrict vertices more than necessary.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +23,7 @@ std::string vertex(std::size_t v) { return "vertex " + std::to_string(v); }
 
 bool has(std::span<const Index> vertices, Index v) { return std::ranges::find(vertices, v) != vertices.end(); }
 
-/// Checks whether v belongs to the pair, and the pair has no common vertex of both sides.
+/// Checks whether v is a vertex of the pair. A pair with a vertex common to both sides is no pair.
 bool is_part(const Topology& topology, const PrimitivePair& pair, Index v) {
   const auto is_one_of = [](Index i, auto count) { return i >= 0 && i < static_cast<Index>(count); };
   if (pair.kind == PrimitivePair::Kind::edge_edge) {
@@ -122,7 +122,7 @@ WrongForm plane_asked(std::string name, std::string meaning, Change change) {
   });
 }
 
-/// Makes a form in which `accept(out, freedom)` removes from `freedom` what this form does not consider a mistake.
+/// Makes a form in which `accept(out, freedom)` clears counts of `freedom` that are no mistakes under this form.
 WrongForm plane_accepted(std::string name, std::string meaning, void (*accept)(const PlaneOut&, PlaneFreedom&)) {
   return {std::move(name), std::move(meaning), [accept](const Evidence& evidence, const Authority& authority) {
             Authority wrong = authority;
@@ -304,8 +304,8 @@ struct Plane : Numbered, InEveryRun {
   }
   static std::int64_t in_vertices(const TestCase& test) { return case_of<Case>(test.data).topology->vertex_count; }
 
-  /// Lists the answer's bounds and planes in both columns. For counts that should be 0, the exact column counts what
-  /// the answer lacks.
+  /// Lists the answer's bounds and planes on both sides. In counts of mistakes, the contestant's side shows the right
+  /// count, 0, and the exact side the number found in the answer.
   static Answers answers(const TestCase& test, const Contestant& c, const Authority& a) {
     const In in = question_of(test);
     std::string note;

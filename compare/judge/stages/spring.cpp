@@ -84,7 +84,7 @@ CaseData bits(Random& random) {
   return question;
 }
 
-/// Approaches l = l₀, where the force vanishes and the block's part across the spring begins, and lᵗ = l.
+/// Approaches l = l₀, where the force vanishes and above which the block has a part across the spring, and lᵗ = l.
 CaseData at_rest(Random& random) {
   const double length = some_length(random);
   return spring_case(random, length, length * (1 + random.rung()), length * (1 + random.rung()));
@@ -118,15 +118,14 @@ CaseData seam_lattice(Random& random) {
   return seam_case(random, edge, ratio, edge * random.below(3), edge * random.below(3), edge * random.below(2), false);
 }
 
-/// Approaches s = 0 and s = 1.
+/// Approaches s = 0 and s = 1, where the point on the edge is an end.
 CaseData seam_end(Random& random) {
   const double edge = some_length(random), rung = std::abs(random.rung());
   return seam_case(random, edge, std::min(1.0, random.one_in(2) ? rung : 1 - rung), edge * random.magnitude(-2, 0),
                    edge, 0, random.one_in(2));
 }
 
-/// Makes stitches that are closed up to the rounding of their point, with rest lengths of any size: l and l₀ approach 0
-/// independently.
+/// Makes seams that are closed or nearly closed: l and l₀ approach 0 independently.
 CaseData closed(Random& random) {
   const double edge = some_length(random), ratio = random.unit(), length = edge * std::abs(random.rung()),
                before = edge * std::abs(random.rung());

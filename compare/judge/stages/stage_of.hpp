@@ -88,7 +88,8 @@ struct TakenWhole {
   }
 };
 
-/// A stage whose answers depend on the numbers of vertices and triangles, or contain no such numbers.
+/// A stage without a check of renumbering: its answers depend on the numbers of vertices and triangles, or its
+/// questions have no mesh.
 struct Numbered {
   /// null: renumbering is not checked
   static constexpr std::nullptr_t is_same_renumbered = nullptr;

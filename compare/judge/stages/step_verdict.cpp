@@ -272,8 +272,9 @@ class StepVerdict {
     Index certain = 0, doubtful = 0;
   };
 
-  /// Judges a guess: each vertex is at y, or at the end of the move that its contacts leave, truncated. A vertex
-  /// without contacts that is not at y was cut, because truncation never returns a y beyond the bound.
+  /// Judges a guess. A vertex with contacts must be at the end of the move that these allow, truncated; any other
+  /// vertex at y, truncated. A vertex without contacts counts as cut if it is not at y, because truncation never
+  /// returns a y beyond the bound.
   void judge_guess(std::size_t i) {
     const StepEvent& event = out_.events[i];
     const std::span<const HeldMove> moves = i < truth_.moves.size() ? std::span<const HeldMove>(truth_.moves[i])
@@ -339,9 +340,9 @@ class StepVerdict {
     return std::hypot(d.x - s * m.x, d.y - s * m.y, d.z - s * m.z);
   }
 
-  /// Judges a touching vertex, which must be at X_prev + m, truncated. Truncation to a ball increases no distance, so
-  /// the accuracy of m also holds after it. With half-spaces a cut vertex may slide anywhere in its region; if sliding
-  /// is off, it stops on its way.
+  /// Judges a free vertex with contacts, which must be at X_prev + m, truncated. Truncation to a ball increases no
+  /// distance, so m's accuracy also holds after it. With half-spaces a cut vertex may slide to any point of its region;
+  /// without sliding it stops on the segment from X_prev to X_prev + m.
   void judge_held(std::size_t i, std::size_t v, const HeldMove& held, Cuts& cuts) {
     const Vec3f &x = out_.events[i].position[v], &p = at_[v];
     ++decisions_;

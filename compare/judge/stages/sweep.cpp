@@ -233,7 +233,7 @@ std::vector<WrongForm> sweep_forms() {
                   [](Read& read) { read.in.start = read.in.old; }),
       sweep_asked("prescribed_stay", "prescribed vertices stay", [](Read& read) { read.scene.motions.clear(); })};
   for_each_of<ElementKinds>([&]<class Kind, std::size_t>() {
-    if constexpr (!std::is_same_v<Kind, SegmentKind>)  // each segment has a quaternion
+    if constexpr (!std::is_same_v<Kind, SegmentKind>)  // segments cannot be left out, because each has a quaternion
       forms.push_back(sweep_asked(std::string(Kind::plural) + "_missing", std::string("no ") + Kind::name + " acts",
                                   [](Read& read) { Kind::elements(read.scene, read.rest).clear(); }));
   });

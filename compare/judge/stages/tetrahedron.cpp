@@ -140,8 +140,8 @@ CaseData at_rest(Random& random) {
   return deformed(random, [&](const Vec3& p) { return times(f, p); });
 }
 
-/// Returns a rung that keeps lengths legal on the grid, where corners may lie straight above each other: a length of at
-/// least 2⁻⁸ m becomes 0 or at least 2⁻³⁰ m.
+/// Returns a rung; on the grid 0 instead of a rung below 2⁻²². There corners may lie straight above each other at 2⁻⁸ m
+/// or more, and the rung times this length must be 0 or a legal length, at least 2⁻³⁰ m.
 double rung_on(Random& random, bool on_grid) {
   const double rung = random.rung();
   return on_grid && std::abs(rung) < 0x1p-22 ? 0 : rung;

@@ -164,7 +164,7 @@ CaseData on_plane(Random& random) {
   region.add(n, bound * std::abs(random.rung()));
   if (random.one_in(3)) region.add(direction(random), bound * random.unit());
   region.set_current(random.unit());
-  // along the half-space, so that the proposal is also near it
+  // Along the half-space, so that the proposal is near it.
   const Vec3 any = direction(random), across = scaled(n, n.x * any.x + n.y * any.y + n.z * any.z);
   const Vec3 along = scaled(sum(any, scaled(across, -1)), bound * random.between(0.1, 2));
   return region.finish(sum(random.one_in(2) ? along : Vec3{}, scaled(n, bound * random.rung())));
@@ -215,7 +215,8 @@ CaseData sub_ulp(Random& random) {
   return region.finish(scaled(direction(random), bound * random.magnitude(-1, 3)));
 }
 
-/// Makes blocks whose eigenvalues differ by up to 10⁶, so that the way back to a half-space is far from its normal.
+/// Makes blocks whose eigenvalues differ by up to 10⁶. In their metric the nearest point of a half-space is far from
+/// the foot of the perpendicular.
 CaseData stiff(Random& random) {
   const double bound = random.magnitude(-3, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);
@@ -237,8 +238,8 @@ CaseData crowded(Random& random) {
   return region.finish(scaled(direction(random), bound * random.magnitude(-1, 1)));
 }
 
-/// Makes vertices that start at X_prev and do not slide, as with bounds=dat. Half-spaces have hardly any room or none;
-/// proposals graze them, lead along them, or lead away.
+/// Makes vertices that start at X_prev and do not slide, as with bounds=dat. X_prev is near half-spaces or on them;
+/// proposals lead nearly along them, along them, or away.
 CaseData from_previous(Random& random) {
   const double bound = random.magnitude(-4, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);

@@ -41,7 +41,7 @@ class PartVerdict {
               const Topology& topology, Tally& tally)
       : point_(point), truth_(truth), mine_(std::move(mine)), topology_(topology), tally_(tally) {}
 
-  /// Numbers of sheets without a way that the contestant must report, and may report.
+  /// Least and largest number of sheets that the answer may report as being without a way.
   struct Unresolved {
     std::size_t least = 0, most = 0;
   };

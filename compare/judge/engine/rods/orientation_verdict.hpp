@@ -20,7 +20,7 @@ OrientationErrors orientation_errors(const Quaternion& stored, const Orientation
 /// Returns the accepted answer that is nearest to the quaternion.
 const OrientationAnswer& nearest_answer(const Quaternion& stored, const std::vector<OrientationAnswer>& accepted);
 
-/// Returns | ‖q‖ − 1 | in units of u.
+/// Returns | ‖q‖ − 1 | in units of 2⁻²⁴, the unit roundoff.
 double length_error(const Quaternion& q);
 
 /// Checks whether all numbers of the quaternion are finite.

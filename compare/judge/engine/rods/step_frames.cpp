@@ -20,7 +20,7 @@ Vec3f rounded_difference(const Vec3& a, const Vec3& b) {
   return {static_cast<float>(a.x - b.x), static_cast<float>(a.y - b.y), static_cast<float>(a.z - b.z)};
 }
 
-/// Largest error, in units of u: 8 of a quaternion product and 4 of its normalisation.
+/// Largest error in units of 2⁻²⁴: 8 units for a quaternion product and 4 for its normalisation.
 constexpr double product_tolerance = 12;
 
 bool is_product(const Quaternion& q, const Quaternion& turn, const Quaternion& before) {

@@ -22,13 +22,13 @@ std::string wrong_segment_colour(const Scene& scene, const StepOut& out);
 /// if nothing is.
 std::string wrong_orientation_count(const Scene& scene, const StepOut& out);
 
-/// Returns the frames that the step turns from rest to where their segments start. The other segments start with a
-/// given frame, the scene's or that of the answer's rest state; `wrong` gets what is wrong with these.
+/// Returns the turns of segments whose ends at the start differ from rest: from the rest direction to the direction at
+/// the start. All other segments must start with the frame of the scene or of the answer's rest state; if one does not,
+/// `wrong` names it.
 TurnedFrames start_frames(const StepIn& in, const StepOut& out, std::string& wrong);
 
-/// Returns the frames that the guess loop, which ended at x, turned with their segments: those of free segments, if the
-/// scene's rod_start turns them, and of segments whose motion does not define a turn. `wrong` gets what is wrong with
-/// all others.
+/// Returns the turns of segments during the guess loop, which ended at x: free segments, if the scene's rod_start turns
+/// them, and segments whose motion does not define a turn. Writes into `wrong` which other segment has a wrong frame.
 TurnedFrames turned_frames(const StepIn& in, const StepOut& out, const std::vector<Vec3f>& x, std::string& wrong);
 
 }  // namespace ogc::compare

@@ -1,8 +1,8 @@
-// Makes the traits of stage orientation. Ladders approach
-// - t·q = 0, where a sign flips,
-// - neighbours whose targets have the reversed director, and there the balance β₋ = 2σ,
-// - pulls that cancel; a stretch or neighbours that are negligible beside the other,
-// - an old q whose director is opposite; a segment without length.
+// Makes the traits of stage orientation (symbols: compare/stages/orientation.hpp, compare/rods.md). Ladders approach
+// - t·q = 0, where the sign of a neighbour's target t flips,
+// - targets whose director is opposite to D, also with β₋ = 2σ, where stretch and neighbours balance,
+// - b = 0, where targets cancel, and stretches or neighbours that are negligible,
+// - an old q whose director is opposite to D, and segments without length.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,7 +31,7 @@ using namespace rod_cases;
 using placement::single;
 using rod_cases::single;
 
-/// A segment to be built: D and the neighbours' targets are given relative to its frame `aim`.
+/// A segment to be built. D and Dᵗ are given by strains relative to the frames `aim` and qᵗ.
 struct Draft {
   double length = 1;     ///< l [m]
   Four aim{0, 0, 0, 1};  ///< D has its director, except for the strain
@@ -45,7 +45,8 @@ void set_material(Random& random, OrientationCase& question) {
   question.damping = random.one_in(2) ? 0 : static_cast<float>(random.magnitude(-3, 1));
 }
 
-/// Returns a neighbour whose target for this segment is t; p is its turn at rest. Its quaternion has a random sign.
+/// Returns a neighbour whose target for this segment is t; p is the relative rotation at rest. The sign of the
+/// neighbour's quaternion is random.
 RodNeighbour asks(Random& random, bool is_ahead, const Four& t, const Four& p, double weight) {
   RodNeighbour f;
   Four now = product(t, is_ahead ? p : conjugate(p));
@@ -194,7 +195,8 @@ CaseData lattice(Random& random) {
   return question;
 }
 
-/// Takes random bits for coordinates and constants, as far as the contract allows a segment to grow.
+/// Takes random bits for coordinates and constants. The rest length is at least 2⁻⁷ m, so that the length is at most
+/// the legal 2³⁰ times as large.
 CaseData bits(Random& random) {
   auto question = case_of<OrientationCase>(uniform(random));
   const std::array<Vec3, 4> points = points_of_bits(random);
@@ -248,7 +250,7 @@ Draft straight(Random& random) {
   return draft;
 }
 
-/// Approaches β₊ = 0: all targets have the reversed director.
+/// Approaches β₊ = 0: the directors of all targets are opposite to D.
 CaseData reversed(Random& random) {
   if (random.one_in(2)) random.be_fine();
   const Draft draft = straight(random);
@@ -265,7 +267,7 @@ CaseData reversed(Random& random) {
   return question;
 }
 
-/// Approaches β₋ = 2σ at a reversed director, where the neighbours balance the stretch.
+/// Approaches β₋ = 2σ with targets whose directors are opposite to D. There neighbours and stretch balance.
 CaseData balance(Random& random) {
   const Draft draft = straight(random);
   OrientationCase question = placed(random, draft);
@@ -312,7 +314,7 @@ CaseData antiparallel(Random& random) {
   return question;
 }
 
-/// Approaches σ = 0: D nears 0, or c does, because its damping part cancels e₃.
+/// Approaches σ = 2 k_s ‖D‖ ‖c‖ = 0: D nears 0, or c does, because its damping part cancels e₃.
 CaseData soft(Random& random) {
   Draft draft = near_rest(random);
   draft.length = random.magnitude(-2, 0);  // so that a rung times this length is a legal length

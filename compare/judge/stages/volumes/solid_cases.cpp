@@ -1,7 +1,8 @@
 // Makes blocks of cells, each of six tetrahedra: unchanged, bent until they overlap, or crushed until tetrahedra turn
 // inside out. Points are
 // - near the surface and deep inside, and on medial axes,
-// - on lines and planes of the cells, so that ways lead along and through edges and vertices,
+// - on lines and planes of the cells, so that ways (straight paths to the boundary) lead along and through edges and
+//   vertices,
 // - where the body overlaps itself, and at its vertices (a vertex's own sheet does not count).
 #include "compare/judge/stages/volumes/solid_cases.hpp"
 
@@ -223,8 +224,8 @@ CaseData inverted(Random& random) {
   return placed(random, std::move(body), std::move(points), radius, true, some_scale(random));
 }
 
-/// Makes a tetrahedron with another one behind each of its sides, most of them inside out. If all are, no point in the
-/// first one has a way. Otherwise all ways lead through those that are not.
+/// Makes a tetrahedron with another one behind each of its sides, most of them inside out. If all of these are, no
+/// point in the first one has a way. Otherwise all ways lead through those that are not inside out.
 CaseData lost(Random& random) {
   VolumeBody body;
   body.x = {Vec3{0, 0, 0}, Vec3{2, 0, 0}, Vec3{0, 2, 0}, Vec3{0, 0, 2}};

@@ -160,8 +160,7 @@ bool has_area(const std::vector<Vec3f>& x, const Triangle& t) {
   return volume_bodies::has_area(wide(t[0]), wide(t[1]), wide(t[2]));
 }
 
-/// Takes random bits over eight octaves for coordinates at any scale: a tetrahedron, oriented so that its volume is
-/// positive.
+/// Makes a tetrahedron of positive volume at any scale, with random bits over eight octaves as coordinates.
 CaseData bits(Random& random) {
   const double scale = std::ldexp(1.0, random.below(25) - 12);
   const auto some = [&] {
@@ -304,7 +303,7 @@ CaseData units(Random& random) {
   const bool is_small = random.one_in(2);
   return placed(random, std::move(body), std::move(points), radius, !is_small, is_small ? small : large);
 }
-/// Takes the lowest rungs of heights and directions, where answers change.
+/// Takes cases with rungs of at most 10⁻⁵, next to the places where answers change.
 CaseData boundary(Random& random) {
   random.be_fine();
   switch (random.below(4)) {
