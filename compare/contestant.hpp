@@ -43,8 +43,8 @@ struct IterationMetrics {
   std::int64_t vertices_cut = 0;         ///< vertices cut in this iteration
   std::int64_t detected = 0;             ///< 1 if contacts were detected anew for this state
   double condition_number = 0;           ///< condition number of the matrix; not-a-number unless requested
-  /// Condition numbers of the matrix without friction, and of the matrix without contact and friction. Stencils are
-  /// projected if the matrix of the other terms is not positive definite.
+  /// Condition numbers of the matrix without friction terms, and without contact and friction terms. If such a matrix
+  /// is not positive definite, its terms are replaced by their projections.
   double condition_without_friction = 0, condition_without_contact = 0;
   /// counts of this iteration; StepMetrics defines them
   std::int64_t broad_phases = 0, discrete_detections = 0, continuous_detections = 0;
@@ -91,9 +91,9 @@ struct StepMetrics {
   /// √(Σ m ‖Δx‖²) of free vertices in the last sweep or iteration, divided by its value for the whole step; 0 if
   /// nothing moves [1]
   double last_motion = std::numeric_limits<double>::quiet_NaN();
-  /// Three quantities of some steps only (method.md §6): Eq. 29 with the contacts of the step, over free vertices that
-  /// no bound holds; the part of it that rounded positions may cause [1]; the number of free vertices that a bound
-  /// holds.
+  /// Three quantities that only some steps report (method.md §6): Eq. 29 with the contacts of the step, over free
+  /// vertices that no bound holds; the part of this residual that rounded positions may cause [1]; the number of free
+  /// vertices that a bound holds.
   double left_residual = std::numeric_limits<double>::quiet_NaN(),
          left_rounding = std::numeric_limits<double>::quiet_NaN(), left_held = std::numeric_limits<double>::quiet_NaN();
   double kinetic_energy = 0, elastic_energy = 0, contact_energy = 0, gravity_energy = 0;  ///< [J]
@@ -126,8 +126,8 @@ struct Snapshot {
   std::vector<Vec3f> previous;               ///< X_prev of the last detection
   std::vector<float> bounds;                 ///< b_v of the last detection
   float query_radius = 0;                    ///< r_q of the last detection
-  /// capacities of growing lists, in the contestant's own order; they decide which step is repeated, but change no
-  /// position
+  /// capacities of growing lists, in the contestant's own order; if one is too small, a step is repeated, but positions
+  /// do not depend on them
   std::vector<std::int64_t> capacities{};
   /// unrounded positions and velocities of a solver with a state in double; otherwise empty
   std::vector<Vec3> exact_positions{}, exact_velocities{};
@@ -214,8 +214,8 @@ struct Contestant {
   std::function<std::unique_ptr<Simulation>(const Scene&, const SimulationOptions&)> start;
 };
 
-/// Calls visit(name, pointer to member) for each stage that a contestant may have; the names are those of
-/// compare/stages. A check compares the judge's list of stages with this one (compare/judge/engine/judge.cpp).
+/// Calls visit(name, pointer to member) for each stage that a contestant may have. A stage has the name of its header
+/// in compare/stages. A check compares the judge's list of stages with this one (compare/judge/engine/judge.cpp).
 template <class Visit>
 constexpr void visit_stages(Visit visit) {
   visit("closest_face", &Contestant::closest_face);

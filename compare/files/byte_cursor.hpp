@@ -14,7 +14,7 @@ namespace ogc::compare {
 /// Takes numbers and lines off a file's bytes. The bytes and the name must outlive the cursor.
 class ByteCursor {
  public:
-  /// Starts at byte `at`; `name` is the file's, for errors.
+  /// Starts at byte `at`. `name` is the file's name in errors.
   ByteCursor(std::string_view bytes, const std::string& name, std::endian order, std::size_t at = 0)
       : bytes_(bytes), name_(name), order_(order), at_(at) {}
 

@@ -1,4 +1,4 @@
-// Writing ends with a checked close, because streams report a full disk only when they are flushed.
+// Closes written files explicitly and checks the result, because streams report a full disk only when they are flushed.
 #include "compare/files/bytes.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ std::string shown_path(const std::filesystem::path& path) {
   return shown(text) + text.substr(tail);
 }
 
-/// Returns whether another path or other rights would solve the error.
+/// Returns whether the user can solve the error by another path or other rights.
 bool is_input(std::error_code error) {
   constexpr std::array reasons{std::errc::no_such_file_or_directory,
                                std::errc::not_a_directory,

@@ -14,7 +14,7 @@
 namespace ogc::compare {
 namespace {
 
-/// Throws for a failed action. Throws ResourceError for a missing folder or a read-only disk: both were fine when the
+/// Throws for a failed action. A missing folder or a read-only disk is a ResourceError here: both were fine when the
 /// program began to write, so the machine failed, not the user.
 [[noreturn]] void refuse(const std::filesystem::path& path, const char* action, int error) {
   if (error != ENOENT && error != EROFS) refuse_path(path, action, {error, std::generic_category()});
@@ -59,7 +59,7 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-/// Writes a new file by `write`, which returns an error or 0, and leaves no file after an error.
+/// Creates a file and calls `write`, which returns an error or 0. Leaves no file after an error.
 template <class Write>
 void write_new(const std::filesystem::path& path, const std::filesystem::path& named, const char* action, Write write) {
   int error = 0;

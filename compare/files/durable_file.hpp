@@ -24,8 +24,8 @@ void write_and_reserve(const std::filesystem::path& path, std::string_view bytes
 /// ResourceError.
 void reserve(const std::filesystem::path& path, std::size_t from, std::size_t to);
 
-/// Writes `bytes` under the partial name. They survive a killed program at once, and a power cut after commit_group.
-/// Throws ResourceError with the path if the disk fails; then the partial name does not remain.
+/// Writes `bytes` under the partial name. After return a killed program does not lose them; a power cut may lose them
+/// until commit_group. Throws ResourceError with the path if the disk fails; then the partial name does not remain.
 void write_partial(const std::filesystem::path& path, std::string_view bytes);
 
 /// Syncs the file system of `folder` once, including all that other programs wrote there. Then renames `files` of that
@@ -56,8 +56,8 @@ class LineAppender {
   ~LineAppender();
   LineAppender(const LineAppender&) = delete;
   LineAppender& operator=(const LineAppender&) = delete;
-  /// Appends lines, each with its line end. They survive a killed program, but a power cut only after a sync. If the
-  /// disk fails, the file keeps its former length, and ResourceError is thrown.
+  /// Appends lines, each with its line end. After return a killed program does not lose them; a power cut may lose them
+  /// until a sync. If the disk fails, the file keeps its former length, and ResourceError is thrown.
   void append(std::string_view lines);
 
  private:

@@ -45,16 +45,16 @@ std::vector<hsize_t> shape_of(hid_t dataset) {
 
 std::size_t divide_up(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
 
-/// Returns the rows of a chunk of a dataset that is written `part` rows at a time: several whole parts if they are
-/// small, otherwise an even share of one part.
+/// Returns the number of rows in a chunk of a dataset that is written `part` rows at a time. A chunk holds several
+/// whole parts if they are small, otherwise an even share of one part.
 std::size_t rows_in_chunk(std::size_t part) {
   return part < smallest_chunk_rows ? part * divide_up(smallest_chunk_rows, part) : even_chunk_rows(part);
 }
 
-/// Returns a creation list, chunked and compressed if that saves space.
+/// Returns HDF5's creation list for a dataset, chunked and compressed if that saves space.
 Hdf5Handle creation_list(const std::vector<hsize_t>& shape, std::size_t part) {
   Hdf5Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  // Without times equal contents give equal files.
+  // Without stored times, equal contents give equal files.
   H5Pset_obj_track_times(list.id(), false);
   std::vector<hsize_t> chunk = shape;
   chunk[0] = rows_in_chunk(part);
@@ -160,9 +160,9 @@ void Hdf5File::create_dataset(const std::string& name, std::size_t rows, std::si
   if (!dataset.valid()) refuse_write(name);
 }
 
-// A chunk that does not shrink is stored as it is; the last chunk is stored whole. In the index a node of 64 chunks has
-// at most 4 KiB (keys of 3 extents) and is at least half full: 128 B a chunk. The same again covers the levels above.
-// Object header, group entry and attributes take 4 KiB.
+// A chunk that does not shrink is stored as it is, and the last chunk is stored whole. A node of the chunks' index
+// holds 64 chunks, has at most 4 KiB (keys of 3 extents) and is at least half full: 128 B a chunk. As much again covers
+// the upper levels of the index. Object header, group entry and attributes take 4 KiB.
 std::size_t Hdf5File::largest_size(std::size_t rows, std::size_t row_bytes, std::size_t part) {
   const std::size_t in_chunk = rows_in_chunk(part), chunks = divide_up(rows, in_chunk);
   return chunks * (in_chunk * row_bytes + 256) + 8192;
@@ -234,7 +234,7 @@ template <class T>
 std::vector<T> Hdf5File::read(const std::string& name) const {
   const Lock lock(hdf5_library());
   const std::vector<std::size_t> extents = shape(name);
-  // Checked before memory is allocated: no file unpacks to more than most_unpacked times its size.
+  // Checks sizes before memory is allocated: no file unpacks to more than most_unpacked times its size.
   hsize_t size = 0;
   H5Fget_filesize(file_.id(), &size);
   std::size_t count = std::ranges::count(extents, 0u) > 0 ? 0 : 1, most = most_unpacked * size / sizeof(T);

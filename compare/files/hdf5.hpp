@@ -49,7 +49,7 @@ class Hdf5File {
   static Hdf5File create_in_memory(const std::filesystem::path& name);
   static Hdf5File open(const std::filesystem::path& path);
 
-  void create_group(const std::string& name);  ///< makes a group from its path; the groups above it must exist
+  void create_group(const std::string& name);  ///< creates a group; the groups above it in its path must exist
   /// Makes a dataset of `rows` rows with `columns` values (0: one-dimensional), to be written `part` ≥ 1 rows at a
   /// time. A long dataset is shuffled and deflated in chunks that match the parts, so that no chunk is compressed
   /// repeatedly.
@@ -66,12 +66,12 @@ class Hdf5File {
 
   /// Writes an array that is already packed.
   void write_packed(const std::string& name, const PackedArray& array);
-  /// Reads a dataset of floats as it is packed in the file; packs it if the file stores it in another form.
+  /// Reads a dataset of floats in packed form. If the file stores it in another form, it is packed after reading.
   PackedArray read_packed(const std::string& name) const;
   /// Makes a dataset without rows, for append_packed.
   void create_growing(const std::string& name, std::size_t columns, std::size_t chunk_rows);
-  /// Appends the chunks of an array with the dataset's columns and chunk_rows. Zeros that fill its last chunk count as
-  /// rows. Reserve growth() first.
+  /// Appends the chunks of an array that has the dataset's columns and chunk_rows. The zeros that fill the array's last
+  /// chunk become rows. Reserve growth() first.
   void append_packed(const std::string& name, const PackedArray& array);
   /// Returns the largest number of bytes by which append_packed makes the file longer.
   static std::size_t growth(const PackedArray& array);

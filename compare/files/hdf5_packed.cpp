@@ -1,4 +1,4 @@
-// Writes and reads packed chunks as they are, bypassing HDF5's own filters.
+// Writes and reads packed chunks as they are, without HDF5's own filters.
 #include <hdf5.h>
 
 #include <array>
@@ -28,7 +28,7 @@ Hdf5Handle packed_list(std::size_t columns, std::size_t chunk_rows) {
   return list;
 }
 
-/// Returns whether a dataset with this creation list stores its chunks in the form that `pack` makes.
+/// Returns whether a dataset with this creation list stores its chunks in the form that `pack` produces.
 bool is_packed_so(hid_t list, int rank, std::size_t columns, std::size_t chunk_rows) {
   Extents chunk{};
   if (H5Pget_layout(list) != H5D_CHUNKED || H5Pget_chunk(list, 2, chunk.data()) != rank) return false;
@@ -53,7 +53,7 @@ bool write_chunks(hid_t dataset, std::size_t first_row, const PackedArray& array
   return true;
 }
 
-/// Reads all chunks. Returns false if a chunk is missing or only one of both filters was applied to it.
+/// Reads all chunks. Returns false if a chunk is missing, or if only one of the two filters was applied to it.
 bool read_chunks(hid_t dataset, PackedArray& array) {
   for (std::size_t row = 0; row < array.rows; row += array.chunk_rows) {
     const Extents offset{row, 0};

@@ -1,5 +1,5 @@
-// Keeps JSON's distinction of numbers: 40 is a whole number, 40.0 is not. So a fractional count is an error of type and
-// is not truncated.
+// Distinguishes whole numbers as JSON writes them: 40 is a whole number, 40.0 is not. So a count with a fraction is an
+// error and is not truncated.
 #include "compare/files/json_reader.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace ogc::compare {
 
 Json parse_json(std::string_view text, const std::string& file) {
-  // Far above what our formats need. Visiting a value recurses, so the depth must have a limit.
+  // Our formats need far fewer levels. Visiting a value recurses, so the depth must have a limit.
   constexpr int most_levels = 64;
   std::vector<std::set<std::string>> open_objects;
   const auto refuse_repeated_keys = [&](int level, Json::parse_event_t event, Json& parsed) {

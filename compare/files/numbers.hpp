@@ -6,7 +6,7 @@
 
 namespace ogc::compare {
 
-/// Returns whether `word` is exactly one number, which it stores in `number`. A leading '+' is allowed, because printf
+/// Returns whether the whole `word` is one number, and stores it in `number`. A leading '+' is allowed, because printf
 /// writes it. Overflow and underflow to zero are errors.
 template <class Number>
 bool parse_number(std::string_view word, Number& number) {

@@ -42,7 +42,7 @@ class TextLines {
   std::size_t number() const { return number_; }           ///< number of the line, from 1; 0 before the first
   std::size_t bytes_left() const { return text_.size(); }  ///< bytes after this line
 
-  /// Returns the next word as a whole number. If it is none, fails with an error that names `what`.
+  /// Returns the next word as a whole number. For another word, or none, throws InputError that names `what`.
   std::int64_t integer(const std::string& what) { return integer(word(), what); }
   /// the same for a word that was already read
   std::int64_t integer(std::string_view found, const std::string& what) const;

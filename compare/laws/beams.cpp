@@ -1,12 +1,12 @@
 // Tests clamped beams, a pendulum, and the energy of a swinging sheet.
 //
-// Hinge. Two triangles share an edge of length e. One is held level; the other turns about the edge under the weight m
-// g of its free corner, which is b away from the edge and has a third of the triangle's mass. The edge is a torsion
-// spring,
+// Hinge. Two triangles share an edge of length e. One is held level. The other turns about the edge under the weight m
+// g of its free corner, which is at the distance b from the edge and has a third of the triangle's mass. The edge is a
+// torsion spring,
 //
 //     c θ = m g b cos θ,   c = 3 k_b e²/(A₀ + A₁),                                                            (1)
 //
-// at any angle, except for the stretch of the membranes, m g over E e/2.
+// at any angle. The law neglects the stretch of the membranes, of relative size m g/(E e/2).
 //
 // Tetrahedron. Three corners are held, and the fourth hangs from them. J is affine in one corner and ‖F‖² is quadratic,
 // so the force on the corner is linear (method.md §8.1). The corner sinks by exactly
@@ -21,14 +21,15 @@
 //     w = q L⁴/(20 E I) + q L²/(3 (5/6) G A) = ρ g L⁴ 12/(20 E t²) + ρ g L²/(2.5 G).                          (3)
 //
 // The deflection minimises energy minus work, and linear tetrahedra allow only some of all displacements. So their mean
-// deflection is less. With cells half as large it grows, since their displacements include those of the large cells.
-//
-// Pendulum. A triangle hung by a corner is rigid but for its strain. Implicit Euler takes the rotation nearest, in the
-// norm of masses, to y = 2 x_n − x_{n−1} + h² g. In the plane, with x = r e^{iθ},
+// deflection is less. If the cells are halved, it grows, since the small cells allow all displacements of the large
+// ones.
+// Pendulum. A triangle that hangs from a corner moves as a rigid body, except for a small strain. Implicit Euler takes
+// the rotation nearest, in the norm of masses, to y = 2 x_n − x_{n−1} + h² g. In the plane, with x = r e^{iθ},
 //
 //     θ_{n+1} = arg(I (2 e^{iθ_n} − e^{iθ_{n−1}}) + h² γ Σ m r̄),   γ = −i g,                                   (4)
 //
-// for any swing. The strain ε by the weight makes the pendulum longer, so its phase ω t lags by a share of ε/2.
+// for any swing. The strain ε that the weight causes makes the pendulum longer, so its phase ω t lags by a share of
+// ε/2.
 //
 // Energy. Let f be the force that a step leaves, inertia's included, Δ = x' − x, and E the sum of kinetic energy,
 // elastic energy U and gravity's energy (method.md §7.8):
@@ -39,12 +40,13 @@
 // claims that E rises by at most (5) without c. It computes this limit from the states, so a wrong U, or a wrong energy
 // in a row, breaks the law.
 //
-// A solved step has f = 0, and its energy does not rise. With few sweeps f remains, and the energy may rise up to the
-// limit. N = D ln(101)/2 sweeps leave a hundredth of a stretch (method.md §7.7), so f is a hundredth of the elastic
-// force. On its way f takes less than that part of U, which stays below the largest kinetic energy. So N sweeps need no
-// limit, and neither does Newton. In D = 1 + h² q, q is a third of the trace of a vertex's stiffness over its mass. A
-// membrane's corner has A (λ + 3μ) ‖∇N‖², which in a lattice of spacing a adds up to 4 (λ + 3μ) a vertex. A hinge's
-// corner has c ‖∇θ‖²: up to 18 k_b/a² for each of two sides and 48 k_b/a² for a diagonal.
+// A solved step has f = 0, and its energy does not rise. With few sweeps a force f remains, and the energy may rise up
+// to the limit. N = D ln(101)/2 sweeps leave a hundredth of a stretch (method.md §7.7), so f is a hundredth of the
+// elastic force. The work of f during the motion is then below a hundredth of U, and U stays below the largest kinetic
+// energy. So N sweeps need no limit, and neither does Newton. D = 1 + h² q, where q is a third of the trace of a
+// vertex's stiffness over its mass. The trace of a membrane's corner is A (λ + 3μ) ‖∇N‖², which adds up to 4 (λ + 3μ)
+// for a vertex of a lattice of spacing a. That of a hinge's corner is c ‖∇θ‖²: up to 18 k_b/a² for each of two sides
+// and 48 k_b/a² for a diagonal.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -213,8 +215,8 @@ double swing_angle(const LawState& state) {
   return std::atan2(x.x, -x.y);
 }
 
-/// Returns the angles of (4), from the start angle and the rest shape. Points are x + i y, turned so that straight down
-/// is 0.
+/// Returns the angles of (4), from the start angle and the rest shape. Points are complex numbers x + i y, turned so
+/// that straight down has the angle 0.
 std::vector<double> swings(const Trajectory& run) {
   using Complex = std::complex<double>;
   const double h = run.scene.settings.time_step;
@@ -241,7 +243,8 @@ std::vector<Reading> read_swing(std::span<const Trajectory> runs) {
   const std::vector<double> law = swings(run);
   double most = 0;
   for (std::size_t n = 0; n < law.size(); ++n) most = std::max(most, std::abs(swing_angle(run.states[n]) - law[n]));
-  // E of plane stress is 8 μ/3 with λ = μ; the mean width of the strip is swing_side/2. Speed adds as much as weight.
+  // E of plane stress is 8 μ/3 with λ = μ. The triangle's mean width is swing_side/2. The centrifugal force is at most
+  // as large as the weight, hence the factor 2.
   const double weight = mass_of(run.scene, 0) * standard_gravity;
   const double strain = 2 * weight / (8. / 3 * run.scene.bodies[0].material.lame_mu * swing_side / 2);
   const double phase = std::sqrt(standard_gravity / swing_side) * run.scene.settings.time_step *
@@ -256,7 +259,7 @@ std::vector<Reading> read_swing(std::span<const Trajectory> runs) {
 
 constexpr double arc_cell = 0.03, arc_density = 0.3, arc_lame = 500, arc_bending = 0.005;
 
-/// Returns N, the number of sweeps that the text below (5) derives.
+/// Returns N, the number of sweeps derived at the end of this file's head.
 double solving_sweeps(double time_step) {
   const double trace = 16 * arc_lame + 84 * arc_bending / (arc_cell * arc_cell);
   const double mass = arc_density * arc_cell * arc_cell;
@@ -286,7 +289,7 @@ Scene pinned_arc(double time_step, std::int64_t steps, std::int64_t iterations) 
   return scene;
 }
 
-/// Returns two runs until the sheet has swung down: one with few sweeps, one with N sweeps of a shorter step.
+/// Returns the runs until the sheet has swung down: the last has N sweeps of a short step, the others have few sweeps.
 std::vector<Scene> pinned_scenes(LawSize size) {
   constexpr double brief = 1. / 480;
   const Scene solved = pinned_arc(brief, 240, std::lround(std::ceil(solving_sweeps(brief))));
@@ -310,7 +313,7 @@ double work_left(const Trajectory& run, std::size_t n) {
 }
 
 Reading read_energy(const Trajectory& run) {
-  // The largest rise, and the sum of (5) over the same steps.
+  // The largest rise, and the sum of (5) over the steps of this rise.
   double least = std::numeric_limits<double>::infinity(), rise = 0, largest = 0, done = 0, done_at_least = 0, work = 0;
   for (std::size_t n = 1; n < run.states.size(); ++n) {
     const StepMetrics& row = run.rows[n - 1];

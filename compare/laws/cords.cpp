@@ -3,17 +3,18 @@
 //
 //     D_j = l (d_j + n_j/k_s),    M_j − M_{j+1} = l d_j × n_j,    M_j = 2 k_b/l sin(θ_j/2)                    (1)
 //
-// with θ_j between d_{j−1} and d_j. A clamped rod in a plane has φ_j = φ_{j−1} + 2 asin(M_j l/(2 k_b)), from φ_0 = 0,
-// with M_j = Σ_{i ≥ j} l cos φ_i W_i, where W_i is the weight beyond segment i.
+// with the angle θ_j between d_{j−1} and d_j. A rod in a plane, clamped at segment 0, has angles φ_j to the horizontal
+// with φ_0 = 0 and φ_j = φ_{j−1} + 2 asin(M_j l/(2 k_b)). Here M_j = Σ_{i ≥ j} l cos φ_i W_i, and W_i is the weight
+// beyond segment i.
 //
-// Without bending d_j lies along n_j = (H, V_j). The rod is a chain of springs: V_j grows by the weights of the nodes,
-// and H is the one that spans the gap,
+// Without bending d_j lies along n_j = (H, V_j), and the rod is a chain of springs. V_j grows from segment to segment
+// by the weight of a node. H has the value with which the chain spans the gap between its ends,
 //
 //     Σ_j l (1 + ‖n_j‖/k_s) H/‖n_j‖ = span,                                                                   (2)
 //
-// the discrete catenary. A cord in a groove of two perpendicular planes rests on both: the contacts of a node have the
-// force m g/√2 on each side. Without friction no force acts along the groove, so the cord keeps its speed. For solvers
-// whose contacts are barriers, rest is tested, but not the force of springs.
+// the discrete catenary. A cord in a groove of two perpendicular planes rests on both: each contact of a node has the
+// force m g/√2. Without friction no force acts along the groove, so the cord keeps its speed. For solvers whose
+// contacts are barriers, the law tests that the cord rests, but not the force of springs.
 //
 // Tolerances are law_measures::force_left of the weight. Sums over nodes are exact for any number of nodes.
 #include <algorithm>

@@ -69,7 +69,8 @@ std::vector<Reading> read_conveyor(std::span<const Trajectory> runs) {
     relative = slid(relative, 0, mu * standard_gravity, run.scene.settings.friction_velocity, h);
     way += h * (relative + belt);
   }
-  // The lag of one step and the error of λ that sweeps leave (slopes.cpp), times the lead of the belt.
+  // The relative error by a lag of one step and by the error of λ that sweeps leave (slopes.cpp). It applies to the way
+  // by which the belt is ahead of the body.
   const double ahead = belt * h * static_cast<double>(run.rows.size()) - way;
   const double dragged = belt / (mu * standard_gravity), share = 2 * lagged_steps(run) * h / dragged + force_left(run);
   return {{.what = "way",

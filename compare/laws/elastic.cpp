@@ -1,4 +1,4 @@
-// Differentiates by the rules of sums and products: a `Moving` number contains its rate along d.
+// Differentiates by the rules of sums and products: a `Moving` number contains its rate of change along d.
 // The membrane's energy needs tr G and ‖G‖² of the Green strain G. Let g hold the products of a triangle's two edges,
 // and ḡ those at rest. Then C = ḡ⁻¹ (g − ḡ)/2 has tr C = tr G and tr C² = ‖G‖².
 #include "compare/laws/elastic.hpp"
@@ -29,7 +29,7 @@ Moving angle(Moving s, Moving c) {
           (c.value * s.rate - s.value * c.rate) / (c.value * c.value + s.value * s.value)};
 }
 
-/// A vector with its rate along d.
+/// A vector with its rate of change along d.
 struct MovingVec {
   Vec3 value{}, rate{};
 };
@@ -44,7 +44,7 @@ MovingVec normal(const MovingVec& a, const MovingVec& b) {
   return {cross(a.value, b.value), plus(cross(a.rate, b.value), cross(a.value, b.rate))};
 }
 
-/// Positions with their rates along d, by vertex.
+/// Positions with their rates of change along d, by vertex.
 struct Points {
   const std::vector<Vec3>&x, &along;
   MovingVec operator[](Index v) const { return {x[static_cast<std::size_t>(v)], along[static_cast<std::size_t>(v)]}; }

@@ -9,8 +9,8 @@
 //
 //     tan φ_{n+1} = sin φ_n/(2 − cos φ_n),   φ_1 = atan(h ω),   L_n = I sin φ_n/h                            (2)
 //
-// so L loses a share of about φ² a step. A sheet extends by a strain of ρ ω² R²/E, which changes R, and R enters L
-// twice.
+// By (2) L decreases in each step by a share of about φ². A sheet extends by a strain of ρ ω² R²/E, which changes R,
+// and L contains R².
 //
 // A step that is not solved leaves a force. Newton leaves newton_tolerance of the mean |f*|, the force after the guess;
 // sweeps leave what they have not yet removed. So the tolerances below are shares of the impulses that inner forces

@@ -1,9 +1,9 @@
 // Tests changes that must not change a motion.
 //
-// A second body farther away than any contact exchanges no forces with the first. But its speed sets the query radius
-// of all vertices, and it enters means that end a solve. (The stiffness of IPC's barriers depends on the whole scene,
-// unless κ is given.) So a resting sheet stays in place except for rounding (flight_rounding) and the force that a step
-// leaves, law_measures::force_left of h² g.
+// A second body farther away than any contact exerts no force on the first. But its speed sets the query radius of all
+// vertices, and its values enter the means that decide when a solve ends. (The stiffness of IPC's barriers depends on
+// the whole scene, unless κ is given.) So a resting sheet stays in place, except for rounding (flight_rounding) and the
+// remaining force of a step, law_measures::force_left of h² g.
 //
 // Lengths are scaled by 2ᵏ, masses and times are not. Lengths, velocities, gravity, radii and ε_v are multiplied by 2ᵏ,
 // densities per square metre by 4⁻ᵏ, energies of bending by 4ᵏ; stiffnesses [N/m] stay. So every number of a step is
@@ -40,7 +40,7 @@ Scene falling(const char* name, std::int64_t steps) {
 std::vector<Scene> apart_scenes(LawSize) {
   Scene alone = falling("far_apart", 40);
   alone.settings.iterations = 40;
-  // Each vertex starts at the depth at which its own contact supports it, so that the start disturbs nothing.
+  // Each vertex starts at the depth at which its own contact supports it, so the sheet is at rest from the start.
   const std::vector<double> m = masses(alone);
   for (std::size_t v = 0; v < static_cast<std::size_t>(alone.bodies[0].vertex_count); ++v) {
     const double depth = m[v] * standard_gravity / alone.bodies[0].material.contact_stiffness;

@@ -12,7 +12,7 @@
 namespace ogc::compare {
 namespace {
 
-/// Returns how far a reading is beyond its answer, on the side that counts. Not-a-number gives not-a-number.
+/// Returns how far a reading is from its answer; for Side::at_most, how far above it. Not-a-number gives not-a-number.
 double excess(const Reading& reading) {
   const double off = reading.measured - reading.answer;
   return reading.side == Side::both ? std::abs(off) : off;

@@ -18,7 +18,7 @@ struct LawState {
   std::vector<Vec3> positions, velocities;  ///< by vertex [m], [m/s]
 };
 
-/// What a law must know about the solver.
+/// Properties of a solver on which answers or tolerances depend.
 struct Answerer {
   bool is_solved = false;           ///< steps are solved to a tolerance, in double; otherwise `iterations` sweeps
   bool has_contact_energy = false;  ///< contacts are springs within r (method.md §4.2); otherwise they are barriers
@@ -27,7 +27,7 @@ struct Answerer {
 /// The motion of one scene.
 struct Trajectory {
   Scene scene;                    ///< the law's scene, rounded to single precision
-  Answerer by;                    ///< properties of the solver
+  Answerer by;                    ///< properties of the solver that computed the motion
   std::vector<LawState> states;   ///< the start, then the end of each step
   std::vector<StepMetrics> rows;  ///< rows[n − 1] describes the step that ends in states[n]
 };
@@ -44,7 +44,7 @@ struct Reading {
   double measured = 0;     ///< from the trajectories; not-a-number breaks the law
   double answer = 0;       ///< in closed form
   double tolerance = 0;    ///< in the same unit; the law's file derives it
-  Side side = Side::both;  ///< whether lower numbers are right, too
+  Side side = Side::both;  ///< whether a reading below the answer is right as well
   /// Largest error that the method can cause by a derived limit; 0: no limit is derived.
   double limit = 0;
   std::string why{};  ///< reason of the limit, and the setting that changes it
@@ -64,7 +64,7 @@ Verdict verdict(std::span<const Reading> readings);
 /// Returns the reading with the largest error in units of its tolerance; null if there is none.
 const Reading* worst(std::span<const Reading> readings);
 
-/// How much is run: the least that can show a broken law, for CI, or everything.
+/// How much is run: only what is needed to show a broken law (for CI), or everything.
 enum class LawSize { least, whole };
 
 /// A law with its name, scenes and readings.

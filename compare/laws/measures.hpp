@@ -20,8 +20,8 @@ double length(const Vec3& a);
 /// force after the guess, which is the weight of a body at rest. The sweeps of a scene must reach 1/40.
 double force_left(const Trajectory& run);
 
-/// Returns the number of steps by which friction's normal force may lag: one solve, and with barriers the first step,
-/// too, since their force begins at 0.
+/// Returns the number of steps by which friction's normal force may lag: 1, because a solve uses the force of the
+/// previous one; 2 with barriers, whose force is 0 at the start.
 double lagged_steps(const Trajectory& run);
 
 /// Returns m_v [kg]: a third of each triangle's, a quarter of each tetrahedron's, half of each segment's mass at rest
@@ -47,8 +47,8 @@ double largest_coordinate(const Trajectory& run);
 double flight_rounding(std::int64_t n, double largest_coordinate);
 
 /// Returns the velocity v' after a step of implicit Euler of a body that slides with velocity v against friction
-/// (method.md §4.4): v' = v + h (drive − brake f₁(|v'|/ε_v) sign v'). The right side falls as v' rises, so there is one
-/// root.
+/// (method.md §4.4): v' = v + h (drive − brake f₁(|v'|/ε_v) sign v'). The right side falls as v' rises, so v' is
+/// unique.
 double slid(double velocity, double drive, double brake, double friction_velocity, double time_step);
 
 /// `bounced` returns the state after a step of implicit Euler of a mass at height x above a plane at 0. The plane

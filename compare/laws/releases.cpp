@@ -1,6 +1,6 @@
-// Tests bodies that leave a contact. At d = r there is no force, and none may appear: the body moves freely
-// (falls.cpp), or as it would without the floor. This also holds if `contact_margin` lists its contact before the
-// contact acts.
+// Tests bodies that leave a contact. At d = r the contact's force is 0 and must stay 0: the body then moves freely
+// (falls.cpp), or as it would without the floor. This also holds if `contact_margin` lists the contact at distances at
+// which it has no force.
 //
 // A triangle of three equal vertices that falls flat on a floor of one triangle stays flat. Each vertex is a mass on
 // its own spring, and implicit Euler's step minimises ‖x − y‖²/(2h²) + (k_c/m)/2 max(0, r − x)² with y = x + h v + h²
@@ -94,7 +94,8 @@ std::vector<Scene> beyond_scenes(LawSize) {
   return {with, without};
 }
 
-/// Reads the difference. Steps may leave force_left of the force that changes the sheet's free motion.
+/// Reads the difference of both runs. A step may leave a share force_left of the forces that move the sheet away from
+/// free flight.
 std::vector<Reading> read_beyond(std::span<const Trajectory> runs) {
   const Trajectory &with = runs[0], &without = runs[1];
   double most = 0, elastic = 0;

@@ -7,8 +7,8 @@
 // (slopes.cpp). A sheet that is dropped by a fifth of r also comes to rest: implicit Euler takes at least (v' − v)²/2
 // from it in each step.
 //
-// Tolerances are law_measures::force_left of the weight. Such a force changes a vertex's velocity by that share of g h
-// in a step, and its energy by the square of it.
+// Tolerances are law_measures::force_left of the weight. This remaining force changes a vertex's velocity by that share
+// of g h in a step, and its energy by the square of the share.
 #include <algorithm>
 #include <cmath>
 
@@ -75,9 +75,9 @@ std::vector<Scene> weight_scenes(LawSize) {
   return {scene, dropped};
 }
 
-/// Runs a hundred sweeps. The sheets have ten contacts a vertex with each other and one with the floor. So the stack
-/// sinks and rises as one body against blocks that are many times as stiff. A sweep removes about 7 % of that motion;
-/// for a single sheet it removes nearly all.
+/// Runs a hundred sweeps. A vertex of a sheet has ten contacts with the other sheets, but only one with the floor. So
+/// the stack sinks and rises as one body, while the vertices' blocks are many times as stiff as the floor's contacts. A
+/// sweep removes about 7 % of that motion; for a single sheet it removes nearly all.
 std::vector<Scene> stack_scenes(LawSize size) {
   Scene scene = stacked_sheets("stack_at_rest", 3, size == LawSize::least ? 200 : 400);
   scene.settings.iterations = 100;

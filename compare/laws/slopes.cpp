@@ -1,12 +1,12 @@
 // Tests slopes: gravity is tilted by α over a level floor, so that x points down the slope. A body in contact has the
-// normal force m g cos α, at rest and in the mean of every motion along the floor, since its momentum along the normal
-// is bounded. So along the slope its centre obeys Coulomb's law, smoothed as in method.md §4.4. Implicit Euler turns
-// that into one equation for each step (law_measures::slid):
+// normal force m g cos α at rest. A body that moves along the floor has it in the mean over time, since its momentum
+// along the normal is bounded. So along the slope its centre obeys Coulomb's law, smoothed as in method.md §4.4.
+// Implicit Euler turns that into one equation for each step (law_measures::slid):
 //
 //     v' = v + h (g sin α − μ g cos α f₁(v'/ε_v)),   x' = x + h v',   f₁(y) = 2 y − y² for y < 1, else 1.
 //
-// Beyond ε_v, x is ½ (g sin α − μ g cos α) t² plus h t/2 times the same acceleration. For tan α < μ friction balances
-// gravity at one velocity, f₁(v/ε_v) = tan α/μ, the creep
+// At velocities beyond ε_v, x is ½ (g sin α − μ g cos α) t² plus h t/2 times the same acceleration. For tan α < μ
+// friction balances gravity at one velocity, f₁(v/ε_v) = tan α/μ, the creep
 //
 //     v = ε_v (1 − √(1 − tan α/μ)).
 //
@@ -91,8 +91,8 @@ Slid slid_down(const Trajectory& run, std::size_t steps) {
   return now;
 }
 
-/// Errors that the lag of friction and sweeps may cause in a velocity that friction alone changes, and in the way, as
-/// shares; a way has twice the lag.
+/// Relative errors of a way and of a velocity that friction alone changes, caused by the lag of friction's normal force
+/// and by unfinished sweeps. The lag counts twice for a way.
 struct Share {
   double way = 0, velocity = 0;
 };
@@ -138,7 +138,8 @@ std::vector<Reading> read_stick(std::span<const Trajectory> runs) {
   const double way = centre(run.scene, 0, run.states[last]).x - centre(run.scene, 0, run.states[half]).x;
   const double share = run.scene.gravity.x / (-run.scene.gravity.y * run.scene.bodies[0].material.friction);
   const double creep = run.scene.settings.friction_velocity * (1 - std::sqrt(1 - share));
-  // An error e of λ changes f₁ by e f₁, and y by e f₁/(2 (1 − y)). Rounding is at worst one of x in each step.
+  // A relative error e of λ changes f₁ by e f₁, and y by e f₁/(2 (1 − y)). Rounding changes x by at most one rounding
+  // error in each step.
   const double error = (lagged_steps(run) / static_cast<double>(run.rows.size()) + force_left(run)) * share /
                        (2 * std::sqrt(1 - share)) * run.scene.settings.friction_velocity;
   return {{.what = "creep",
@@ -177,8 +178,8 @@ std::vector<Reading> read_stop(std::span<const Trajectory> runs) {
 
 constexpr Slope steep{degrees(20), 0.2, 0}, gentle{degrees(2), 1, 0}, smooth{degrees(20), 0, 0}, level{0, 0.2, 0.5};
 
-/// Returns the scene. At the whole size also returns it with five times the sweeps, and with half of h; both obey the
-/// law of their own h.
+/// Returns the scene alone or, at the whole size, three scenes: the scene, the scene with five times the sweeps, and
+/// the scene with half of h. Each obeys the law of its own h.
 std::vector<Scene> at_sizes(Scene scene, LawSize size) {
   if (size == LawSize::least) return {scene};
   Scene swept = scene, fine = scene;

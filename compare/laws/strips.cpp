@@ -1,24 +1,25 @@
-// Tests hanging strips and bars. A strip of membrane with λ = 0 does not get narrower as it is drawn (St.
-// Venant–Kirchhoff, method.md §4.6). With a stretch s along gravity ψ = μ (s² − 1)²/4, so the force across a width w is
+// Tests hanging strips and bars. A strip of membrane with λ = 0 keeps its width when it is drawn out (St.
+// Venant–Kirchhoff, method.md §4.6). With a stretch s along gravity its energy density is ψ = μ (s² − 1)²/4, so the
+// force in a strip of width w is
 //
 //     T = μ w s (s² − 1).
 //
-// A row of cells supports the weight of all vertices below it. The equation gives its stretch, and the sum of the
-// stretches gives the length. A bar of tetrahedra with λ = 0 (method.md §8.1) has 2 μ A (s − 1), except for terms of
-// second order in the strain, which the sideways stress μ (s − 1)² A balances.
+// In a row of cells T is the weight of all vertices below the row. This gives the row's stretch, and the sum over the
+// rows gives the length. In a bar of tetrahedra with λ = 0 (method.md §8.1) and cross section A the force is 2 μ A (s −
+// 1), up to terms of second order in the strain, which balance the sideways stress μ (s − 1)² A.
 //
-// Tolerances. Inside a row masses and forces of vertices are distributed differently, because diagonals alternate. The
-// error is below that of one row more or less, of n: (1/n)².
-//
-// Sweeps: at rest a step starts h² g too low and moves towards the solution of the step, which is a = (m/h²)/(m/h² +
-// k₁) times as far from rest as the step's start was. N sweeps leave ρᴺ of the way. So the strip rests where z = a z +
-// ρᴺ (z + h² g − a z), too low by
+// Tolerances. Inside a row masses and forces are not distributed equally over the vertices, because diagonals
+// alternate. With n rows this changes the extension by a share of less than (1/n)².
+// Sweeps: at rest a step starts from y, which is h² g too low, and moves towards the step's solution. The solution is a
+// = (m/h²)/(m/h² + k₁) times as far from rest as the step's start. N sweeps leave a share ρᴺ of the way. So the strip
+// comes to rest where z = a z + ρᴺ (z + h² g − a z), which is too low by
 //
 //     z = (4/π) h² g ρᴺ/((1 − ρᴺ)(1 − a)),    ρ = (2 k cos q/(m/h² + 2 k))²,   q = π/(2 n + 1),   k₁ = 2 k (1 − cos q),
 //
-// with m of a row, k = E w/a between two rows, ρ the factor of Gauss–Seidel for the longest wave of a chain, k₁ that
-// wave's stiffness, and 4/π its part of a uniform load. A vertex's block also has the shear stiffness, E/4 for each E
-// along the strip. So sweeps of the plane are at least as good as half as many sweeps of the chain, and z with N/2 is
+// with the mass m of a row, the stiffness k = E w/a between two rows of distance a, the factor ρ by which Gauss–Seidel
+// reduces the longest wave of a chain, the stiffness k₁ of that wave, and its part 4/π of a uniform load. A vertex's
+// block also has the shear stiffness, E/4 for each E along the strip. So N sweeps of the strip are at least as good as
+// N/2 sweeps of the chain, and z with N/2 is the limit.
 // the limit.
 #include <algorithm>
 #include <cmath>
@@ -82,7 +83,7 @@ Scene strip(Index rows, std::int64_t iterations, std::int64_t steps) {
   return scene;
 }
 
-/// Returns how much too low sweeps may leave the end, as derived at the head of this file.
+/// Returns how far below its law unfinished sweeps may leave the end (z in the head of this file).
 double swept_sag(const Trajectory& run, double young, double density, double area, double rows) {
   const double h = run.scene.settings.time_step, m = density * area * cell, k = young * area / cell;
   const double q = std::numbers::pi / (2 * rows + 1), rho = std::pow(2 * k * std::cos(q) / (m / (h * h) + 2 * k), 2);
@@ -91,7 +92,7 @@ double swept_sag(const Trajectory& run, double young, double density, double are
   return 4 / std::numbers::pi * h * h * standard_gravity * left / ((1 - left) * kept);
 }
 
-/// Reads the extension at the end relative to that of the closed answer, at which the run began.
+/// Reads the extension at the end of the run. The run starts from the law's answer.
 Reading read_hanging(const Trajectory& run, std::size_t width, double young, double density, double area) {
   const auto end = [&](const std::vector<Vec3>& x) {
     double sum = 0;

@@ -45,7 +45,7 @@ class Auditor {
       all.pairs_tested += share.pairs_tested;
     }
     std::sort(all.intersections.begin(), all.intersections.end());
-    // Several triangles may lead to the same two edges.
+    // An edge pair is found once for each triangle that contains one of both edges.
     const auto [first, last] = std::ranges::unique(all.intersections);
     all.intersections.erase(first, last);
     return all;
@@ -112,8 +112,8 @@ class Auditor {
 
   std::array<Vec3, 2> segment(const Edge& e) const { return {positions_[at(e[0])], positions_[at(e[1])]}; }
 
-  /// Tests an edge against the side of a triangle that is opposite to their only common vertex. The edge and the side
-  /// may cross in a common plane, and then no end is on a triangle.
+  /// Tests an edge against a triangle with which it has one common vertex, by the side of the triangle opposite to that
+  /// vertex. If edge and side cross in a common plane, no vertex lies on a triangle, so no other test finds them.
   void test_opposite(Index edge, const Box& box, const Edge& side, Findings& found) const {
     const std::array<Vec3, 2> others = segment(side);
     if (!box.meets(box_of({others[0], others[1]}))) return;

@@ -18,9 +18,9 @@ enum class IntersectionKind : std::uint8_t { edge_triangle, vertex_triangle, edg
 ///
 /// - Edge `first` meets triangle `second` without sharing a vertex; touching counts.
 /// - Vertex `first` lies on triangle `second`, which does not contain it.
-/// - Edges `first` < `second` meet and are not found as edge and triangle: neither belongs to a triangle, or one meets
-///   the side of a triangle opposite to their common vertex. Two edges with a common vertex meet if the other end of
-///   one lies on the other.
+/// - Edges `first` < `second` meet, and neither meets a triangle of the other as above. Either both belong to no
+///   triangle, or one meets the side of a triangle opposite to their common vertex. Two edges with a common vertex meet
+///   if the other end of one lies on the other.
 struct Intersection {
   IntersectionKind kind = IntersectionKind::edge_triangle;  ///< kind of the faces
   Index first = -1, second = -1;                            ///< edge or vertex, triangle or edge
@@ -49,9 +49,9 @@ struct AuditResult {
 AuditResult audit(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions = {},
                   const AuditOptions& options = {});
 
-/// Returns for each listed intersection all pairs of a vertex of one face and a vertex of the other, the smaller first,
-/// ascending. If these pairs are excluded (Scene::excluded_pairs), all faces that contain both vertices of a pair are
-/// left out, too.
+/// Returns, for each listed intersection, all pairs of a vertex of one face and a vertex of the other, the smaller
+/// vertex first, in ascending order. If a scene excludes these pairs (Scene::excluded_pairs), audits also leave out all
+/// other faces that contain the two vertices of a pair.
 std::vector<Edge> vertex_pairs(const AuditResult& result, const Topology& topology);
 
 /// Returns "edge of body 'cloth' (vertices 3, 7) meets face 40 of body 'floor' (…)".

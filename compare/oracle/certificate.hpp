@@ -1,5 +1,5 @@
 // Checks the motion certificate (method.md §5.5). Two states without intersections do not prove that the motion between
-// them was free of intersections. Bounds that all vertices keep do.
+// them was free of intersections. It was if all vertices stayed within their bounds.
 #pragma once
 
 #include <cstddef>

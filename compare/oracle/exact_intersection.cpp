@@ -1,6 +1,6 @@
-// Compares points of a plane in a projection along a coordinate axis, chosen so that the plane does not become a line;
-// then the projection is one-to-one. Compares points of a line coordinate by coordinate. Dropping coordinates causes no
-// rounding.
+// Decides with predicates of CGAL in two dimensions. Points of a plane are projected along a coordinate axis, chosen so
+// that the plane does not become a line; then the projection is one-to-one. Points of a line are compared coordinate by
+// coordinate. Dropping coordinates causes no rounding.
 #include "compare/oracle/exact_intersection.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -1,5 +1,5 @@
-// Decides for any points whether a segment meets a triangle or a segment, with exact predicates only. Degenerate
-// configurations are not rare in an audit.
+// Decides for any points whether a segment meets a triangle or a segment, with exact predicates only. An audit often
+// meets degenerate configurations, so they are handled, too.
 #pragma once
 
 #include <array>

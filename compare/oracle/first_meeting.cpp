@@ -30,7 +30,7 @@ class Paths {
   /// Returns six times the volume of the four points, which is 0 whenever the faces share a point.
   Polynomial volume() const { return dot(areas_[0], minus(points_[3], points_[0])); }
 
-  /// Returns all polynomials of which `meets` uses the sign.
+  /// Returns all polynomials whose sign `meets` uses.
   std::vector<Polynomial> questions() const {
     std::vector<Polynomial> all;
     const auto add = [&](const Path& v) {

@@ -1,13 +1,14 @@
 // Proves that two faces do not meet, by one direction: along it every vertex of one face is above every vertex of the
-// other, at the begin and at the end of a span of time. Heights are linear in time, so that holds in between, too, and
-// the hulls never meet. Any direction may serve, so it comes from rounded guesses. Only the heights' error matters; its
-// bound follows.
+// other, at the begin and at the end of a span of time. Heights are linear in time, so this also holds in between, and
+// the hulls never meet. The proof holds for any direction, so rounded guesses suffice. Only the error of the heights
+// matters; its bound follows.
 //
-// Height h = d·(p − q), u = 2⁻⁵³, M = Σ|d_k||p_k − q_k| as computed. The difference has one rounding, its product one,
-// two sums two, together less than 4.001 u M. A span's end (1 − s) h₀ + s h₁ with dyadic s of few bits has two more and
-// a sum, less than 2.001 u max(|h₀|, |h₁|), and |h| ≤ M(1 + 4u). 8 u max(M₀, M₁) is more than the sum of these and the
-// rounding of M. A product that underflows loses at most 2⁻¹⁰⁷⁴; 2⁻¹⁰⁰⁰ is more than five times that. Contraction to
-// fused operations only reduces roundings. Infinity and NaN prove nothing, since each comparison with them fails.
+// Let a height be h = d·(p − q), u = 2⁻⁵³, M = Σ|d_k||p_k − q_k| as computed. Rounding errors of h: one of the
+// difference, one of its product, two of two sums, together less than 4.001 u M. At the end of a span the height is (1
+// − s) h₀ + s h₁, where s is dyadic with few bits. This adds two products and a sum, less than 2.001 u max(|h₀|, |h₁|),
+// and |h| ≤ M(1 + 4u). 8 u max(M₀, M₁) is more than the sum of these errors and the rounding of M. A product that
+// underflows loses at most 2⁻¹⁰⁷⁴; 2⁻¹⁰⁰⁰ is more than five times that. Contraction to fused operations only reduces
+// rounding errors. Infinity and NaN prove nothing, since each comparison with them fails.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,7 +31,7 @@ Vector along(const Vector& a, const Vector& b, double s) {
 
 double share(double part, double whole) { return whole > 0 ? std::clamp(part / whole, 0.0, 1.0) : 0; }
 
-/// Returns the vector to p from the point of the segment ab that is nearest to p.
+/// Returns p minus the point of the segment ab that is nearest to p.
 Vector from_segment(const Vector& p, const Vector& a, const Vector& b) {
   const Vector e = minus(b, a), w = minus(p, a);
   return minus(p, along(a, b, share(dot(w, e), dot(e, e))));
@@ -42,7 +43,8 @@ Vector toward(const Vector& normal, const Vector& side) {
   return dot(normal, side) < 0 ? Vector{-normal.x, -normal.y, -normal.z} : normal;
 }
 
-/// Returns two guesses of a direction from the second face to the first: across both, and between near points.
+/// Returns two guesses of a direction from the second face to the first: the normal of both faces, and the vector
+/// between near points.
 std::array<Vector, 2> guesses(MeetingKind kind, const Points& x) {
   if (kind == MeetingKind::vertex_triangle) {
     const Vector n = cross(minus(x[2], x[1]), minus(x[3], x[1]));

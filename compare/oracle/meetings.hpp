@@ -1,5 +1,5 @@
-// Finds the faces that share a point on the straight motion between two states of a mesh (method.md §5.5). States alone
-// cannot show that curves passed through each other; this proves a motion. compare/meetings.md explains how.
+// Finds the faces that share a point on the straight motion between two states of a mesh (method.md §5.5). Two states
+// cannot show that curves passed through each other between them. compare/meetings.md explains the method.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ struct MeetingsResult {
   std::vector<Meeting> meetings;  ///< pairs with vertices first, then ascending
   std::size_t count = 0;          ///< number of all meetings
   std::size_t pairs_tested = 0;   ///< pairs whose swept boxes meet, without excluded ones
-  /// tested pairs that no rounded direction separates, so that they are decided exactly
+  /// tested pairs for which no rounded direction proves that they are apart, so that they are decided exactly
   std::size_t pairs_in_doubt = 0;
 };
 

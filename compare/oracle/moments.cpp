@@ -1,8 +1,8 @@
 // Separates roots by Descartes' rule in Bernstein form: the coefficients on an open interval have as many changes of
-// sign as there are roots, or an even number more. Counts of none and one are exact. Halving ends if no root is
-// multiple (Obreshkoff; Mourrain, Rouillier, Roy 2005). The greatest common divisor of two polynomials decides whether
-// they share a root, so a sign of 0 is found exactly. Coefficients are dyadic numbers, and only ring operations are
-// used.
+// sign as the polynomial has roots there, or an even number more. So no change and one change give the exact number of
+// roots. Halving an interval ends if no root is multiple (Obreshkoff; Mourrain, Rouillier, Roy 2005). The greatest
+// common divisor of two polynomials decides whether they share a root, so a sign of 0 is found exactly. Coefficients
+// are dyadic numbers, and only ring operations are used.
 #include "compare/oracle/moments.hpp"
 
 #include <algorithm>
@@ -158,7 +158,7 @@ Moment::Moment(Exact time) : is_dyadic_(true), low_(time), high_(std::move(time)
 
 Moment::Moment(Polynomial square_free, Exact low, Exact high)
     : square_free_(std::move(square_free)), low_(std::move(low)), high_(std::move(high)) {
-  // Near `high` the polynomial has the sign of its last Bernstein coefficient that is not 0.
+  // Just below `high` the polynomial has the sign of its last Bernstein coefficient that is not 0.
   const std::vector<Exact> b = bernstein(square_free_, low_, high_);
   for (std::size_t k = b.size(); k-- > 0 && sign_after_ == 0;) sign_after_ = sign_of(b[k]);
 }
@@ -177,7 +177,7 @@ int Moment::sign(const Polynomial& p) {
   if (p.is_zero()) return 0;
   if (is_dyadic_) return sign_of(p.at(low_));
   if (p.degree() == 0) return sign_of(p.c[0]);
-  // In the interval a common divisor can only have this time as a root, and only as a simple one.
+  // The only root that a common divisor can have in the interval is this time, and it is simple.
   const Polynomial common = common_divisor(square_free_, p);
   if (common.degree() > 0 && changes_of_sign(bernstein(common, low_, high_)) % 2 == 1) return 0;
   while (!is_dyadic_) {

@@ -1,6 +1,6 @@
-// Culls pairs by boxes and the smallest distance found so far, then by intervals. Exact numbers compare the remaining
-// pairs; in a regular stack these are most pairs, since many distances are equal. Threads share the smallest distance.
-// It decides how early a pair is culled, but neither which pair is the nearest nor its name.
+// Culls pairs by boxes and the smallest distance found so far, then by intervals. The remaining pairs are compared in
+// exact numbers; in a regular stack these are most pairs, since many distances are equal. Threads share the smallest
+// distance found so far. It only decides how early a pair is culled, so the result does not depend on the threads.
 #include "compare/oracle/smallest_distances.hpp"
 
 #include <CGAL/Gmpq.h>
@@ -42,7 +42,7 @@ double root_rounded_down(const Rational& square) {
   return root;
 }
 
-/// Returns a double that is not below the square of the distance.
+/// Returns a double that is at least the square of the distance.
 double square_above(const LeastSquare& square) {
   return CGAL::to_interval(Rational(square.numerator) / Rational(square.denominator)).second;
 }
@@ -79,8 +79,8 @@ class Search {
     if (nearer) lower(square_above(square));
   }
 
-  /// Returns `box` grown by at least the nearest distance. The root and the sums are each off by at most half a unit in
-  /// the last place; two steps outwards are more than that.
+  /// Returns `box` grown by at least the nearest distance. The root and the sums are each wrong by at most half a unit
+  /// in the last place; one step outwards after each covers more than that.
   Box search_box(Box box) const {
     const double reach = std::nextafter(std::sqrt(limit_.load(std::memory_order_relaxed)), infinity);
     for (std::size_t k = 0; k < 3; ++k) {

@@ -1,8 +1,8 @@
-// Computes squared distances of points, triangles and segments as quotients, without a division and without a wrong
-// case. Every feature whose region can't be excluded offers the distance to its point, line or plane. For exact numbers
-// these are the right features, for intervals a superset. A distance to a line or plane is never above the distance to
-// a feature in it, so the least offer is the distance, or a lower bound of it. Only .cpp files of compare/oracle
-// include this header, since it exposes CGAL's number types.
+// Computes squared distances of points, triangles and segments as quotients, so that no division is needed. Every
+// feature (corner, edge or interior) that may contain the closest point offers the squared distance to its point, line
+// or plane. With exact numbers these are the right features; with intervals there may be more. The distance to a line
+// or plane is at most the distance to a feature in it. So the least offer is the distance or, with intervals, a lower
+// bound of it. Only .cpp files of compare/oracle include this header, since it exposes CGAL's number types.
 #pragma once
 
 #include <CGAL/Interval_nt.h>
@@ -19,7 +19,7 @@ namespace ogc::compare {
 using Interval = CGAL::Interval_nt<false>;
 using Exact = CGAL::Mpzf;
 
-/// Return whether the number can have this sign: an exact number has it, or an interval contains a number that has it.
+/// Return whether the number may have this sign. An exact number has it; an interval contains a number that has it.
 inline bool may_be_positive(const Exact& x) { return static_cast<int>(x.sign()) > 0; }
 inline bool may_be_negative(const Exact& x) { return static_cast<int>(x.sign()) < 0; }
 inline bool may_be_zero_or_more(const Exact& x) { return static_cast<int>(x.sign()) >= 0; }
@@ -50,7 +50,7 @@ template <class N>
 struct DistanceVector {
   N x, y, z;  ///< coordinates
 };
-/// Return a − b, a·b and a × b, and K points as vectors over N.
+/// minus, dot and cross return a − b, a·b and a × b; widen returns K points as vectors over N.
 template <class N>
 DistanceVector<N> minus(const DistanceVector<N>& a, const DistanceVector<N>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};

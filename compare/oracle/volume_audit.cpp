@@ -56,8 +56,8 @@ double to_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
   return std::hypot(w.x - s * e.x, w.y - s * e.y, w.z - s * e.z);
 }
 
-/// Returns the rounded distance to a triangle. If it is in doubt whether the closest point of the plane is inside, the
-/// outline is as near and decides.
+/// Returns the rounded distance to a triangle. If rounding leaves open whether the closest point of the plane is
+/// inside, the distance to the outline is returned, which is then as small.
 double to_triangle(const Vec3& x, const Corners& t) {
   const Vec3 n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
   const double square = dot(n, n);
@@ -68,7 +68,7 @@ double to_triangle(const Vec3& x, const Corners& t) {
   return std::min({to_segment(x, t[0], t[1]), to_segment(x, t[1], t[2]), to_segment(x, t[2], t[0])});
 }
 
-/// Sorts edges of one triangle each into closed rims, each edge against the direction of its triangle.
+/// Sorts edges that have one triangle into closed rims. Each edge is directed against its triangle.
 std::vector<std::vector<Edge>> closed_rims(const std::vector<Edge>& rims) {
   std::map<Index, Index> root;
   const auto find = [&](Index v) {
@@ -125,8 +125,8 @@ class PlacedPart {
     return is_inside;
   }
 
-  /// Returns the distance from a vertex of the part to the part's triangles; 0 if none is left. Left out are triangles
-  /// that share a vertex with one of the triangles around the vertex.
+  /// Returns the distance from a vertex of the part to the part's triangles, without those that share a vertex with a
+  /// triangle around the vertex. Returns 0 if no triangle remains.
   double distance_of_own(Index vertex) const {
     std::vector<Index> around;
     for (const Triangle& t : triangles_)

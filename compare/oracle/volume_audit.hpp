@@ -1,6 +1,6 @@
-// Measures what is inside volumes (§3.9): vertices by winding number, and edges that meet their triangles, found by the
-// oracle alone. A solver's own answer (compare/stages/volume_depth.hpp) uses the nearest face. Both agree on closed
-// parts that do not pass through themselves, and may differ elsewhere.
+// Measures what is inside volumes (§3.9): vertices, by winding number, and edges that meet the volumes' triangles. It
+// shares no code with solvers, whose stage volume_depth (compare/stages/volume_depth.hpp) uses the nearest face. Both
+// agree on closed parts that do not pass through themselves, and may differ elsewhere.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct VolumePenetration {
   Index deepest_vertex = -1;        ///< the vertex inside a part that is farthest from the part's triangles
   double deepest = 0;               ///< its distance from them, rounded [m]
   /// number of edges of surfaces that meet a triangle of a volume, and of edges of volumes that meet a triangle of a
-  /// surface; also of edges and triangles of two volumes, or of the same, if one of the bodies is a free volume
+  /// surface. If a free volume is involved, also edges that meet a triangle of another volume or of the same one
   std::size_t edges_meeting = 0;
 };
 
@@ -36,9 +36,9 @@ class VolumeAuditor {
   /// decided exactly, for each part separately: a connected component of triangles with its cavities, or the boundary
   /// of a body of tetrahedra. A fan about the mean of its vertices closes each rim. A vertex on the surface is outside.
   ///
-  /// A vertex of a body of tetrahedra lies on the body's own surface. It is inside the body if a closed tetrahedron of
-  /// positive volume contains it, other than those of which it is a corner. Its distance is then that to the triangles
-  /// that share no vertex with the triangles around it. Pairs with a common vertex do not meet.
+  /// A vertex of a body of tetrahedra lies on the body's own surface. It is inside the body if it lies in a closed
+  /// tetrahedron of positive volume of which it is no corner. Its depth is then its distance from the triangles that
+  /// share no vertex with the triangles around it. Pairs with a common vertex do not meet.
   ///
   /// The answer does not depend on the number of threads. Throws InputError if the number of positions is not that of
   /// the scene, or a position is not finite.

@@ -155,8 +155,8 @@ typedef struct ogc_friction_force_in {
 OGC_PLUGIN_EXPORT int ogc_contact_force(const ogc_contact_force_in* in, ogc_force_out* out);
 OGC_PLUGIN_EXPORT int ogc_friction_force(const ogc_friction_force_in* in, ogc_force_out* out);
 
-/* A point, vertex 0, and the triangle of a volume that pushes it out, vertices 1 2 3. The answer is the sum of contact
- * and friction, force and block: compare/stages/volume_force.hpp. */
+/* A point, vertex 0, and the triangle of a volume that pushes it out, vertices 1 2 3. The answer is the sum of normal
+ * part and friction, for force and block: compare/stages/volume_force.hpp. */
 typedef struct ogc_volume_force_case {
   int32_t own; /* the vertex whose force and block are returned */
   ogc_vec3 vertex[4], start[4];

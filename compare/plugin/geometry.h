@@ -23,7 +23,7 @@ typedef struct ogc_closest_face_in {
 typedef struct ogc_closest_face_out {
   uint8_t* feature;      /* [n] */
   float (*weights)[3];   /* [n] barycentric weights of the closest point, >= 0 */
-  float* distance;       /* [n] nearest */
+  float* distance;       /* [n] rounded to nearest */
   float* distance_below; /* [n] never above the exact distance */
 } ogc_closest_face_out;
 
@@ -42,7 +42,7 @@ typedef struct ogc_closest_points_out {
   uint8_t *first_feature, *second_feature; /* [n] */
   uint8_t* nearly_parallel;                /* [n] 0 or 1 */
   float (*parameters)[2];                  /* [n] of the contact points, in [0, 1] from end 0 to end 1 */
-  float* contact_distance;                 /* [n] between the contact points, nearest */
+  float* contact_distance;                 /* [n] between the contact points, rounded to nearest */
   float* distance_below;                   /* [n] never above the exact distance of the two edges */
 } ogc_closest_points_out;
 

@@ -7,7 +7,8 @@
 namespace ogc::compare {
 
 /// `ball`: the paper's ball about X_prev. `planes`: planes between near pairs, and a ball for the other pairs. `off`:
-/// no bounds. `dat`: planes as in *Divide and Truncate*. The underlying type is that of all settings.
+/// no bounds. `dat`: planes as in *Divide and Truncate*. The underlying type is the same for all settings that are
+/// choices.
 enum class Bounds : std::int64_t { ball, planes, off, dat };
 
 /// The traits of a policy that code reads.

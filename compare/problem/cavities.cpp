@@ -18,7 +18,7 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 int side_seen(const Vec3& a, const Vec3& b, const Vec3& p) {
   const int side = orientation({0, a.y, a.z}, {0, b.y, b.z}, {0, p.y, p.z}, {1, p.y, p.z});
   if (side != 0) return side;
-  // moving p by (ε, ε²) lets −(b.z − a.z) decide, then b.y − a.y
+  // with (ε, ε²) added to p, the sign of −(b.z − a.z) decides, or that of b.y − a.y if it is 0
   if (a.z != b.z) return b.z < a.z ? 1 : -1;
   return a.y < b.y ? 1 : a.y > b.y ? -1 : 0;
 }
@@ -63,7 +63,8 @@ class PlacedShell {
 
   int winding(const Vec3& p) const {
     int count = 0;
-    // Twice tallest_ is above the true height, although tallest_ is a rounded difference.
+    // Twice tallest_, the largest height of a triangle along y, is above the true height, although tallest_ is a
+    // rounded difference.
     auto reach = std::ranges::lower_bound(from_below_, p.y - 2 * tallest_, {}, &Reach::bottom);
     for (; reach != from_below_.end() && reach->bottom <= p.y; ++reach) count += crossing(reach->corners, p);
     return count;

@@ -22,10 +22,11 @@ struct Shell {
   double volume = 0;  ///< enclosed volume, times any positive factor; 0 if the shell has rims or encloses no volume
 };
 
-/// Returns for each shell of one body the shell whose cavity it is, or −1. A shell of negative volume is a cavity of
-/// the shell of positive volume that winds around all of its vertices; if there are several, of the shell of least
-/// volume. It is no cavity if another cavity of the same shell winds around it, too. Positions [m] are rounded to
-/// single precision; then all is decided exactly. A vertex on a shell counts as moved beside it.
+/// Returns, for each shell of one body, the number of the shell whose cavity it is, or −1. A shell of negative volume
+/// is a cavity of the shell of positive volume that winds around all of its vertices. If several shells do, the shell
+/// of least volume is taken. If another cavity of the same shell also winds around it, it is no cavity. Positions [m]
+/// are rounded to single precision; then all is decided exactly. A vertex on a shell is treated as if it were beside
+/// the shell.
 std::vector<int> enclosing_shells(const Mesh& mesh, std::span<const Shell> shells);
 
 }  // namespace ogc::compare

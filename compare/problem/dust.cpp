@@ -23,8 +23,8 @@ double largest_coordinate(std::span<const Vec3> positions) {
   return largest;
 }
 
-/// Clears coordinates below `limit`. A coordinate is not counted if it equals that of the same place in
-/// `counted_elsewhere`.
+/// Sets coordinates below `limit` to 0. A coordinate is not counted if `counted_elsewhere` has the same coordinate at
+/// its place.
 void clear(std::vector<Vec3>& positions, double limit, std::span<const Vec3> counted_elsewhere, Dust& dust) {
   for (std::size_t v = 0; v < positions.size(); ++v) {
     for (const auto axis : axes) {

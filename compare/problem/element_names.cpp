@@ -13,7 +13,7 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 /// Returns the number in the file of element i of the mesh.
 Index file_number(const std::vector<Index>& numbers, Index i) { return at(i) < numbers.size() ? numbers[at(i)] : i; }
 
-/// Returns "line 7" or "lines 4, 5"; empty if the file has none.
+/// Returns "line 7" or "lines 4, 5", the lines of the elements; empty if the file has no lines.
 std::string lines(const std::vector<std::size_t>& lines, std::initializer_list<Index> elements) {
   std::string text;
   for (const Index i : elements) {
@@ -23,8 +23,8 @@ std::string lines(const std::vector<std::size_t>& lines, std::initializer_list<I
   return (elements.size() == 1 ? "line " : "lines ") + text;
 }
 
-/// Returns the place of an element in its file: its line. For a scene, whose bodies have several files, the file comes
-/// first.
+/// Returns the place of an element in its file, which is its line. Bodies of a scene have several files, so there the
+/// file's name comes first.
 std::string file_and_line(const std::string& body, const MeshSource& source, const std::string& line) {
   if (body.empty()) return line;
   return source.file + (line.empty() ? "" : ", " + line);
@@ -54,8 +54,8 @@ const ElementNames::NamedBody& ElementNames::body_at(Index vertex) const {
   return after == bodies_.begin() || (after - 1)->last_vertex < vertex ? none : *(after - 1);
 }
 
-// A body without triangles has the same first triangle as the body after it; upper_bound finds the last of them, which
-// has the triangle.
+// A body without triangles has the same first triangle as the next body. upper_bound finds the last body with this
+// first triangle, which is the one that has the triangle.
 const ElementNames::NamedBody& ElementNames::body_of_triangle(Index t) const {
   static const NamedBody none;
   const auto after = std::ranges::upper_bound(bodies_, t, {}, &NamedBody::first_triangle);
@@ -115,7 +115,8 @@ std::string ElementNames::triangle(Index t, const Triangle& corners) const {
 
 std::string ElementNames::tetrahedron(Index t, const Tetrahedron& corners) const {
   static const NamedBody none;
-  // Several bodies may start at the same tetrahedron; upper_bound finds the last of them (see body_of_triangle).
+  // Several bodies may start at the same tetrahedron; upper_bound finds the last of these bodies (see
+  // body_of_triangle).
   const auto after = std::ranges::upper_bound(bodies_, t, {}, &NamedBody::first_tetrahedron);
   const NamedBody& body = after == bodies_.begin() ? none : *(after - 1);
   const Index local = t - body.first_tetrahedron;

@@ -1,4 +1,4 @@
-// Adds products without rounding, for the few signs that validation decides exactly.
+// Adds products without rounding. Validation needs the exact sign of a few sums.
 #pragma once
 
 #include <array>

@@ -11,15 +11,16 @@ namespace ogc::compare {
 
 /// Returns an origin near the centre of the positions' bounding box. Along an axis it is 0, unless the box's centre is
 /// at least 16 times the box's length from 0. Then it is a multiple of the largest power of two that is not above that
-/// length, so that differences from it are exact in double. Relative to it, single precision resolves the length with
-/// 23 bits; along the other axes with at least 20. The origin is 0 for positions that are not finite.
+/// length, so that differences from it are exact in double. Relative to the origin single precision resolves the box's
+/// length along this axis with 23 bits, along an axis with origin 0 with at least 20. The origin is 0 for positions
+/// that are not finite.
 Vec3 local_origin(const std::vector<Vec3>& positions);
 
 /// Returns x − o of all positions [m].
 std::vector<Vec3> relative_to(const Vec3& origin, std::vector<Vec3> positions);
 
 /// Returns the double with the fewest decimal digits whose distance from `origin` rounds to `local` in single
-/// precision. That is the number in the file from which `local` was read.
+/// precision. That is the number that the file contains if its coordinates were written with few digits.
 double typed_at(double origin, float local);
 
 /// Returns local positions in the coordinates of the file; unchanged if `origin` is 0.

@@ -59,7 +59,7 @@ struct Vertices {
 /// Returns whether two segments leave a vertex at rest in one direction. Only signs decide, so the result is exact.
 bool leaves_to_one_side(const Vec3& from, const Vec3& a, const Vec3& b) {
   if (!has_zero_area(from, a, b)) return false;
-  // on one line the products of all coordinates have the same sign, or are 0
+  // on one line the products of x, y and z coordinates all have the same sign, or are 0
   return (a.x - from.x) * (b.x - from.x) + (a.y - from.y) * (b.y - from.y) + (a.z - from.z) * (b.z - from.z) > 0;
 }
 
@@ -131,7 +131,7 @@ bool says_turn(const PrescribedMotion& motion) { return motion.keyframes.empty()
 
 Quaternion prescribed_turn(const PrescribedMotion& motion, double from, double to) {
   const auto elapsed = [&](double t) { return std::clamp(t, motion.start, motion.end) - motion.start; };
-  // Rounded first, so that times relative to another start give the same turn.
+  // The half angle is rounded first, so that the turn is the same if times are counted from another start.
   const auto half = static_cast<float>(motion.angular_velocity * (elapsed(to) - elapsed(from)) / 2);
   const double size = std::hypot(motion.axis.x, motion.axis.y, motion.axis.z), sine = std::sin(double{half});
   return {static_cast<float>(sine * motion.axis.x / size), static_cast<float>(sine * motion.axis.y / size),

@@ -24,7 +24,8 @@ struct RodInfo {
 /// material_table.
 std::span<const RodInfo> rod_table();
 
-/// Check and describe a constant as compare/problem/ranges.hpp does for materials.
+/// in_range returns whether the constant may have the value; describe_range returns its range as text, as
+/// compare/problem/ranges.hpp does for materials.
 bool in_range(const RodInfo& info, double value);
 std::string describe_range(const RodInfo& info);
 
@@ -39,7 +40,7 @@ bool has_rods(const Scene& scene);
 /// prescribed motion.
 std::vector<Index> segment_groups(const Scene& scene, std::span<const Index> segments);
 
-/// Returns whether a motion determines how its segments turn. Every rigid motion does, also a rigid one given as
+/// Returns whether a motion determines how its segments turn. Every rigid motion does, even if it is given as
 /// keyframes.
 bool says_turn(const PrescribedMotion& motion);
 /// Returns the rotation of a motion from one time to another [s], computed in double and rounded once.

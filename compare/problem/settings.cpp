@@ -19,7 +19,7 @@ namespace {
 constexpr double most_count = 1 << 30, most_seed = 0x1p53;
 constexpr double least_length = 0x1p-20, most_length = 0x1p20;
 
-/// The index of the last enumerator of a choice.
+/// Largest index of a choice's enumerators.
 template <class Choice>
 constexpr double last = choice_count<Choice> - 1;
 

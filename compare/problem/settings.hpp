@@ -20,9 +20,9 @@ namespace ogc::compare {
 /// Contact energy over distance (method.md §4.2): Eq. 18 with Eq. 19 corrected, or another activation.
 enum class ContactActivation : std::int64_t { ogc, ogc_as_printed, quadratic, ipc_log, cubic };
 /// The motion that stiffness-proportional damping resists (method.md §4.9): the change of a stencil's strain, or the
-/// motion of each vertex, by its own block.
+/// motion of each vertex (with the vertex's own block as stiffness).
 enum class DampingForm : std::int64_t { strain, per_vertex };
-/// Returns whether strains are damped; otherwise the motion of each vertex is.
+/// Returns whether strains are damped; otherwise the motion of each vertex is damped.
 constexpr bool damps_strain(DampingForm form) {
   switch (form) {
     case DampingForm::strain: return true;
@@ -41,7 +41,7 @@ constexpr bool minimises(RodOrientation update) {
   }
   return true;
 }
-/// Orientations at the start of a step: turned along with their segments, or kept from the last step.
+/// Orientations at the start of a step: those of the last step, turned along with their segments or unchanged.
 enum class RodStart : std::int64_t { turned, kept };
 /// Returns whether orientations turn before the first sweep.
 constexpr bool turns(RodStart start) {
@@ -70,13 +70,13 @@ struct Settings {
   /// W, width of the sums of the sweep: 2, 4, 8 or 16; 0: by mesh size
   std::int64_t lanes = 0;
   ContactActivation contact_activation = ContactActivation::ogc;  ///< contact energy over distance
-  /// `per_vertex` is the authors' form, which also damps translation
+  /// `per_vertex` is the form of the paper's authors, which also damps translation
   DampingForm damping = DampingForm::strain;
   std::int64_t seed = 0;                                   ///< seed of all random numbers of the scene
   RodOrientation rod_orientation = RodOrientation::exact;  ///< how a sweep sets segments' orientations
   RodStart rod_start = RodStart::turned;                   ///< segments' orientations at the start of a step
-  /// Values of settings that contestants declare, if not the default; a choice is stored as its index. Written by
-  /// set_setting.
+  /// Values of settings that contestants declare, unless a value is the default. A choice is stored as its index. Only
+  /// set_setting writes here.
   std::map<std::string, double, std::less<>> declared;
   friend bool operator==(const Settings&, const Settings&) = default;
 };
@@ -105,9 +105,9 @@ struct SettingInfo {
 /// contestants' names.
 std::span<const SettingInfo> setting_table();
 
-/// Adds a contestant's settings to the table, so that scene files, `--set`, `--help`, run.json and checks know them. It
-/// should be an object of static storage beside the code that reads the settings; then a program knows the settings of
-/// all contestants that are linked. `rows` need static storage, too, and each has a DeclaredSetting.
+/// Adds a contestant's settings to the table, so that scene files, `--set`, `--help`, run.json and checks accept them.
+/// Define it as an object of static storage beside the code that reads the settings; then a program has the settings of
+/// all contestants that are linked into it. `rows` need static storage, too, and each has a DeclaredSetting.
 class SettingsDeclaration {
  public:
   SettingsDeclaration(std::string_view contestant, std::span<const SettingInfo> rows);

@@ -67,7 +67,7 @@ std::vector<Triangle> boundary_triangles(std::span<const Tetrahedron> tetrahedra
 
 std::vector<Index> joined_components(const Topology& topology, std::span<const Tetrahedron> tetrahedra,
                                      std::span<const Edge> cavities) {
-  std::vector<Index> lowest(topology.component.size());  // by component: a lower or equal component of the same set
+  std::vector<Index> lowest(topology.component.size());  // by component: itself or a lower component of the same set
   std::iota(lowest.begin(), lowest.end(), 0);
   const auto root = [&](Index v) {
     Index c = topology.component[static_cast<std::size_t>(v)];
@@ -87,10 +87,11 @@ std::vector<Index> joined_components(const Topology& topology, std::span<const T
   return joined;
 }
 
-// A filter decides most cases: differences (1), a product (1), their difference (1), the third factor (1 + 1), two sums
-// (2) have an error of at most 7ε of the sum of the moduli, ε = 2⁻⁵³; 8ε covers second order. Without differences det(b
-// − a, c − a, d − a) is det(b, c, d) − det(a, c, d) + det(a, b, d) − det(a, b, c): 24 triple products of four parts
-// each.
+// A filter decides most cases. Rounding errors: differences (1), a product (1), their difference (1), the third factor
+// (1 + 1), two sums (2). So the error is at most 7ε of the sum of the moduli, ε = 2⁻⁵³; 8ε covers second order.
+//
+// The exact sum uses no differences of coordinates: det(b − a, c − a, d − a) is det(b, c, d) − det(a, c, d) + det(a, b,
+// d) − det(a, b, c). These are 24 triple products, each stored as four doubles.
 int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 p{b.x - a.x, b.y - a.y, b.z - a.z}, q{c.x - a.x, c.y - a.y, c.z - a.z}, r{d.x - a.x, d.y - a.y, d.z - a.z};
   const double rounded = p.x * (q.y * r.z - q.z * r.y) + p.y * (q.z * r.x - q.x * r.z) + p.z * (q.x * r.y - q.y * r.x);

@@ -27,9 +27,9 @@ std::vector<TetrahedronFace> sorted_faces(std::span<const Tetrahedron> tetrahedr
 /// opposite corner.
 std::vector<Triangle> boundary_triangles(std::span<const Tetrahedron> tetrahedra);
 
-/// Returns the joined component of each vertex. Two components (Topology::component) are joined under their lowest
-/// number if a tetrahedron connects them, or if one is a cavity and the other the surface around it
-/// (VolumeDepthIn::cavities).
+/// Returns the joined component of each vertex. Two components (Topology::component) are joined, under the lower
+/// number, if a tetrahedron connects them. A cavity and the surface around it (VolumeDepthIn::cavities) are joined as
+/// well.
 std::vector<Index> joined_components(const Topology& topology, std::span<const Tetrahedron> tetrahedra,
                                      std::span<const Edge> cavities = {});
 

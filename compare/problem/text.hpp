@@ -30,8 +30,9 @@ std::string shown(std::string_view text, std::size_t most = 40);
 /// Returns the shortest decimal text that reads back as the same double.
 std::string shortest(double value);
 
-/// Returns the number that a person would have typed. If single precision holds the value exactly, this is the shortest
-/// decimal number that rounds to the same float (0.01 for 0.009999999776482582). Otherwise it is the value itself.
+/// Returns the number that a person would have typed. If the value is exactly a number of single precision, this is the
+/// shortest decimal number that rounds to the same float (0.01 for 0.009999999776482582). Otherwise it is the value
+/// itself.
 double as_typed(double value);
 
 }  // namespace ogc::compare

@@ -17,8 +17,8 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// An edge in the direction in which one of its triangles runs through it. The order puts sides of one edge next to
-/// each other.
+/// An edge with the direction in which one of its triangles runs through it. Sorting puts all triangles of an edge next
+/// to each other.
 struct Side {
   Edge edge{};  ///< the smaller vertex first
   Index triangle = -1;
@@ -71,7 +71,7 @@ std::vector<VolumePart> shells_of(const Scene& scene, std::size_t number) {
   Sets sets(scene.mesh.positions.size());
   const auto triangles = std::span(scene.mesh.triangles).subspan(at(body.first_triangle), at(body.triangle_count));
   for (const auto& [a, b, c] : triangles) sets.unite(at(a), at(b)), sets.unite(at(a), at(c));
-  std::map<std::size_t, std::size_t> place;  // place of a set's shell, by the set's smallest number
+  std::map<std::size_t, std::size_t> place;  // index in `shells`, by the smallest number of a connected set
   std::vector<VolumePart> shells;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const auto [entry, is_new] = place.try_emplace(sets.root(at(triangles[i][0])), shells.size());
@@ -108,7 +108,7 @@ struct SignedVolume {
     value += sum;
     ++count;
   }
-  /// Returns a bound of the error of `value`. A term goes through at most n + 12 roundings (three differences, two
+  /// Returns an upper limit of the error of `value`. Each term is rounded at most n + 12 times (three differences, two
   /// products, four sums inside a determinant, the sums of n determinants), each a factor of 1 + δ with |δ| ≤ 2⁻⁵³.
   /// Twice that covers rounding of the moduli and higher orders.
   double error() const { return static_cast<double>(count + 12) * 0x1p-52 * modulus; }
@@ -132,7 +132,7 @@ SignedVolume six_volumes(const Scene& scene, const VolumePart& part) {
     double count = 0;
   };
   std::map<std::size_t, Mean> means;
-  // each vertex of a rim ends as many of the rim's edges as it begins, so the first ends are all vertices
+  // at each vertex of a rim as many edges begin as end, so the edges' first vertices are all vertices of the rim
   for (const auto& [a, b] : part.rims) {
     Mean& mean = means[sets.root(at(a))];
     const Vec3& x = position(a);
@@ -189,7 +189,7 @@ std::vector<VolumePart> parts_of(const Scene& scene, std::size_t number) {
       if (enclosing[i] >= 0) sets.unite(i, at(enclosing[i]));
   }
   std::vector<VolumePart> parts;
-  std::map<std::size_t, std::size_t> place;  // place of a set's part, by the set's smallest number
+  std::map<std::size_t, std::size_t> place;  // index in `parts`, by the smallest number of a connected set
   for (std::size_t i = 0; i < shells.size(); ++i) {
     const auto [entry, is_new] = place.try_emplace(sets.root(i), parts.size());
     if (is_new) parts.push_back({number, {}, {}});
@@ -201,7 +201,8 @@ std::vector<VolumePart> parts_of(const Scene& scene, std::size_t number) {
   return parts;
 }
 
-/// Returns whether each edge of the body has an inner side or belongs to one triangle. Lists the edges that do not.
+/// Returns whether each edge of the body has two triangles that run through it in opposite directions, or one triangle.
+/// Lists the other edges as problems.
 bool check_edges(std::vector<Problem>& problems, const Scene& scene, const Body& body, const ElementNames& names,
                  std::size_t limit) {
   ProblemKind threefold(problems, limit, "of a volume has more than two triangles",
@@ -227,8 +228,8 @@ bool check_edges(std::vector<Problem>& problems, const Scene& scene, const Body&
   return threefold.count() + misoriented.count() == 0;
 }
 
-/// Lists parts that are inside out or enclose no volume. `is_sound` holds for each body whether its parts can be
-/// examined.
+/// Lists parts that are turned inside out or enclose no volume. Skips bodies for which `is_sound` is false, because
+/// their edges or coordinates are bad.
 void check_parts(std::vector<Problem>& problems, const Scene& scene, const std::vector<bool>& is_sound,
                  const ElementNames& names, std::size_t limit) {
   ProblemKind inside_out(problems, limit, "begins a part of a volume that is turned inside out",

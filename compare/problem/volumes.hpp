@@ -24,8 +24,8 @@ struct VolumePart {
 /// cover the scene.
 std::vector<VolumePart> volume_parts(const Scene& scene);
 
-/// Returns the cavities of a scene's volumes of triangles in the form of VolumeDepthIn::cavities: for each cavity one
-/// of its vertices and one of the surface around it.
+/// Returns the cavities of all volumes of triangles in the form of VolumeDepthIn::cavities: for each cavity one of its
+/// vertices and one vertex of the surface around it.
 std::vector<Edge> volume_cavities(const Scene& scene);
 
 /// Holds the surfaces of all volumes of a scene as one input of stage volume_depth; vertices keep their numbers.
@@ -40,8 +40,8 @@ struct VolumeSurface {
 /// bodies must cover the scene.
 VolumeSurface volume_surface(const Scene& scene);
 
-/// Returns the face of the scene, whose topology is `scene`, that is `face` of `volumes`; the order of faces is the
-/// same.
+/// Returns `face`, given by the numbers of `volumes`, with the numbers of the scene, whose topology is `scene`. Both
+/// number faces in the same order.
 Face scene_face(const VolumeSurface& volumes, const Topology& scene, const Face& face);
 
 /// Returns whether any body is a volume.

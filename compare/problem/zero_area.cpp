@@ -1,5 +1,5 @@
-// Evaluates three 2×2 determinants as exact sums of six products each. A rounded evaluation decides nearly all
-// triangles before that.
+// Evaluates three 2×2 determinants as exact sums of six products each. Rounded determinants suffice for nearly all
+// triangles and are tried first.
 #include "compare/problem/zero_area.hpp"
 
 #include <array>
@@ -13,8 +13,8 @@ namespace {
 std::array<double, 3> coordinates(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 // Returns whether the projections of a, b and c on the plane of coordinates i and j lie on a line, decided exactly. A
-// filter decides most cases: each factor and each product is rounded once, so the difference is known to 3ε(|p| + |q|)
-// + O(ε²), ε = 2⁻⁵³; 4ε covers second order.
+// filter decides most cases: each factor and each product is rounded once, so the error of p − q is at most 3ε(|p| +
+// |q|) + O(ε²), ε = 2⁻⁵³; 4ε covers second order.
 bool on_a_line(const std::array<double, 3>& a, const std::array<double, 3>& b, const std::array<double, 3>& c,
                std::size_t i, std::size_t j) {
   const double p = (b[i] - a[i]) * (c[j] - a[j]), q = (b[j] - a[j]) * (c[i] - a[i]);

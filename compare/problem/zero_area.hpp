@@ -1,4 +1,4 @@
-// Decides the one geometric question of validation without rounding: do three points lie on a line?
+// Decides without rounding whether three points lie on a line, which validation needs.
 #pragma once
 
 #include "compare/problem/vector.hpp"

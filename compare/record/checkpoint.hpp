@@ -16,8 +16,8 @@ inline constexpr std::int64_t checkpoint_format_version = 3;
 
 /// The state to continue from. In runs that audit states it is an audited one.
 struct Checkpoint {
-  /// step, positions, velocities, bounds, capacities; since version 2 also the exact positions and velocities of
-  /// solvers that have them; since version 3 also orientations
+  /// step, positions, velocities, bounds, capacities; since format 2 also the exact positions and velocities of solvers
+  /// that have them; since format 3 also orientations
   Snapshot state;
   std::int64_t audited_states = 0;  ///< number of states audited so far
 };

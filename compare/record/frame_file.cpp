@@ -22,7 +22,7 @@ std::int64_t checksum(const Frame& frame) {
   };
   add(frame.positions), add(frame.velocities), add(frame.bounds);
   add(std::array{frame.step}), add(std::array{frame.time});
-  // for a null pointer zlib would start a new sum
+  // zlib's crc32 restarts the sum if it gets a null pointer
   if (!frame.orientations.empty()) add(as_floats(frame.orientations));
   return sum;
 }

@@ -37,8 +37,8 @@ std::optional<std::int64_t> frame_step_of(const std::string& name) {
   return parsed.ec == std::errc{} && parsed.ptr == end ? std::optional(step) : std::nullopt;
 }
 
-/// Returns the length of a table up to the last whole row of step `step`, its header included. A row begins with the
-/// number of its step.
+/// Returns the number of bytes of a table up to the last whole row whose step is at most `step`, header included. A row
+/// begins with the number of its step.
 std::size_t length_until(const fs::path& table, std::int64_t step) {
   const std::string text = read_bytes(table);
   std::size_t kept = text.find('\n') + 1;
@@ -152,7 +152,7 @@ RunWriter::RunWriter(fs::path folder, const Scene& scene, std::int64_t step, con
   if (fs::exists(folder_ / "iterations.csv"))
     iterations_.emplace(folder_ / "iterations.csv", length_until(folder_ / "iterations.csv", step));
   remove_partial_frames(folder_);
-  fs::remove(folder_ / "trajectory.vtkhdf");  // it ends at the state where the run was cut off
+  fs::remove(folder_ / "trajectory.vtkhdf");  // the old trajectory ends at the state at which the run was stopped
   for (const auto& [stored, path] : list_frames(folder_))
     if (stored <= step) written_step_ = stored;
   Provenance& provenance = manifest_.provenance;
@@ -190,7 +190,8 @@ void RunWriter::add_frame(Frame frame) {
   };
   const auto work = std::make_shared<Work>(Work{std::move(frame), {}});
   const std::size_t bytes = 2 * (count * (2 * sizeof(Vec3f) + sizeof(float)) +
-                                 work->frame.orientations.size() * sizeof(Quaternion));  // twice: plain and packed
+                                 // frames need memory twice: plain and packed
+                                 work->frame.orientations.size() * sizeof(Quaternion));
   queue_.add(
       bytes, [work] { work->packed = pack(std::exchange(work->frame, {})); },
       [this, work] { write_frame(work->packed); });
@@ -263,7 +264,7 @@ void RunWriter::finish(const std::string& status) {
 }
 
 void RunWriter::give_up(const std::string& status) {
-  // Report the error that made the caller give up, not a later one.
+  // The error that made the caller give up is reported, so later errors are ignored.
   try {
     queue_.drain();
   } catch (const std::exception&) {}

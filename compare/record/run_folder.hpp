@@ -1,6 +1,6 @@
 // Writes and reads run folders: run.json, steps.csv, frames/, trajectory.vtkhdf.
 //
-//   run.json            written last when a run begins, and again when it ends; its "status" tells which
+//   run.json            written last when a run begins, and again when it ends, with its "status"
 //   scene/NAME.json     the scene, with its meshes beside it (compare/files/scenes/scene_files.hpp)
 //   steps.csv           compare/record/steps_csv.hpp
 //   frames/frame_000025.h5   the state after step 25 (compare/record/frame_file.hpp)
@@ -13,14 +13,13 @@
 //   - A file under its final name is complete, however the program or the machine ends: it is written under another
 //     name, synced, then renamed. steps.csv grows by lines; readers ignore an incomplete last line.
 //   - At most a second after a write, and at the end, one call syncs everything that was written; then frames get their
-//     names. So a power cut loses the last second, and more only if the disk is too slow.
-//   - kill -9 loses no frame that `written()` counts. Rows are in the file when add_steps returns, so kill -9 does not
-//     lose them.
+//     final names. So a power cut loses the last second, and more only if the disk is too slow.
+//   - kill -9 loses no frame that `written()` counts, and no row that add_steps has returned from adding.
 //   - A checkpoint is written after all frames and rows up to its step are synced, so a run continued from it has them.
-//   - At most 64 frames and checkpoints, or 256 MiB of them, wait or are in progress; beyond that add_frame and save
+//   - At most 64 frames and checkpoints, or 256 MiB of them, wait or are being written; beyond that add_frame and save
 //     wait.
-//   - The next call throws a failure of another thread (a full disk); everything written until then is kept.
-//   - A killed run leaves a useless growing trajectory; a continued run makes it again from the frames.
+//   - If another thread fails (a full disk), the next call throws that error; everything written until then is kept.
+//   - A killed run leaves a growing trajectory that is not used; a continued run makes it again from the frames.
 #pragma once
 
 #include <atomic>
@@ -49,15 +48,16 @@ void expect_new_run_folder(const std::filesystem::path& folder);
 /// Writes a run. Throws ResourceError with the path if the disk is full or not writable.
 class RunWriter {
  public:
-  /// Creates the folder and all files that a run has before its first step; status "running". An empty `started` is set
-  /// to now. steps.csv gets a column for each stage name (none for a run without profile), and more columns for the
-  /// extra entries "ledger", if it is "yes", and "meetings". Throws InputError if the folder already contains a run, or
-  /// files that a run would overwrite.
+  /// Creates the folder and all files that a run has before its first step, with status "running". If `started` is
+  /// empty, it is set to now. steps.csv gets a column for each stage name (none for a run without profile). It also
+  /// gets the columns of a ledger if Provenance::extra has "ledger" with the value "yes", and the column of meetings if
+  /// Provenance::extra has "meetings". Throws InputError if the folder already contains a run, or files that a run
+  /// would overwrite.
   RunWriter(std::filesystem::path folder, const Scene& scene, const Provenance& provenance,
             std::vector<std::string> stage_names);
-  /// Continues the run of the folder after `step` of a checkpoint. Rows of later steps are removed, since these steps
-  /// run again; status "running". run.json gets the time of the restart, with `note`. `scene` is the folder's. Throws
-  /// InputError if another process writes the run, or if it can't be read.
+  /// Continues the run of the folder after `step`, which is that of a checkpoint. Removes rows of later steps, since
+  /// these steps run again, and sets the status to "running". run.json gets the time of the restart, with `note`.
+  /// `scene` is the folder's scene. Throws InputError if another process writes the run, or if it can't be read.
   RunWriter(std::filesystem::path folder, const Scene& scene, std::int64_t step, const std::string& note);
   /// Removes the frames of steps for which `keep` is false.
   void keep_frames(const std::function<bool(std::int64_t)>& keep);
@@ -71,9 +71,9 @@ class RunWriter {
   void save(Checkpoint checkpoint);
   /// Waits until everything that was added is on the disk.
   void flush() { queue_.drain(); }
-  /// Sets an entry of Provenance::extra; the next manifest contains it, at the latest the one that finish writes.
+  /// Sets an entry of Provenance::extra. The next run.json contains it, at the latest the final one.
   void set_extra(const std::string& key, const std::string& value) { manifest_.provenance.extra[key] = value; }
-  /// Replaces Provenance::warnings; the next manifest contains them.
+  /// Replaces Provenance::warnings; the next run.json contains them.
   void set_warnings(std::vector<std::string> warnings) { manifest_.provenance.warnings = std::move(warnings); }
   /// Flushes and, if there is a frame, completes trajectory.vtkhdf. Nothing may be added afterwards.
   void close();

@@ -82,7 +82,7 @@ struct LedgerColumn {
   double& (*of)(StepLedger& row);
 };
 
-/// Columns of runs with a ledger, after all others.
+/// Columns of runs with a ledger, which come after all others.
 constexpr std::array<LedgerColumn, 25> ledger_columns{{
     {"energy_start", "J", [](StepLedger& l) -> double& { return l.energy_start; }},
     {"energy_guess", "J", [](StepLedger& l) -> double& { return l.energy_guess; }},

@@ -38,9 +38,9 @@ struct StepGroups {
 /// Returns the header line; stages become "stage_NAME [ms]".
 std::string step_header(std::span<const std::string> stage_names, const StepGroups& groups = {});
 
-/// Returns one line for each row. Numbers read back as the same double; "nan" stands for a quantity that was not
-/// requested, also in the columns of stages and of a ledger that a row lacks. Throws std::invalid_argument if a row has
-/// times for another number of stages.
+/// Returns one line for each row. Numbers read back as the same double. "nan" means that a quantity was not requested,
+/// or that the row lacks times of stages or a ledger. Throws std::invalid_argument if a row has times for another
+/// number of stages.
 std::string step_lines(std::span<const StepMetrics> rows, std::size_t stage_count, const StepGroups& groups = {});
 
 /// The contents of steps.csv so far.

@@ -48,7 +48,7 @@ void write_static_part(Hdf5File& file, const Scene& scene) {
 std::size_t at_once(std::size_t count, std::size_t bytes) { return Hdf5File::largest_size(count, bytes, count); }
 
 /// Returns the largest disk space of the fixed data: bodies, two kinds of cells with connectivity and offsets, and
-/// datasets with at most one number, which need less space than HDF5's data about each of them.
+/// small datasets. A small dataset has at most one number and takes less space than HDF5's data about it.
 std::size_t static_size(const Mesh& mesh) {
   constexpr std::size_t small_datasets = 16, groups = 1 << 16;
   const std::size_t cells = mesh.triangles.size() + mesh.loose_edges.size();
@@ -84,7 +84,7 @@ TrajectoryWriter::~TrajectoryWriter() {
   std::filesystem::remove(growing_, ignored);
 }
 
-/// HDF5 1.10 crashes on a full disk, so its disk space is reserved before it writes.
+/// Reserves disk space for `more` bytes before HDF5 writes them, because HDF5 1.10 crashes on a full disk.
 void TrajectoryWriter::reserve(std::size_t more) {
   used_ += more;
   const std::size_t needed = used_ + steps_size(times_.size() + 1);

@@ -1,7 +1,7 @@
 // Writes trajectory.vtkhdf: VTKHDF 2.0, temporal PolyData. Moving data (points, velocities, bounds) are appended frame
 // by frame, and each step has an offset to its rows. Fixed data (cells, bodies) are stored once, with offset 0 for each
-// step. The chunks of a frame are copied from its own file without packing them again. If its rows end within a chunk,
-// the next frame begins with the next chunk.
+// step. A frame's chunks are copied from the frame's file without packing them again. A frame always begins with a new
+// chunk.
 #pragma once
 
 #include <cstdint>

@@ -16,10 +16,10 @@ struct ActivationIn {
   std::vector<ContactActivation> activation;               ///< by case
 };
 
-/// g [J], g' [N], g'' [N/m]; 0 for d ≥ r. At d = τ = r/2 the quadratic stage holds.
+/// g [J], g' [N], g'' [N/m]; 0 for d ≥ r. At d = τ = r/2 the quadratic branch holds.
 ///
-/// - `ogc`: k_c/2 (r − d)² from τ on; below τ, k' (ln τ − ln d) + k_c/2 (r − τ)² with k' = τ k_c (r − τ)
-/// - `ogc_as_printed`: the same with k' = τ k_c (τ − r)², numbers in metres, so that g' jumps at τ
+/// - `ogc`: k_c/2 (r − d)² for d ≥ τ; below τ, k' (ln τ − ln d) + k_c/2 (r − τ)² with k' = τ k_c (r − τ)
+/// - `ogc_as_printed`: as `ogc`, but k' = τ k_c (τ − r)² with lengths in metres, so that g' jumps at τ
 /// - `quadratic`: k_c/2 (r − d)²
 /// - `ipc_log`: −k_c (d − r)² ln(d/r)
 /// - `cubic`: 2 k_c/(3r) (r − d)³
@@ -28,20 +28,20 @@ struct ActivationOut {
 };
 
 /// Values computed with multiprecision and rounded to double, and the units of their errors. A unit is the sum of the
-/// moduli of the terms of the value, but at least 2⁻¹⁰² for d < r. Then u times the unit is the smallest normal number,
-/// so that underflow near r counts little.
+/// moduli of the terms of the value, but at least 2⁻¹⁰² for d < r: underflow near r, of 2⁻¹²⁶, then counts as one
+/// rounding.
 struct ActivationTruth {
   std::vector<double> energy, slope, curvature;
   std::vector<double> energy_scale, slope_scale, curvature_scale;  ///< units of their errors
 };
 
-/// Largest error in units of u · scale; the numbers in parentheses count roundings.
+/// Largest error in units of u · scale, u = 2⁻²⁴. Each item is an operation with its number of rounding errors:
 ///
-/// - Quadratic stage: r − d (1), square (2), k_c/2 (1).
-/// - Logarithmic stage: r − τ (1), k'_c (2), log (library, 2 ulp), product and sum (2), b (4).
-/// - Cubic: 2k_c/(3r) (2), three depths (3 + 3).
-/// - `ipc_log`: the depth, twice (2), ln(r/d) from the depth (three roundings of a quotient, two of a polynomial), its
-///   products (4); g'' has the sum with (d − r)/d (2 + 2) and its square (1) in place of the second depth.
+/// - Quadratic branch: r − d (1), its square (2), k_c/2 (1).
+/// - Logarithmic branch: r − τ (1), k' (2), logarithm (library, 2), product and sum (2), constant term (4).
+/// - `cubic`: 2k_c/(3r) (2), three factors r − d (3), their products (3).
+/// - `ipc_log`: r − d, twice (2), ln(r/d) from r − d (three in a quotient, two in a polynomial), its products (4). In
+///   g'' the sum with (d − r)/d (2 + 2) and its square (1) replace the second r − d.
 inline constexpr double activation_tolerance = 12;
 
 }  // namespace ogc::compare

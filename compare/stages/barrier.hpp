@@ -29,16 +29,19 @@ struct BarrierOut {
   std::vector<float> energy, slope, curvature;  ///< by case [m⁴], [m²], [1]
 };
 
-/// Values in double, and the units of their errors. A unit is the sum of the moduli of the terms of the value and of
-/// the changes that relative changes of D, ξ² and H cause. It is at least 2⁻¹⁰² for g < H, as in stage activation.
+/// Values in double, and the units of their errors. A unit is the sum of the moduli of the value's terms, of
+/// |∂/∂D| D, |∂/∂ξ²| ξ² and |∂/∂H| H. It is at least 2⁻¹⁰² for g < H, as in stage activation.
 struct BarrierTruth {
   std::vector<double> energy, slope, curvature;                    ///< by case
   std::vector<double> energy_scale, slope_scale, curvature_scale;  ///< units of their errors
 };
 
-/// Largest error in units of u · scale. The scale is a sum, so the largest factor of its parts counts. D and ξ²: square
-/// and difference (2), the quotient g/H (1). H: sum and product (2), the difference H − g (1). Terms: the difference g
-/// − H twice (2), its square (1), the logarithm (4), product and sum (2): 9. Second-order terms add 1.
+/// Largest error in units of u · scale, u = 2⁻²⁴. The scale is a sum, so the largest of these counts of rounding errors
+/// decides, plus 1 for second order:
+///
+/// - D and ξ²: square and difference (2), the quotient g/H (1).
+/// - H: sum and product (2), the difference H − g (1).
+/// - Terms: the difference g − H, twice (2), its square (1), the logarithm (4), product and sum (2): 9.
 inline constexpr double barrier_tolerance = 10;
 
 }  // namespace ogc::compare

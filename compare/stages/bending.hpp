@@ -36,26 +36,30 @@ struct BendingIn {
   std::vector<BendingCase> cases;  ///< independent of each other
 };
 
-/// Largest error in units of u · scale. A difference (1), a normal (a product and a difference, twice where it is
-/// squared), its square (3), the edge's length (4), a closest point on the edge (4), a quotient (2), two such products
-/// and their sum (3), the angle (4 u of at most π, against a scale of at least 1: 12), moment and force (4).
+/// Largest error of the force in units of u · scale, u = 2⁻²⁴. Rounding errors on the way from the vertices to the
+/// force:
+///
+/// - ∇θ: a difference of vertices (1), the normal and its square (6), the edge's length (4), a closest point on the
+///   edge (4), a quotient (2), two products of these and their sum (3): 20.
+/// - θ: 4 u of at most π, against a scale of at least 1 (12). Moment and force (4).
 inline constexpr double bending_force_tolerance = 36;
-/// Error of the gradient ∇θ alone: the count above without angle, moment and force.
+/// Largest error of the gradient ∇θ, as counted above.
 inline constexpr double bending_gradient = 20;
-/// The gradient's error twice, a factor (2) and an outer product (2). The scale of a block also contains the square of
-/// the gradient's error, bending_gradient · u · c (1 + k) · cond(∇θ)², which remains if ∇θ vanishes. The scale of a
-/// force contains the product of the errors of ∇θ and the moment, 16 u · cond.
+/// Largest error of the block in units of u · scale: ∇θ twice, a factor (2) and an outer product (2). The scale of a
+/// block also contains the square of the gradient's error, bending_gradient · u · c (1 + k) · cond(∇θ)², which remains
+/// if ∇θ vanishes. The scale of a force contains the product of the errors of ∇θ and of the moment, 16 u · cond.
 inline constexpr double bending_block_tolerance = 2 * bending_gradient + 4;
-/// A hinge is grey if its angle, now or at the start, is within this many units of u · scale of ±π. The answers for the
-/// angle plus and minus 2π are then accepted, too.
+/// A hinge is grey if its angle, now or at the start, is within this many units of u · scale of ±π. Then the answers
+/// for the angle plus and minus 2π are accepted as well.
 inline constexpr double bending_grey = 16;
 /// A triangle may count as collapsed if, at either end of the edge, the sine between the edge and a side is below this
-/// many u. The normal of rounded differences has an error of 4 u. A kernel that requires a sine of eight times this
-/// error changes over at 32 u, within that error; twice 32 u leaves it room.
+/// times u. The normal of rounded differences has an error of 4 u. A kernel may treat sines below eight times this
+/// error, 32 u, as 0. Twice 32 u also covers the rounding of its test.
 inline constexpr double bending_needle = 64;
-/// Errors of the isometric quadratic model without damping; its scales are multiplied by the ratio to the tolerances
-/// above. Force: a difference (1), a product (1), two sums, the weight of x0 (2), c w (1), the product (1). Block: the
-/// weight of x0 twice (4), a square, c.
+/// Largest errors of the isometric quadratic model without damping, in units of u · scale. (Its scales are multiplied
+/// by the ratio of these to the tolerances above, which the judge applies.) Rounding errors of the force: a difference
+/// (1), a product (1), two sums (2), the weight of x0 (2), c w (1), the product (1). Of the block: the weight of x0
+/// twice (4), a square (1), c (1).
 inline constexpr double isometric_force_tolerance = 8;
 inline constexpr double isometric_block_tolerance = 6;
 

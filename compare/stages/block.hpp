@@ -9,12 +9,13 @@
 
 namespace ogc::compare {
 
-/// Names a face a of the mesh and a point x: is x in U_a, whatever its distance? The distance is a separate decision (d
-/// < r, Alg. 1 line 7).
+/// One case: does the point x lie in the block U_a of face a, at whatever distance from a? Whether x is near enough, d
+/// < r (Alg. 1 line 7), is not part of this stage.
 struct BlockQuestion {
-  /// The kind of x, and the manifold of the blocks.
+  /// What x is, and the manifold that is divided into blocks.
   enum class Kind : std::uint8_t {
-    /// x is vertex `of`. U_a is that of Eq. 8, 9 or 10 for a vertex, edge (also between its end planes) or triangle.
+    /// x is vertex `of`. U_a is the block of Eq. 8 for a vertex, of Eq. 9 for an edge, including its end planes, and of
+    /// Eq. 10 for a triangle.
     vertex_in_surface,
     /// x is the point of edge `of` closest to a. U_a is that of Eq. 14 or 15 for an edge or vertex of the edge-only
     /// manifold. x is unique unless both are parallel edges, so nearly parallel edges (‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖²) are
@@ -40,8 +41,8 @@ struct BlockOut {
   std::vector<std::uint8_t> inside;  ///< by question; boundaries are open or closed as the paper prints them
 };
 
-/// grey: a deciding margin lies in its grey zone, so either answer is accepted. For edge_in_edges the margins that
-/// decide which point of `of` is closest count, too.
+/// The exact answers. An answer is grey, and either value accepted, if a margin that decides it lies in its grey zone.
+/// For edge_in_edges the margins that decide which point of edge `of` is closest count as well.
 struct BlockTruth {
   std::vector<std::uint8_t> inside, grey;  ///< exact; 1 where either answer is accepted
   std::vector<std::uint8_t> near;          ///< 1 where a margin lies within near_factor

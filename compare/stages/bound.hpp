@@ -28,8 +28,9 @@ struct BoundTruth {
   BoundOut exact;  ///< rounded down
 };
 
-/// Largest shortfall in units of u · b; any excess is an error. One product, rounded down (2 u), in a kernel that may
-/// round to nearest and then step down once more.
+/// Largest amount by which a right bound may be too small, in units of u · b, u = 2⁻²⁴. A bound that is too large is
+/// always wrong. A product rounded down errs by 2 u, and a kernel may round to nearest and then step down once more (2
+/// u).
 inline constexpr double bound_below_tolerance = 4;
 
 }  // namespace ogc::compare

@@ -37,7 +37,7 @@ struct CcdTruth {
   /// do
   std::vector<double> impact;
   /// a time until which the faces stay farther apart than ccd_gap_left of their first distance plus ccd_resolution · u
-  /// S; ccd_fewest_steps of conservative advancement find it
+  /// S; conservative advancement of at most ccd_fewest_steps steps finds it
   std::vector<double> early;
 };
 
@@ -52,8 +52,8 @@ inline constexpr double ccd_gap_left = 0.1;
 /// A contestant may stop after this many steps. Only turning faces that are a million times as large as their gap need
 /// more.
 inline constexpr int ccd_fewest_steps = 1000;
-/// A contestant may treat distances below this times u S as 0. S is the largest coordinate relative to vertex 0 at the
-/// start plus the largest displacement relative to the mean displacement. The grey zone has the same factor
+/// A contestant may treat distances below this times u S as 0, u = 2⁻²⁴. S is the largest coordinate relative to vertex
+/// 0 at the start plus the largest displacement relative to the mean displacement. The grey zone has the same factor
 /// (compare/stages/numbers.hpp).
 inline constexpr double ccd_resolution = 16;
 

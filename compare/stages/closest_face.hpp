@@ -25,7 +25,7 @@ struct ClosestFaceOut {
   /// if features are equally near: the lower-dimensional one
   std::vector<TriangleFeature> feature;
   std::vector<std::array<float, 3>> weights;  ///< barycentric weights of the closest point, ≥ 0
-  std::vector<float> distance;                ///< [m], nearest
+  std::vector<float> distance;                ///< [m], rounded to nearest
   std::vector<float> distance_below;          ///< [m], never above the exact distance
 };
 
@@ -42,21 +42,22 @@ struct ClosestFaceTruth {
   std::vector<double> weight_condition;
 };
 
-/// Largest error accepted in `distance`, in units of u · distance. A kernel forms differences, a closest point, another
-/// difference and a norm: 3 + 4 + 1 + 4 roundings, half of them systematic. A difference is exact to u if its
-/// coordinates are of similar size. Differences of the given coordinates are amplified by Σ|δ|/distance, so the judge
-/// multiplies by max(1, Σ|δ|/distance).
+/// Largest error accepted in `distance`, in units of u · distance, u = 2⁻²⁴. Rounding errors: a difference, a closest
+/// point, another difference and a norm, 3 + 4 + 1 + 4, half of them systematic. This holds for differences of
+/// coordinates of similar size. Otherwise errors are amplified by Σ|δ|/distance, where δ are the coordinates relative
+/// to the first corner, so the judge multiplies by max(1, Σ|δ|/distance).
 inline constexpr double closest_face_distance_tolerance = 12;
 /// Largest error accepted in a weight, in units of u · weight_condition, by the same count.
 inline constexpr double closest_face_weight_tolerance = 12;
-/// Largest shortfall accepted in `distance_below`, in units of u · max(distance, Σ|δ|): a smaller bound is valid but
-/// too loose to be useful.
+/// Largest amount by which `distance_below` may be below the exact distance, in units of u · max(distance, Σ|δ|), u =
+/// 2⁻²⁴. A smaller bound is valid, but too loose to be useful.
 ///
-/// No kernel knows the plane of a needle well. Let ρ be the relative rounding error, n the normal, L the length of the
-/// sides, S = ‖p − a‖ + ‖b − a‖ + ‖c − a‖ ≤ 3 Σ|δ|. The normal's error moves the distance by ρ S L²/‖n‖; replacing the
-/// needle by its edges moves it by its height ‖n‖/L. A change from one to the other at ‖n‖ = √ρ L² costs √ρ S either
-/// way. With 2⁷ roundings in double √ρ = 2⁻²³ = 2 u. A slack as large as the error puts the bound 2 √ρ S = 12 u Σ|δ|
-/// below the distance; twice that leaves room for the kernel.
+/// In a needle (a triangle of small height) rounding moves the plane. Let ρ be the relative rounding error, n the
+/// normal, L the length of the sides, S = ‖p − a‖ + ‖b − a‖ + ‖c − a‖ ≤ 3 Σ|δ|. The normal's error changes the distance
+/// by ρ S L²/‖n‖. If a kernel uses the needle's edges instead of its plane, the distance changes by the height ‖n‖/L. A
+/// kernel that uses edges below ‖n‖ = √ρ L² errs by √ρ S either way. With 2⁷ rounding errors in double √ρ = 2⁻²³ = 2 u.
+/// If the kernel subtracts this error, its bound is up to 2 √ρ S = 12 u Σ|δ| below the distance. The tolerance is twice
+/// that.
 inline constexpr double closest_face_below_tolerance = 24;
 
 }  // namespace ogc::compare

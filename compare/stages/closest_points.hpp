@@ -40,13 +40,14 @@ struct ClosestPointsTruth {
   std::vector<double> parameter_condition;         ///< defined as weight_condition of closest_face
 };
 
-/// Largest errors, in the units of closest_face. The determinant of the interior–interior solution has two more
+/// Largest errors, in the units of closest_face. The determinant of the solution for two interior points has two more
 /// products.
 inline constexpr double closest_points_distance_tolerance = 16;
 inline constexpr double closest_points_parameter_tolerance = 16;
-/// Derived like closest_face_below_tolerance. For nearly parallel edges at an angle θ the normal costs ρ S/θ, S ≤ 2
-/// Σ|δ|, and the ends cost θ ‖e‖. With 2⁸ roundings in double √ρ = 2.9 u at the best change-over, and 2 √ρ S = 12 u
-/// Σ|δ|. Twice that leaves room for the kernel, and a third more for the two products.
+/// Largest amount by which `distance_below` may be too small, derived as closest_face_below_tolerance. For nearly
+/// parallel edges at an angle θ an error of the normal costs ρ S/θ, S ≤ 2 Σ|δ|; using the ends instead costs θ ‖e‖.
+/// With 2⁸ rounding errors in double √ρ = 2.9 u at the best θ, and 2 √ρ S = 12 u Σ|δ|. The tolerance is twice that, and
+/// a third more for the two products.
 inline constexpr double closest_points_below_tolerance = 32;
 
 }  // namespace ogc::compare

@@ -21,12 +21,14 @@ constexpr std::int32_t vertex_count(ContactSides sides) {
   return sides == ContactSides::point_point ? 2 : sides == ContactSides::point_edge ? 3 : 4;
 }
 
-/// E = e_k g(d). g is the case's activation (compare/stages/activation.hpp). d is the distance of the contact points:
-/// the closest points of the closed faces or, for nearly parallel edges, those that closest_points defines. The force
-/// on a vertex with weight w is −e_k g'(d) w n. The block is e_k g''(d) |w| Σ |w_u| n nᵀ over the vertices u that are
-/// updated together with the vertex, itself included; mostly this is w² (method.md §4.2, §7.4). Slope and curvature are
-/// taken at d, clamped to 2⁻²³ r … r: beyond r there is no force, and the block is that at r (k_c with `ogc`). At d =
-/// 0, which the bounds exclude, there is no normal, and both are 0.
+/// E = e_k g(d). g is the case's activation (compare/stages/activation.hpp). d is the distance of the contact points.
+/// These are the closest points of the closed faces or, for nearly parallel edges, the points that closest_points
+/// defines.
+///
+/// The force on a vertex with weight w is −e_k g'(d) w n. The block is e_k g''(d) |w| Σ |w_u| n nᵀ over all vertices u
+/// that are updated together with the vertex, the vertex itself included. If it is updated alone, this is e_k g''(d) w²
+/// n nᵀ (method.md §4.2, §7.4). Slope and curvature are taken at d, clamped to 2⁻²³ r … r. Beyond r the force is 0, and
+/// the block is that at r (k_c with `ogc`). At d = 0, which the bounds exclude, n is undefined, and both are 0.
 ///
 /// e_k = q(2 − q), q = c/ε for c < ε, else 1, with c = ‖e × e'‖² at the last detection and ε = 10⁻³ ‖ē‖²‖ē'‖². e_k = 1
 /// for other sides and if a rest length is 0. Exception: if both rest lengths are 0 and the edges were nearly parallel
@@ -54,24 +56,25 @@ struct ContactForceIn {
   std::vector<ContactForceCase> cases;  ///< independent of each other
 };
 
-/// Largest error in units of u · scale. The numbers count roundings on the longest way from an input to the force; the
-/// largest sum decides.
+/// Largest error of the force in units of u · scale, u = 2⁻²⁴. Rounding errors on the longest way from an input to the
+/// force; the largest sum decides:
 ///
-/// - Force: a difference (1); the first parameter of two edges: two cross products (4), their product (3) over a square
-///   (2 + 3), a quotient (1); the second parameter: two products of vectors (6), a product, a difference, a quotient
-///   (3), the other square (3); its complement (1); the vector between the contact points: a product, two sums (3); its
-///   length (3 + 1); the normal (2); the slope (4; of ipc_log 9); its products with weight and normal (2): 47.
+/// - Force: a difference (1); the first edge's parameter: two cross products (4), their scalar product (3), the square
+///   in its denominator (2 + 3), a quotient (1); the second edge's parameter: two scalar products (6), a product, a
+///   difference, a quotient (3), the square in its denominator (3); one minus a parameter (1); the vector between the
+///   contact points: a product, two sums (3); its length (3 + 1); n (2): 36 up to here. g' (4; of ipc_log 9); its
+///   products with w and n (2): 47.
 /// - e_k: a difference, a cross product, twice (4), squares (3), ε (3), a quotient, q(2 − q), its product with k_c: 15.
-/// - e_k as a share of the overlap: a difference, two products of vectors (6), a quotient for each end, their
-///   difference, the root of a quotient of squares (6 / 2 + 2), two products: 16.
+/// - e_k as a share of the overlap: a difference, two scalar products (6), a quotient for each end, their difference,
+///   the root of a quotient of squares (6 / 2 + 2), two products: 16.
 inline constexpr double contact_force_tolerance = 47;
-/// Up to the normal 36, the curvature (5; of ipc_log 8), Σ |w_u| of four (3), its products with |w| and the curvature
-/// (2), an outer product (2).
+/// Largest error of the block in units of u · scale. Rounding errors: n (36, as above), g'' (5; of ipc_log 8), Σ |w_u|
+/// of four vertices (3), its products with |w| and g'' (2), an outer product (2).
 inline constexpr double contact_block_tolerance = 51;
-/// A distance is known to this many units of u · scale: a difference (1), a product and two sums (3), squares (3), a
-/// root (1), twice for weights that are not quite those of the closest points. A contact is grey if it is within this
-/// of another feature, of touching or, with ogc_as_printed, of the jump at τ. If it cannot be told from touching,
-/// neither distance nor normal is known, and any answer up to that at d = 2⁻²³ r is accepted.
+/// Largest error of a distance in units of u · scale. Rounding errors: a difference (1), a product and two sums (3),
+/// squares (3), a root (1); twice that, since the weights are not quite those of the closest points. A contact is grey
+/// if its distance is within this error of another feature, of touching or, with ogc_as_printed, of the jump at τ. If
+/// it cannot be told from touching, n is unknown as well, and any answer up to that at d = 2⁻²³ r is accepted.
 inline constexpr double contact_grey = 16;
 
 }  // namespace ogc::compare

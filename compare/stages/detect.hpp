@@ -1,4 +1,5 @@
-// Defines what detect_vertex_facet and detect_edge_edge share: their input and the form of grey decisions.
+// Defines what detect_vertex_facet and detect_edge_edge share: their input, and how their truths describe grey
+// decisions.
 #pragma once
 
 #include <span>
@@ -25,8 +26,8 @@ struct GreyDecision {
   bool absence_accepted = false;  ///< whether an answer may contain none of them
 };
 
-/// Largest shortfall accepted in a smallest distance, in units of u · max(d, Σ|δ|): the larger of the tolerances of
-/// distance_below in the stages closest_face and closest_points.
+/// Largest amount by which a smallest distance may be too small, in units of u · max(d, Σ|δ|), u = 2⁻²⁴: the larger of
+/// the tolerances of distance_below in the stages closest_face and closest_points.
 inline constexpr double detect_below_tolerance = 32;
 
 }  // namespace ogc::compare

@@ -33,7 +33,7 @@ struct DetectEdgeEdgeTruth {
   DetectEdgeEdgeOut exact;                          ///< in canonical order, distances rounded down
   std::vector<GreyDecision<EdgeEdgeContact>> grey;  ///< all grey decisions
   std::size_t pairs = 0;                            ///< decided pairs
-  std::size_t near = 0;                             ///< edges of which a decision lies within near_factor
+  std::size_t near = 0;                             ///< number of edges with a decision within near_factor
 };
 
 }  // namespace ogc::compare

@@ -29,7 +29,7 @@ struct DetectVertexFacetTruth {
   DetectVertexFacetOut exact;                          ///< in canonical order, distances rounded down
   std::vector<GreyDecision<VertexFacetContact>> grey;  ///< all grey decisions
   std::size_t pairs = 0;  ///< candidate pairs within r_q, the denominator of the grey share
-  std::size_t near = 0;   ///< vertices of which a decision lies within near_factor
+  std::size_t near = 0;   ///< number of vertices with a decision within near_factor
 };
 
 }  // namespace ogc::compare

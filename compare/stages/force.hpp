@@ -1,7 +1,10 @@
-// Defines what the stages of energies share; each returns force and block of one vertex of a stencil. Lengths are 0 or
-// at least 2⁻⁵⁰ m. Exceptions: 2⁻³⁰ m for bending, whose fourth power is a normal number; 2⁻⁶³ m for springs and
-// contacts, but the longest distance of four vertices that meet is at least 2⁻³⁰ m. The reference returns the energy's
-// derivative and the block of method.md §4.
+// Defines the answers of the stages of energies. Each of these stages returns force and block of one vertex of a
+// stencil. The reference returns the derivative of the energy and the block of method.md §4.
+//
+// Lengths are 0 or at least 2⁻⁵⁰ m, with these exceptions:
+//
+// - bending: 2⁻³⁰ m, whose fourth power is a normal number
+// - springs and contacts: 2⁻⁶³ m, but the longest distance of the four vertices of a contact is at least 2⁻³⁰ m
 #pragma once
 
 #include <array>
@@ -29,14 +32,14 @@ struct ForceAnswer {
   double force_scale = 0, block_scale = 0;  ///< units of their errors [N], [N/m]
 };
 
-/// Roundings that `per_vertex` damping adds to those of the block: the motion (1), the product of matrix and vector (3)
-/// and a sum (1).
+/// Rounding errors that `per_vertex` damping adds to those of the block: the motion (1), the product of matrix and
+/// vector (3) and a sum (1).
 inline constexpr double per_vertex_additions = 5;
 
-/// accepted[i][0] is the exact answer of case i; a grey case has more: answers on the other side of a jump. near[i] is
-/// 1 if a decision of case i lies within near_factor. contact_force and friction_force decide the features of the
-/// closest points, d = r, and d = τ of an activation with two stages. Decisions of other energies do not show in their
-/// answers.
+/// accepted[i][0] is the exact answer of case i. A grey case has more, the answers on the other side of a jump. near[i]
+/// is 1 if a decision of case i lies within near_factor. Decisions are the features of the closest points, whether d <
+/// r, on which side of τ an activation with two branches is, and whether a slip is below its limit. For energies
+/// without contacts near[i] is 0.
 struct ForceTruth {
   std::vector<std::vector<ForceAnswer>> accepted;  ///< by case, the exact one first
   std::vector<std::uint8_t> near;                  ///< by case

@@ -21,12 +21,12 @@ struct FrictionForceIn {
   std::vector<FrictionForceCase> cases;  ///< independent of each other
 };
 
-/// Largest error in units of u · scale. Up to the normal (contact_force) 36; the slip (a product of vectors (3), a
-/// product, a difference), its length (4), f₁/y (a quotient, a difference, a quotient), the strength (2), its products
-/// with weight and slip (2): 52.
+/// Largest error of the force in units of u · scale, u = 2⁻²⁴. Rounding errors: n (36, see contact_force), the slip u
+/// (a scalar product (3), a product, a difference), its length (4), f₁/‖u‖ (a quotient, a difference, a quotient), its
+/// products with λ and μ (2), then with weight and slip (2): 52.
 inline constexpr double friction_force_tolerance = 52;
-/// Up to the strength 50; Σ |w_u| (3), its products with |w| and the strength (2), an outer product (2), the difference
-/// from I (1).
+/// Largest error of the block. Rounding errors: μ λ f₁/‖u‖ (50, as above), Σ |w_u| (3), the products with |w| and μ λ
+/// f₁/‖u‖ (2), an outer product (2), the difference from I (1).
 inline constexpr double friction_block_tolerance = 58;
 
 }  // namespace ogc::compare

@@ -42,24 +42,24 @@ struct InitialGuessOut {
   std::vector<Quaternion> orientation{};  ///< by turn
 };
 
-/// The exact y with the sum of the moduli of its terms in each coordinate. The judge gets position and cut of the
-/// answer's y from stage truncate.
+/// The exact y with the sum of the moduli of its terms in each coordinate. The judge checks position and cut with stage
+/// truncate, from the answer's own y.
 struct InitialGuessTruth {
   std::vector<Vec3> target;          ///< exact y [m]
   std::vector<double> target_scale;  ///< largest over the coordinates of |xᵗ| + h |vᵗ| + h² |a| [m]
   std::vector<std::array<double, 4>> orientation{};  ///< exact; its sign is that of the product with q
-  /// 1/cos(θ/2), θ between Dᵗ and D: the factor of an error of their directions. Infinite where any unit quaternion is
-  /// accepted, since an error of half a radian or more is within the tolerance
+  /// 1/cos(θ/2), θ between Dᵗ and D: the factor by which an error of their directions grows. Infinite where any unit
+  /// quaternion is accepted, since an error of half a radian or more is within the tolerance
   std::vector<double> orientation_scale{};
 };
 
-/// Largest error of y's coordinates in units of u · target_scale. The term h² a is rounded four times (h a, the sum
-/// with vᵗ, the product with h, the sum with xᵗ), h vᵗ three times, xᵗ once.
+/// Largest error of y's coordinates in units of u · target_scale, u = 2⁻²⁴. The term h² a is rounded four times (h a,
+/// the sum with vᵗ, the product with h, the sum with xᵗ), h vᵗ three times, xᵗ once.
 inline constexpr double initial_guess_target_tolerance = 4;
-/// Largest error of a turned frame in units of u · orientation_scale. A direction's length is off by 5 u (a dot, a
-/// root, a quotient), its components by 1. (a × b, 1 + a·b) has the length 2 cos θ/2. It is off by twice the lengths
-/// (10) and its own roundings (a cross product 2, a dot and a sum 4): 16, half of which counts. A product of
-/// quaternions adds 8, and two normalisations 4 each.
+/// Largest error of a turned frame in units of u · orientation_scale. Let a and b be the directions of Dᵗ and D. Their
+/// lengths are off by 5 u (a scalar product, a root, a quotient), their components by 1 u. The quaternion (a × b, 1 +
+/// a·b) is off by both lengths (10) and its own rounding errors (cross product 2, scalar product and sum 4): 16. Half
+/// of this counts, because its length is 2 cos(θ/2). A product of quaternions adds 8, and two normalisations 4 each.
 inline constexpr double initial_guess_turn_tolerance = 24;
 
 }  // namespace ogc::compare

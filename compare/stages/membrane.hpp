@@ -15,10 +15,13 @@ namespace ogc::compare {
 /// E = A (ψ + k ϕ(G − Gᵗ)). St. Venant–Kirchhoff: ψ = ϕ(G). Stable Neo-Hookean: ψ = μ/2 (‖F‖² − 2) − μ (J − 1) + (λ +
 /// μ)/2 (J − 1)², J = ‖f₁ × f₂‖.
 ///
-/// Block. Damping: A k times the second derivative of ϕ along the derivatives of G. St. Venant–Kirchhoff: the same with
-/// A for A k, plus A max(0, ∇N₀ᵀ S ∇N₀) I with the elastic stress S. Stable Neo-Hookean: the exact second derivative, A
-/// (μ b² I + (λ + μ) g gᵀ + ((λ + μ)(J − 1) − μ) b⊥² /J n nᵀ) with b = ‖∇N₀‖, t = b₁ f₂ − b₂ f₁, b⊥ = ‖t‖, g = ∂J/∂x₀ =
-/// t × n, n = f₁ × f₂/J. Only its eigenvalue along n can be negative; max(0, ·) replaces that eigenvalue.
+/// Block, as a sum of parts:
+///
+/// - Damping: A k times the second derivative of ϕ along the derivatives of G.
+/// - St. Venant–Kirchhoff: the same with A for A k, plus A max(0, ∇N₀ᵀ S ∇N₀) I with the elastic stress S.
+/// - Stable Neo-Hookean: the exact second derivative, A (μ b² I + (λ + μ) g gᵀ + ((λ + μ)(J − 1) − μ) b⊥² /J n nᵀ) with
+///   b = ‖∇N₀‖, t = b₁ f₂ − b₂ f₁, b⊥ = ‖t‖, g = ∂J/∂x₀ = t × n, n = f₁ × f₂/J. Only its eigenvalue along n can be
+///   negative; then that eigenvalue is replaced by 0.
 ///
 /// With `per_vertex` damping the energy is A ψ alone. Let B be its block and moved = x₀ − xᵗ₀: k B moved is subtracted
 /// from the force, and the block is (1 + k) B.
@@ -41,22 +44,27 @@ struct MembraneIn {
   std::vector<MembraneCase> cases;  ///< independent of each other
 };
 
-/// Largest error in units of u · scale. On the longest way from an input to the force lie a difference (1), F (a
-/// product and a sum), G (a product, two sums, minus one; F enters twice: 3 more), a change of strain (1), a stress (a
-/// trace, a product, a sum), its damping (2), its product with ∇N₀ (1 + 2) and with F (2 + 3), the area (1): 24.
+/// Largest error of the force in units of u · scale, u = 2⁻²⁴. Rounding errors on the longest way from an input to the
+/// force: a difference (1), F (a product and a sum), G (a product, two sums, minus one; F enters twice: 3 more), a
+/// change of strain (1), a stress (a trace, a product, a sum), its damping (2), its product with ∇N₀ (1 + 2) and with F
+/// (2 + 3), the area (1): 24.
 inline constexpr double membrane_force_tolerance = 24;
-/// F (3), twice; with ∇N₀ (1 + 2), twice; an outer product (2), a weight (3), three sums.
+/// Largest error of the block. Rounding errors: F (3), twice; its products with ∇N₀ (1 + 2), twice; an outer product
+/// (2), a factor (3), three sums.
 inline constexpr double membrane_block_tolerance = 20;
-/// Errors of the stable Neo-Hookean model; its scales are multiplied by the ratio to the tolerances above. The normal
-/// of two edges (two differences, a product, a difference: 4), its length (2 · 4 + 3 halved by the root, the root: 7),
-/// the density ∇N₁ × ∇N₂ (2), J (10), (λ + μ)(J − 1) − μ (4). Beside it g: the third edge (2), n (4 + 8 + 1), a cross
-/// product (2), the density (3). The product of both (1), two sums, the area (1): 38.
+/// Largest error of the force of the stable Neo-Hookean model. (Its scales are multiplied by the ratio of this to the
+/// tolerance above, which the judge applies.) Rounding errors, 38 in all:
+///
+/// - (λ + μ)(J − 1) − μ: the normal of two edges (two differences, a product, a difference: 4), its length (2 · 4 + 3
+///   halved by the root, the root: 7), the density ∇N₁ × ∇N₂ (2), J (10 with these), the rest (4): 14.
+/// - g: the third edge (2), n (4 + 8 + 1), a cross product (2), the density (3): 20.
+/// - the product of both (1), two sums (2), the area (1).
 inline constexpr double neo_hookean_force_tolerance = 38;
-/// (λ + μ)(J − 1) − μ (14), ‖g‖² (2 · 20 + 3), its quotient by J and the sum (13), n twice (26), an outer product (2),
-/// area and sums (3): 101.
+/// Largest error of its block. Rounding errors: (λ + μ)(J − 1) − μ (14), ‖g‖² (2 · 20 + 3), its quotient by J and the
+/// sum (13), n twice (26), an outer product (2), area and sums (3): 101.
 inline constexpr double neo_hookean_block_tolerance = 101;
-/// f₁ × f₂, the normal times the density, is known to 7 units of u · scale. If it is at most twice this long,
-/// first-order errors are off by a tenth or more.
+/// Error of f₁ × f₂ in units of u · scale: 7 by the count above, and a reserve. If ‖f₁ × f₂‖ is at most twice this
+/// error, the triangle may count as collapsed, because first-order errors are then off by a tenth or more.
 inline constexpr double neo_hookean_grey = 16;
 
 }  // namespace ogc::compare

@@ -22,9 +22,12 @@ struct RodNeighbour {
 ///   M q = −2 k_s D q c (symmetric, M² = σ² I, σ = 2 k_s ‖D‖ ‖c‖),   b = Σ w (s t + k sᵗ tᵗ)
 /// over the neighbours. The signs s and sᵗ, 1 or −1, bring t and tᵗ nearer to the old q: s t·q ≥ 0, sᵗ tᵗ·q ≥ 0.
 ///
-/// The answer is the q that minimises −½ qᵀ M q − b·q on the unit sphere. If there are several minimisers, it is the
-/// old q if σ = 0 and b = 0, and the one nearest to the old q if only b = 0. If a part of b vanishes (the neighbours
-/// pull to a reversed director), it is any of them.
+/// The answer is the q that minimises −½ qᵀ M q − b·q on the unit sphere. If there are several minimisers, the answer
+/// is
+///
+/// - the old q if σ = 0 and b = 0,
+/// - the minimiser nearest to the old q if b = 0 and σ ≠ 0,
+/// - any minimiser if only a part of b vanishes (the neighbours pull to a reversed director).
 ///
 /// Legal: quaternions as in stage rod; lengths 0 or at least 2⁻⁵⁰ m, at most 2³⁰ l; w ≥ 2⁻⁴⁰ N m and w (1 + k) ≤ 2⁶⁰ N
 /// m, so that squares are normal numbers.
@@ -55,7 +58,7 @@ struct OrientationAnswer {
   std::array<double, 4> vector{};                 ///< b [N m]
   double energy = 0;                              ///< of q* [N m]
   /// ‖∂q/∂D‖ ‖D‖ + ‖∂q/∂c‖ (1 + k ‖Dᵗ‖/l) + ‖∂q/∂k_s‖ k_s + ‖∂q/∂b‖ Σ w (1 + k), at least 1. Infinite if errors within
-  /// the tolerance can turn one minimiser into any other; then energy and residual alone decide
+  /// the tolerance can turn one minimiser into any other; then only energy and residual are judged
   double scale = 0;
   double energy_scale = 0;  ///< 2 k_s ‖D‖ (1 + k ‖Dᵗ‖/l) + Σ w (1 + k), the unit of energy and residual [N m]
 };
@@ -67,27 +70,29 @@ struct OrientationTruth {
   std::vector<std::uint8_t> near;                        ///< by case
 };
 
-/// The error of t·q in u. A product of quaternions errs by 8 u of both lengths: four roundings of each component, whose
-/// moduli add up to 1 at most, so 4 each, and 8 for all four. t has one product, tᵗ two of them (16); the scalar
-/// product adds 4: 20.
+/// Largest error of t·q and tᵗ·q in units of u = 2⁻²⁴. A product of quaternions errs by 8 u of both lengths: each
+/// component by 4 roundings of terms whose moduli add up to at most 1, four components by 8 in norm. t is one product,
+/// tᵗ two of them (16); the scalar product adds 4: 20.
 inline constexpr double orientation_sign_grey = 20;
-/// Largest error in units of u · scale; the largest of these counts, one for each factor ∂q/∂…:
+/// Largest error in units of u · scale. Each factor ∂q/∂… of the scale has its own count of rounding errors; the
+/// largest decides:
 ///
 /// - b: tᵗ (16), its weight (2), sums (3): 21; the part of b in each eigenspace of M: two products and half a sum (17);
 ///   the answer: two quotients and a sum, its length (3 + 4): 45 in all.
-/// - c: a turn back and its difference, quotient, factor, sum (14 + 4), a length of qᵗ that is off (8), the unit vector
-///   (4): 30.
+/// - c: the turn by R(qᵗ)ᵀ of the difference Dᵗ, a quotient, a factor, a sum (14 + 4), a qᵗ that is not quite of unit
+///   length (8), the unit vector (4): 30.
 /// - D: a difference and the unit vector (5).
-/// - k_s: σ, of two lengths and three products (4 + 18 + 3).
+/// - k_s: σ, made of two lengths and three products (4 + 18 + 3).
 inline constexpr double orientation_tolerance = 45;
-/// Largest ‖(I − q qᵀ)(M q + b)‖ in units of u · energy_scale. b: 45. M: the counts above for D, c and k_s before q
-/// enters (5 + 30 + 25), and the answer's own 7 times eigenvalues that are 2 σ apart (14).
+/// Largest residual ‖(I − q qᵀ)(M q + b)‖ in units of u · energy_scale. Rounding errors: b (45); M by the counts above
+/// for D, c and k_s, without q (5 + 30 + 25); the answer's own 7 times eigenvalues that are 2 σ apart (14). The larger
+/// sum, that of M, decides.
 inline constexpr double orientation_residual_tolerance = 74;
-/// Largest excess over the least energy, in units of u · energy_scale. The excess is of second order if q is known. If
-/// b is smaller than its own error, the wrong half of the circle costs 2 · 45.
+/// Largest excess over the least energy, in units of u · energy_scale. If q is known, the excess is of second order. If
+/// b is smaller than its own error, q may lie on the wrong half of the circle of minimisers, which costs 2 · 45.
 inline constexpr double orientation_energy_tolerance = 90;
-/// Largest | ‖q‖ − 1 | in units of u: four squares and their sum (4) halved by the root, the root, a quotient;
-/// alternatively a factor (3 − ‖q‖²)/2 and a product.
+/// Largest | ‖q‖ − 1 | in units of u. Rounding errors: four squares and their sum (4) halved by the root, the root, a
+/// quotient. A factor (3 − ‖q‖²)/2 and a product cost no more.
 inline constexpr double orientation_length_tolerance = 4;
 
 }  // namespace ogc::compare

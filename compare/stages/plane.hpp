@@ -13,9 +13,9 @@
 
 namespace ogc::compare {
 
-/// Returns the input of stage truncate for a vertex with these planes and without forces but inertia; empty if there
-/// are no planes. `is_prescribed` means that the vertex does not slide. With bounds=dat no vertex slides, and `current`
-/// is X_prev.
+/// Returns the input of stage truncate for a vertex with these planes that no force but inertia acts on; empty if
+/// `planes` is empty. `is_prescribed` means that the vertex does not slide. With bounds=dat (planes of *Divide and
+/// Truncate*) no vertex slides, and `current` is X_prev.
 inline HalfSpacesIn half_spaces_of(std::span<const VertexPlane> planes, const Vec3f& current, bool is_prescribed) {
   if (planes.empty()) return {};
   HalfSpacesIn all{.offsets = {0, static_cast<Index>(planes.size())},
@@ -49,8 +49,8 @@ inline std::vector<Vec3f> displacements(std::span<const Vec3f> from, std::span<c
   return all;
 }
 
-/// Least share of 2γ_p d of each side of a pair with bounds=dat, if both sides can move. A side without room could not
-/// move back until the next detection, and rounding could put it outside of its half-space at X.
+/// Least share of 2γ_p d that each side of a pair gets with bounds=dat, if both sides can move. A side with a share of
+/// 0 could not move back until the next detection, and rounding could put it outside of its half-space at X.
 inline constexpr double least_division = 0x1p-4;
 
 /// Returns PlaneIn::is_fixed of a scene: 1 for each vertex of rigid group 0.
@@ -87,28 +87,28 @@ struct PlaneGuarantee {
   bool kept() const { return uncovered == 0 && broken == 0 && too_large == 0; }
 };
 
-/// Measures how far the vertices may still move. Planes exist to give back freedom that balls take. So a pair is *due*,
-/// and must have a plane, if two conditions hold:
+/// Measures how far the vertices may still move, since planes are used to leave vertices more freedom than balls do. A
+/// pair is *due*, that is, it must have a plane, if two conditions hold:
 ///
 /// - For each of its movable vertices, it is nearer than the vertex's 17th nearest pair by more than
 ///   `detect_below_tolerance`, since rounding may decide which pair is the 17th.
 /// - Single precision can represent its plane: d ≥ 2⁻¹⁸ Σ|δ|, and γ_p d and (1 − 2γ_p) d are at least 2⁻⁴⁵ of the
 ///   largest modulus of a coordinate. δ are the coordinates relative to the pair's first vertex.
 ///
-/// Rounding turns n by u and thus moves the pair's projection on n by at most u Σ|δ|, which is at most d/64. Heights
-/// n·x and offsets err by a few 2⁻⁵³ of the coordinates.
+/// Rounding turns n by u = 2⁻²⁴, which changes the pair's projection on n by at most u Σ|δ| ≤ d/64. Heights n·x and
+/// offsets err by a few 2⁻⁵³ of the coordinates.
 struct PlaneFreedom {
   std::size_t pairs = 0;        ///< pairs within r_q
   std::size_t due = 0;          ///< pairs that must have a plane
   std::size_t missing = 0;      ///< due pairs that no plane separates
   PrimitivePair first_missing;  ///< the first missing pair by kind, first and second
-  /// With balls the two sides of a pair may together come 2γ_p d closer. This is the largest shortfall of a separated
-  /// pair from that, in units of u · max(d, Σ|δ|).
+  /// With balls the two sides of a pair may together come 2γ_p d closer. This is the largest amount by which the two
+  /// half-spaces of a separated pair allow less, in units of u · max(d, Σ|δ|).
   double narrowing = 0;
   PrimitivePair narrowest;  ///< the pair of `narrowing`
-  /// With displacements: the room of a separated pair's side is its offset minus its farthest vertex along n. This is
-  /// the largest difference between a room and 2γ_p s d, in units of u · (max(d, Σ|δ|) + d W/(a + b)). With the
-  /// answer's n,
+  /// Only with displacements. The room of one side of a separated pair is its offset minus its farthest vertex along n;
+  /// it should be 2γ_p s d. This is the largest difference from that in units of u · (max(d, Σ|δ|) + d W/(a + b)). With
+  /// the answer's n,
   ///
   ///   a = max(0, largest n·w of the first side),  b = max(0, largest −n·w of the second),
   ///   s = a/(a + b) of the first side, b/(a + b) of the second, at least `least_division`; 1/2 if a = b = 0,
@@ -129,15 +129,17 @@ struct PlaneTruth {
   PlaneFreedom freedom;      ///< whether they leave the vertices their freedom
 };
 
-/// Largest narrowing in units of u · max(d, Σ|δ|): 2γ_p < 1 times the sum of three errors, each at most 1. They are
-/// those of n, which turns so that points other than the closest ones face each other; of its length; and of the
-/// offsets and the judge in double (less than 1 together). A direction computed in single precision exceeds this.
+/// Largest narrowing in units of u · max(d, Σ|δ|): 2γ_p < 1 times the sum of three errors, each at most 1. The first is
+/// that of n's direction, by which points other than the closest ones face each other. The second is that of n's
+/// length. The third comes from the offsets and from the judge's arithmetic in double. A direction computed in single
+/// precision exceeds this.
 inline constexpr double plane_narrowing_tolerance = 3;
-/// Largest division in units of u · (max(d, Σ|δ|) + d W/(a + b)): the room's own error (3, as above) and that of s < 1.
-/// a and b are three products in single precision, off by 4 u W; so s is off by 4 u W/(a + b) of 2γ_p d < d.
+/// Largest division in units of u · (max(d, Σ|δ|) + d W/(a + b)): the room's own error (3, as above) and that of s, at
+/// most 1. a and b are sums of three products in single precision and err by 4 u W. So s errs by 4 u W/(a + b), in a
+/// product with 2γ_p d < d.
 inline constexpr double plane_division_tolerance = 4;
-/// Largest ball shortfall in units of u γ_p · max(d, Σ|δ|): a smallest distance (`detect_below_tolerance`), one
-/// product, rounded down (2), in a kernel that may round to nearest and step down once more (4).
+/// Largest ball shortfall in units of u γ_p · max(d, Σ|δ|): that of a smallest distance (`detect_below_tolerance`), and
+/// of a product rounded down (2) in a kernel that may round to nearest and step down once more (2).
 inline constexpr double plane_ball_tolerance = detect_below_tolerance + 4;
 
 }  // namespace ogc::compare

@@ -34,21 +34,21 @@ struct RodIn {
   std::vector<RodCase> cases;  ///< independent of each other
 };
 
-/// Largest error in units of u · scale. With A = k_s (1 + k) ‖D‖/l, C = k_s ‖c‖ and Cᵗ = k_s k ‖Dᵗ‖/l the scale is at
-/// least A + 2 C + 3 Cᵗ, since R is quadratic in q. So the largest ratio of the following counts to 1, 2 and 3 decides:
-/// 12.
+/// Largest error of the force in units of u · scale, u = 2⁻²⁴. With A = k_s (1 + k) ‖D‖/l, C = k_s ‖c‖ and Cᵗ = k_s k
+/// ‖Dᵗ‖/l the scale is at least A + 2 C + 3 Cᵗ, since R is quadratic in q. So the largest of these counts of rounding
+/// errors, divided by 1, 2 and 3, decides: 12.
 ///
 /// - A: a difference, a quotient, 1 + k and its product (2), k_s, the last difference: 6.
-/// - C: the turn (14, see below), k_s, the last difference (1 + 1), and ‖q‖² that is off by 2⁻²¹, which shows in other
-///   forms of R (8): 24.
-/// - Cᵗ, inside c: a difference, the turn back (14), a quotient, k, a sum (1 + 1 + 1 + 1) and qᵗ's length (8): 26.
+/// - C: the turn by R(q) (14, see below), k_s, the last difference (1 + 1), and ‖q‖², which is off by up to 2⁻²¹ and
+///   enters other forms of R (8): 24.
+/// - Cᵗ, inside c: a difference, the turn by R(qᵗ)ᵀ (14), a quotient, k, a sum (1 + 1 + 1 + 1) and qᵗ's length (8): 26.
 ///
 /// A turned vector errs by at most 14 u of its length: u × v by 2.5 of ‖u‖ ‖v‖ (a product and a difference in each
 /// component), doubled, times w (7 with a product), crossed once more (10), two sums; the largest of 7 ‖u‖ w + 10 ‖u‖²
 /// + 2 + 2 ‖u‖ w. With damping by vertex the term of `moved` adds its size to the scale and errs by 7: a difference, a
 /// block of 3, two products and a sum.
 inline constexpr double rod_force_tolerance = 12;
-/// Largest error of the block: 1 + k, a product, a quotient.
+/// Largest error of the block in units of u · scale. Rounding errors: 1 + k, a product, a quotient.
 inline constexpr double rod_block_tolerance = 3;
 
 }  // namespace ogc::compare

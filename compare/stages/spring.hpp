@@ -31,19 +31,22 @@ struct SpringIn {
   std::vector<SpringCase> cases;  ///< independent of each other
 };
 
-/// Largest error in units of u · scale. A difference (1), a length (a square: 1 + 2 more, halved with those of the
-/// difference by the root, the root: 1; together 3), l₀/l and its complement (2), k_s (1), the product with the
-/// difference (1 + 1): 9. With damping: a second length, its change (1), two products, a quotient, a sum: 12.
+/// Largest error of a spring's force in units of u · scale, u = 2⁻²⁴. Rounding errors:
+///
+/// - without damping: a difference of vertices (1), its length (3: those of a square and the difference, 1 + 2 + 2 · 1,
+///   halved by the root, and the root), l₀/l and 1 − l₀/l (2), k_s (1), the product with the vector (1 + 1): 9
+/// - with damping in addition: the second length, its change, two products, a quotient, a sum: 12
 inline constexpr double spring_force_tolerance = 12;
-/// Complement (6), k_s and its difference (2), n by both of its factors (2 · 5), an outer product (2), two sums: 22.
+/// Largest error of a spring's block. Rounding errors: 1 − l₀/l (6), one minus it and the product with k_s (2), both
+/// factors n (2 · 5), an outer product (2), two sums: 22.
 inline constexpr double spring_block_tolerance = 22;
 
-/// The same for a stitch. The vector between its ends is a difference (1), another one (1) times s (1), and the
-/// difference of both (1): 4 instead of 1. A length has 7 (a square: 8 + 3, halved by the root, the root: 1; 6.5
-/// together) instead of 3; w and its product add 2. The force: 12 + 3 + 4, 4 of the second length, 2: 25.
+/// Largest error of a stitch's force. The vector between its ends errs by 4 instead of 1: two differences, the product
+/// with s, and their difference. A length errs by 7 instead of 3 (a square: 8 + 3, halved by the root, and the root). w
+/// and its product add 2. So the count of a spring, 12, grows by 3 (vector), 4 and 4 (lengths) and 2 (w): 25.
 inline constexpr double stitch_force_tolerance = 25;
-/// Complement (6 + 4), k_s and its difference (2), n by both of its factors (2 · (4 + 7 + 1)), an outer product (2),
-/// two sums, w² (3) and its product: 44.
+/// Largest error of a stitch's block. Rounding errors: 1 − l₀/l (6 + 4), one minus it and the product with k_s (2),
+/// both factors n (2 · (4 + 7 + 1)), an outer product (2), two sums, w² (3) and its product: 44.
 inline constexpr double stitch_block_tolerance = 44;
 
 }  // namespace ogc::compare

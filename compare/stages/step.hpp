@@ -73,11 +73,11 @@ struct StepTruth {
   std::vector<double> velocity_scale;  ///< ‖xᵗ⁺¹ − xᵗ‖/h [m/s]
 };
 
-/// Largest error in units of u r_q: the rounded difference y − xᵗ (1), products and sums of its square (3, both halved
-/// by the root), the root (1), the addition of r (1); or the one rounding of cap · r. Together 4. One more covers
-/// second order and a vertex whose length is the largest only after rounding.
+/// Largest error of r_q in units of u r_q, u = 2⁻²⁴. Rounding errors: the difference y − xᵗ (1), products and sums of
+/// its square (3, both halved by the root), the root (1), the addition of r (1); or the one rounding of cap · r.
+/// Together 4. One more covers second order and a vertex whose length is the largest only after rounding.
 inline constexpr double step_query_radius_tolerance = 5;
-/// Largest error in units of u ‖xᵗ⁺¹ − xᵗ‖/h: difference (1), quotient (1), a quarter for second order.
+/// Largest error of a velocity in units of u ‖xᵗ⁺¹ − xᵗ‖/h: difference (1), quotient (1), a quarter for second order.
 inline constexpr double step_velocity_tolerance = 2.25;
 
 }  // namespace ogc::compare

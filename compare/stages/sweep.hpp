@@ -60,14 +60,15 @@ struct SweepOut {
 };
 
 /// The exact update of each vertex, computed from the answer's own lower colours, and the largest accepted error [m] in
-/// the direction of this answer. That error sums up the errors of f and H within the tolerances of their stages through
-/// H⁻¹, of the solve, of the truncation and of storing. It is 0 if the answer must be `position` bit for bit.
+/// the direction of this answer. That error sums up what the errors of f and H (within the tolerances of their stages)
+/// cause through H⁻¹, and the errors of the solve, of the truncation and of storing. It is 0 if the answer must be
+/// `position` bit for bit.
 ///
 /// A vertex is `grey` if a stencil has more than one accepted answer; `position` then comes from the combination
 /// nearest to the answer. It is also grey if it is *ill-conditioned*: the errors of H alone could make H singular,
-/// ‖H⁻¹‖ ‖δH‖ ≥ 1/2. Then the error of a single-precision solve has no bound, and a solver may take a step down the
-/// gradient instead. So `accepted` is infinite; but it is 0 if the vertex was not cut and moved against its force
-/// beyond all error.
+/// ‖H⁻¹‖ ‖δH‖ ≥ 1/2. Then the error of a single-precision solve is unlimited, and a solver may take a step down the
+/// gradient instead. So `accepted` is infinite. Exception: it is 0 if the vertex was not cut and moved against its
+/// force beyond all error.
 ///
 /// `accepted` is also infinite if half-spaces cut a free vertex, or may cut it. The judge then only requires that the
 /// vertex lies in its region. Stage truncate judges how it slides.
@@ -80,17 +81,18 @@ struct SweepTruth {
   OrientationTruth orientation{};      ///< by free segment, computed from the answer's own neighbours
 };
 
-/// Roundings that the sweep adds to the tolerances of its stages, in their units u · scale. Either side rounds ∇N₀ of a
-/// triangle, w(x0) of a hinge, k_d/h and ε_v h once.
+/// Rounding errors that the sweep adds to the tolerances of its stages, in their units u · scale, u = 2⁻²⁴. Answer and
+/// truth each round ∇N₀ of a triangle, w(x0) of a hinge, k_d/h and ε_v h once.
 inline constexpr double sweep_input_tolerance = 2;
-/// Additions of a stencil to the block, each rounded to u of a partial sum of moduli. There are at most four parts
-/// (membrane). The largest part (friction's identity before the normal is subtracted) is √(3/2) of the whole: less than
-/// 5. The force is added once.
+/// Rounding errors when a stencil's block is added up, each at most u of a partial sum of moduli. There are at most
+/// four parts (membrane), and the largest part is at most √(3/2) of the whole (friction's identity before the normal is
+/// subtracted): less than 5. The force is added once.
 inline constexpr double sweep_block_additions = 5;
-/// Error of the inertia: u w ‖y − x‖ times difference (1), weight w = m/h² (1), product (1); and u w √3 in the block.
+/// Error of the inertia: of the force, u w ‖y − x‖ times difference (1), weight w = m/h² (1), product (1); of the
+/// block, u w √3.
 inline constexpr double sweep_inertia_tolerance = 3;
-/// Backward error of the solve in units of u ‖H‖₂: |E| ≤ γ₁₀ |L||D||Lᵀ| for the factors of Cholesky or LDLᵀ and both
-/// substitutions (3n + 1, n = 3; two more for the divisions of LDLᵀ). The norm of |L||D||Lᵀ| is at most n ‖H‖₂.
+/// Backward error of the 3×3 solve in units of u ‖H‖₂: |E| ≤ γ₁₀ |L||D||Lᵀ| for the factors of Cholesky or LDLᵀ and
+/// both substitutions (3n + 1, n = 3; two more for the divisions of LDLᵀ). The norm of |L||D||Lᵀ| is at most n ‖H‖₂.
 inline constexpr double sweep_solve_tolerance = 36;
 
 }  // namespace ogc::compare

@@ -43,19 +43,22 @@ struct TetrahedronIn {
   std::vector<TetrahedronCase> cases;  ///< independent of each other
 };
 
-/// Largest error in units of u · scale. On the longest way from an input to the elastic force lie a difference (1), a
-/// normal of two edges (another difference, twice: 4; a product and a difference: 2), J (a difference, a product, two
-/// sums, i: 5), minus one (1), λ + μ (2), minus μ (1), the normal once more (6), its product and the sixth (2), the sum
-/// (1): 25. Besides the part of the inputs, the normal's scale contains the lengths of its two edges, which are rounded
-/// separately; a far corner and two near ones need that.
+/// Largest error of the elastic force in units of u · scale, u = 2⁻²⁴. Rounding errors on the longest way from an input
+/// to the force: a difference (1), a normal of two edges (another difference, twice: 4; a product and a difference: 2),
+/// J (a difference, a product, two sums, i: 5), minus one (1), λ + μ (2), minus μ (1), the normal once more (6), its
+/// product and the sixth (2), the sum (1): 25. The two edges of the normal are rounded separately, so the normal's
+/// scale also contains their lengths; this matters for a far corner and two near ones.
 inline constexpr double tetrahedron_force_tolerance = 25;
-/// The normal twice (12), an outer product (2), (λ + μ) i/6 (3), Σ w_k and its product (1 + 1 + 1), the sum (1): 21.
+/// Largest error of the elastic block. Rounding errors: the normal twice (12), an outer product (2), (λ + μ) i/6 (3), Σ
+/// w_k and its product (1 + 1 + 1), the sum (1): 21.
 inline constexpr double tetrahedron_block_tolerance = 21;
-/// Errors of the damping; its scales are multiplied by the ratio to the tolerances above. F (a difference, a product,
-/// two sums: 4), G (twice F, a product, two sums, minus one and the half: 13), a change of strain (1), a stress (a
-/// trace: 2, two products, a sum: 5), its product with ∇N₀ (2 + 3) and with F (4 + 3), V k (2), the sum (1): 33.
+/// Largest error of the damping's force. (Its scales are multiplied by the ratio of this to the tolerance above, which
+/// the judge applies.) Rounding errors: F (a difference, a product, two sums: 4), G (twice F, a product, two sums,
+/// minus one and the half: 13), a change of strain (1), a stress (a trace: 2, two products, a sum: 5), its product with
+/// ∇N₀ (2 + 3) and with F (4 + 3), V k (2), the sum (1): 33.
 inline constexpr double tetrahedron_damping_force_tolerance = 33;
-/// F∇N₀ (4 + 2 + 3), twice, an outer product (2), V k (λ + μ) (4), sums (3): 27.
+/// Largest error of the damping's block. Rounding errors: F∇N₀ (4 + 2 + 3), twice, an outer product (2), V k (λ + μ)
+/// (4), sums (3): 27.
 inline constexpr double tetrahedron_damping_block_tolerance = 27;
 
 }  // namespace ogc::compare

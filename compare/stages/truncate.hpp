@@ -19,7 +19,7 @@ struct HalfSpace {
   double offset = 0;  ///< o [m] times the length of n
 };
 
-/// H of a vertex without forces but inertia: it slides along the shortest way.
+/// H of a vertex on which no force but inertia acts, which slides along the shortest way.
 inline constexpr std::array<float, 6> inertia_block{1, 0, 0, 1, 0, 1};
 
 /// Half-spaces, and how a vertex slides along them. All arrays are empty if no case has any.
@@ -77,14 +77,14 @@ struct TruncateTruth {
 /// of 2⁻⁵³. Products of single-precision numbers are exact in double; nothing is decided in single precision.
 inline constexpr double half_space_slack = 0x1p-48;
 
-/// Largest distance of the stored position from the exact one, in units of u · (‖x_prev‖_∞ + b): storing three
-/// coordinates (√3 half ulps), a step towards x_prev if rounding went outwards (the same again), and the relative error
-/// of the scale (4 u b).
+/// Largest distance of the stored position from the exact one, in units of u · (‖x_prev‖_∞ + b), u = 2⁻²⁴: storing
+/// three coordinates (√3 half ulps), a step towards x_prev if rounding went outwards (the same again), and the relative
+/// error of the factor that shortens the move (4 u b).
 inline constexpr double truncate_position_tolerance = 8;
 /// The same with half-spaces: a step may be needed in each of three coordinates (2 u each).
 inline constexpr double truncate_region_tolerance = truncate_position_tolerance + 6;
 /// A kernel may stop this far short of a half-space, in units of u Σ|n_k x_k|, since storing can move a position across
-/// it. Storing counts 1, twice, since the ball can bring the vertex back; the sum is rounded up to a power of two.
+/// it. Storing counts 1, and 1 more after the ball has moved the vertex; the sum is rounded up to a power of two.
 inline constexpr double truncate_standoff = 4;
 /// Backward error of the solve H⁻¹n in units of u ‖H‖₂, as in a sweep (compare/stages/sweep.hpp).
 inline constexpr double truncate_solve_tolerance = 36;

@@ -27,7 +27,7 @@ struct VolumeDepthIn {
   std::span<const Vec3f> points;                 ///< points to test [m]
   std::span<const Tetrahedron> tetrahedra = {};  ///< those without positive volume are ignored
   std::span<const Index> own = {};               ///< by point: its vertex, or −1; empty: no point is a vertex
-  /// for each component of triangles that is a cavity: one of its vertices, and one of the component around it
+  /// for each component of triangles that is a cavity: one vertex of the cavity, and one of the component around it
   std::span<const Edge> cavities = {};
 };
 
@@ -138,13 +138,13 @@ struct VolumeDepthTruth {
   std::vector<std::uint8_t> grey, near;             ///< by point
 };
 
-/// Largest error in units of u · depth_scale: a difference (1), a closest point and its difference (4 + 1), a length
-/// (4), the sum with r (1): 11, and the rounding of the stored depth.
+/// Largest error in units of u · depth_scale, u = 2⁻²⁴. Rounding errors: a difference (1), a closest point and its
+/// difference (4 + 1), a length (4), the sum with r (1): 11, and the stored depth.
 inline constexpr double volume_depth_tolerance = 12;
 /// Largest error in units of u · weight_scale, counted as in closest_face.
 inline constexpr double volume_weight_tolerance = 12;
-/// Largest error in units of u · direction_scale. A normal: two differences (1), a cross product (3), a length and a
-/// quotient (4 + 1). A vector to a closest point: the depth's count and a quotient, 12 at most.
+/// Largest error in units of u · direction_scale. Rounding errors of a normal: two differences (1), a cross product
+/// (3), a length and a quotient (4 + 1). Of a vector to a closest point: those of the depth and a quotient, 12 at most.
 inline constexpr double volume_direction_tolerance = 12;
 
 }  // namespace ogc::compare

@@ -33,19 +33,20 @@ struct VolumeForceIn {
   std::vector<VolumeForceCase> cases;  ///< independent of each other
 };
 
-/// Largest error in units of u · scale; the largest sum plus the last item decides:
+/// Largest error of the force in units of u · scale, u = 2⁻²⁴. Counts of rounding errors; the larger of the first two
+/// sums plus the last item decides:
 ///
-/// - The slip: a difference (1), its product with a weight and three sums (4), the product of vectors with n (3), a
+/// - Through the slip: a difference (1), its product with a weight and three sums (4), the scalar product with n (3), a
 ///   product, a difference: 10. Its length (a square: 10 + 3, halved with those of the slip by the root, the root: 1;
-///   together 12.5, of which 10 are the slip's own): 4 more. f₁/y (a quotient, a difference, a quotient): 3; μ λ and
-///   its product with f₁/y (2); the products with weight and slip (2); the sum with the normal force (1): 22 in all.
+///   together 12.5, of which 10 are the slip's own): 4 more. f₁/‖u‖ (a quotient, a difference, a quotient): 3; μ λ and
+///   its product with f₁/‖u‖ (2); the products with weight and slip (2); the sum with the normal force (1): 22 in all.
 /// - Through λ: a difference, a product and two sums (4), the product with n (3), r − φ and k (2), then 7: 16.
-/// - If ‖n‖² is off by 2⁻²², u keeps a part along n that the energy's slope lacks: 4.
+/// - If ‖n‖² is off by 2⁻²², the slip keeps a part along n that the energy's slope lacks: 4.
 inline constexpr double volume_force_tolerance = 26;
-/// Up to the strength 19; w² and its product (2), an outer product (2), the difference from I (1), the sum with the
-/// normal block (1).
+/// Largest error of the block. Rounding errors: μ λ f₁/‖u‖ (19, as above), w² and its product (2), an outer product
+/// (2), the difference from I (1), the sum with the normal block (1).
 inline constexpr double volume_block_tolerance = 25;
-/// r − φ is known to this many units of u · scale: 8 by the count above, and half as many again for other orders of
+/// Largest error of r − φ in units of u · scale: 8 by the count above, and half as many again for other orders of
 /// evaluation. If |r − φ| is at most that, the contact may act or not.
 inline constexpr double volume_force_grey = 12;
 

@@ -65,7 +65,8 @@ class FrameArray : public MeshSequence {
     source_(bytes_, frame);
   }
 
-  /// Sets `begin_` to the current frame, in C order. Makes another pass unless the last pass gathered this frame.
+  /// Sets `begin_` to where the current frame, in C order, begins in `bytes_`. Reads the array again unless the
+  /// last pass gathered this frame.
   void gather(const std::string& frame) {
     if (next_ >= gathered_end_) {
       gathered_ = next_;

@@ -21,7 +21,7 @@ struct FrameLayout {
   std::uint64_t frame_bytes() const { return vertices * 3 * size_of(type); }  ///< size of one frame
 };
 
-/// Opens an array at its first number. Each call opens it again.
+/// Opens an array and returns a source of its bytes from the first number on; each call opens the array anew.
 using ArrayOpener = std::function<ByteSource()>;
 
 /// Returns the frames of an array. In C order each frame is read on demand, so that memory holds one frame. In Fortran

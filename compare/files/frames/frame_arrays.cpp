@@ -20,7 +20,8 @@ namespace {
 
 constexpr auto most_vertices = static_cast<std::uint64_t>(std::numeric_limits<Index>::max());
 
-/// Memory for the frames of one pass over an array in Fortran order: the size of its file, within these limits [bytes].
+/// Memory for the frames that one pass over an array in Fortran order gathers: the size of the array's file, within
+/// these limits [bytes].
 constexpr std::uint64_t least_room = 1 << 26, most_room = 1 << 30;
 
 std::uint64_t room_of(const std::filesystem::path& file) {
@@ -51,11 +52,12 @@ FrameLayout layout_of(const NpyHeader& header, std::uint64_t bytes, const std::s
   return layout;
 }
 
-/// Names of arrays of positions and of triangles; the first that exists counts. `v_template` is the rest shape of SMPL.
+/// Names of arrays of positions and of triangles; the first name that an archive has is used. `v_template` is the rest
+/// shape of SMPL.
 constexpr std::array<std::string_view, 8> position_names{"positions", "x", "vertices", "points",
                                                          "verts",     "v", "V",        "v_template"};
 constexpr std::array<std::string_view, 4> triangle_names{"triangles", "faces", "f", "F"};
-/// Text before the number in the names of arrays of single frames: numpy.savez calls them arr_0, arr_1, ….
+/// Texts before the number in the names of arrays that hold one frame each: numpy.savez calls them arr_0, arr_1, ….
 constexpr std::array<std::string_view, 3> frame_names{"frame", "arr", ""};
 
 /// Returns the first member NAME.npy whose NAME is in the list.
@@ -66,7 +68,7 @@ std::optional<std::string> member_named(const ZipFile& zip, std::span<const std:
   return std::nullopt;
 }
 
-/// Returns whether the member is "STEM7.npy" or "STEM_7.npy".
+/// Returns whether the member's name is the stem and a number: "STEM7.npy" or "STEM_7.npy".
 bool is_numbered(std::string_view member, std::string_view stem) {
   if (!member.starts_with(stem) || !member.ends_with(".npy")) return false;
   member = member.substr(stem.size(), member.size() - stem.size() - 4);
@@ -74,7 +76,7 @@ bool is_numbered(std::string_view member, std::string_view stem) {
   return !member.empty() && std::ranges::all_of(member, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// Returns the numbered members of the first stem that has some, in natural order.
+/// Returns the members that are numbered with the first stem for which there are any, in natural order.
 std::vector<std::string> numbered_members(const ZipFile& zip) {
   std::vector<std::string> found;
   const auto look = [&](std::span<const std::string_view> stems) {
@@ -157,7 +159,7 @@ std::vector<std::array<Index, Corners>> read_faces(const FoundArray& array) {
   return faces;
 }
 
-/// Returns triangles and edges of an archive; nothing if it has neither of them.
+/// Returns triangles and edges of an archive; nothing if it has no array of either.
 std::optional<Mesh> faces_of(const std::shared_ptr<ZipFile>& zip, const std::filesystem::path& file) {
   constexpr std::array<std::string_view, 1> edge_names{"edges"};
   const auto triangles = member_named(*zip, triangle_names), edges = member_named(*zip, edge_names);
@@ -199,8 +201,8 @@ std::unique_ptr<MeshSequence> frames_of(const std::vector<FoundArray>& arrays, c
   return chained(std::move(parts));
 }
 
-/// Returns whether the array may be one of triangles. numpy.savez(file, vertices, triangles) gives both arrays numbers
-/// as names.
+/// Returns whether the array may contain triangles. In an archive of numpy.savez(file, vertices, triangles) names do
+/// not tell this, since both are numbered.
 bool are_faces(const FoundArray& array) {
   const NpyHeader& header = array.header;
   return !is_floating(header.type) && header.shape.size() == 2 && header.shape[1] == 3;
@@ -214,7 +216,7 @@ std::string held_by(const ZipFile& zip) {
          (is_body ? "; poses are parameters of a body model: let it compute the vertices, and store those" : "");
 }
 
-/// Moves the one array of faces from the arrays to `faces`, unless `faces` is set.
+/// Moves the first array of faces from `arrays` to `faces`, unless `faces` is set.
 void take_faces(std::vector<FoundArray>& arrays, std::vector<std::string>& names, std::optional<Mesh>& faces) {
   for (std::size_t i = 0; i < arrays.size() && !faces; ++i) {
     if (!are_faces(arrays[i])) continue;

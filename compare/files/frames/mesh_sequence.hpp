@@ -44,7 +44,8 @@ std::unique_ptr<MeshSequence> npz_sequence(const std::filesystem::path& file, co
 /// must contain the triangles.
 std::unique_ptr<MeshSequence> npy_sequence(const std::vector<std::filesystem::path>& files, const Mesh* topology);
 
-/// Reads a mesh without positions: the triangles of a .npy, triangles and edges of a .npz. Throws InputError.
+/// Reads a mesh without positions from arrays: triangles from a .npy, triangles and edges from a .npz. Throws
+/// InputError.
 Mesh faces_in_arrays(const std::filesystem::path& file);
 
 /// Reads the samples of a point cache (PC2: "POINTCACHE2", version, points, start, rate, samples, then float32,

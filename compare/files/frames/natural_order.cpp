@@ -8,8 +8,8 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Takes the digits off the front of `text` and returns them without leading zeros; then the longer text is the larger
-/// number.
+/// Takes the digits off the front of `text` and returns them without leading zeros. Of two results the longer one is
+/// then the larger number.
 std::string_view take_number(std::string_view& text) {
   const auto end = std::ranges::find_if_not(text, is_digit);
   std::string_view number = text.substr(0, static_cast<std::size_t>(end - text.begin()));

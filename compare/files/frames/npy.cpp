@@ -9,7 +9,8 @@
 namespace ogc::compare {
 namespace {
 
-/// Longest header that is read. A shape has a few numbers; structured types, which are rejected, may be long.
+/// Longest header that is read [bytes]. A shape needs only a few numbers; structured types may need more, but are
+/// rejected.
 constexpr std::size_t longest_header = 1 << 16;
 
 /// Returns the text after "'key':" in the header's dictionary.

@@ -15,12 +15,14 @@
 namespace ogc::compare {
 namespace {
 
-/// 16 digits distinguish nearly all doubles, so such numbers do not count as rounded.
+/// Numbers with 16 digits do not count as rounded, since 16 digits distinguish nearly all doubles.
 constexpr std::size_t all_digits = 16;
-/// Numbers with fewer digits are typed by people, or exact: a rounded number has all digits of its format.
+/// Numbers with fewer digits do not count as rounded either: people type such numbers, or they are exact. A rounded
+/// number mostly has all digits of its format.
 constexpr std::size_t least_significant = 6, least_decimals = 4;
-/// Least shares of the numbers that must have the digits of a format. All numbers have its decimals. Nine in ten have
-/// its significant digits, and most numbers that end in 0 have one less; but two coordinates of three may be exact.
+/// Shares of the numbers that must have all decimals, or all significant digits, of a format. A rounded file has all
+/// decimals in all numbers. It has all significant digits in nine of ten numbers, or one less if the number ends in 0.
+/// But two coordinates of three may be exact, so the second share is small.
 constexpr double share_of_decimals = 0.9, share_of_significant = 0.25;
 
 std::vector<std::string_view> words_of(std::string_view line, std::size_t most) {
@@ -36,7 +38,7 @@ std::string_view next_line(std::string_view& text) {
   return line;
 }
 
-/// Finds the number of digits that coordinates have in common.
+/// Finds the number of digits to which coordinates are rounded.
 class Digits {
  public:
   void look_at(std::string_view word) {
@@ -104,7 +106,7 @@ struct PlyVertices {
   std::vector<std::size_t> places{};  ///< places of x, y and z in a line
 };
 
-/// Moves `text` to the end of the header. Returns nothing if vertices are not lines of scalars.
+/// Reads the header of a PLY file and moves `text` to its end. Returns nothing if vertices are not lines of scalars.
 std::optional<PlyVertices> ply_header(std::string_view& text) {
   PlyVertices found;
   bool is_ascii = false, is_vertex = false;
@@ -147,7 +149,7 @@ void of_ply(std::string_view text, Digits& digits) {
   }
 }
 
-/// Reads the counts after the keyword, then the vertices.
+/// Reads an OFF file: the counts after the keyword, then the vertices.
 void of_off(std::string_view text, Digits& digits) {
   std::size_t vertices = 0;
   bool counted = false;
@@ -166,7 +168,7 @@ void of_off(std::string_view text, Digits& digits) {
   }
 }
 
-/// Reads the array of points, if it is text.
+/// Reads the array of points of a VTK XML file, if it is text.
 void of_vtk_xml(std::string_view text, Digits& digits) {
   for (std::size_t at = text.find("<Points"); at != std::string_view::npos; at = text.find("<Points")) {
     text.remove_prefix(at);
@@ -180,7 +182,8 @@ void of_vtk_xml(std::string_view text, Digits& digits) {
   }
 }
 
-/// Reads nodes: in version 2 their lines begin with a number, in version 4 they are lines of three numbers.
+/// Reads nodes of a Gmsh file. In version 2 their lines begin with a number, in version 4 they are lines of three
+/// numbers.
 void of_msh(std::string_view text, Digits& digits) {
   const std::size_t format = text.find("$MeshFormat"), nodes = text.find("$Nodes"), end = text.find("$EndNodes");
   if (format == std::string_view::npos || nodes == std::string_view::npos || end == std::string_view::npos) return;
@@ -207,7 +210,7 @@ void of_counted(std::string_view text, std::string_view keyword, std::size_t eac
     }
 }
 
-/// Reads the points if the third line is "ASCII".
+/// Reads the points of an older VTK file, if its third line is "ASCII".
 void of_vtk(std::string_view text, Digits& digits) {
   std::string_view head = text;
   for (int line = 0; line < 2; ++line) next_line(head);

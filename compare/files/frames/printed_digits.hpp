@@ -1,5 +1,5 @@
-// Finds the precision to which a text file prints its coordinates. Points that are nearer to each other may be the same
-// point of the file.
+// Finds the precision to which a text file prints its coordinates. Vertices that are nearer to each other than that may
+// be copies of one point.
 #pragma once
 
 #include <filesystem>

@@ -14,8 +14,8 @@ namespace ogc::compare {
 
 #ifdef OGC_HAS_MINIZIP
 
-/// Deflate packs at most 258 bytes into two bits. Only a damaged file announces more, and it is rejected before memory
-/// is allocated.
+/// Deflate codes at most 258 bytes in two bits. A member that claims a larger ratio is damaged and is rejected before
+/// memory is allocated.
 constexpr std::uint64_t most_deflated = 258 * 8 / 2;
 
 struct ZipFile::Handle {
@@ -76,7 +76,7 @@ void ZipFile::read(std::span<char> bytes, const std::string& what) {
   if (position_ == size_) check_end(what);
 }
 
-/// Checks the checksum of a member that was read to its end: minizip compares it when the member is closed.
+/// Checks the checksum of a member that was read to its end; minizip compares it when the member is closed.
 void ZipFile::check_end(const std::string& what) {
   if (unzCloseCurrentFile(handle_->file) == UNZ_CRCERROR)
     throw InputError(name_ + ": '" + member_ + "', " + what + ": its checksum is wrong; the archive is damaged");

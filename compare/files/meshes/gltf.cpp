@@ -97,7 +97,7 @@ class GltfReader {
     return numbers(buffers_.entry("scenes", scene, "the file"), "nodes", "scene " + std::to_string(scene));
   }
 
-  /// Returns `count` numbers of that key, or `list` without the key.
+  /// Returns the `count` numbers under `key`, or `list` if the node lacks the key.
   template <std::size_t count>
   std::array<double, count> values(const Json& node, const char* key, std::array<double, count> list,
                                    const std::string& owner) const {
@@ -163,8 +163,8 @@ class GltfReader {
     add_faces(static_cast<Mode>(mode), place(x, corners, transform, owner));
   }
 
-  /// Fails if nodes repeat meshes too often. A corner takes at least one byte of the file or of a buffer beside it, but
-  /// nodes may name the same mesh again and again.
+  /// Fails if nodes repeat meshes too often. Without repetition a corner takes at least one byte of the file or of a
+  /// buffer in another file, but nodes may name one mesh any number of times.
   void expect_few(std::size_t corners) {
     constexpr std::size_t repeated = std::size_t{1} << 19;  // corners, of about 100 bytes each in the end
     corners_ += corners;
@@ -174,7 +174,7 @@ class GltfReader {
                     " bytes; write it with a mesh for each node");
   }
 
-  /// Adds the positions of the vertices that are corners; returns the corners by numbers of the mesh.
+  /// Adds the vertices that are corners to the mesh, transformed; returns the corners by their numbers in the mesh.
   std::vector<Index> place(const std::vector<double>& x, const std::vector<double>& corners, const Transform& transform,
                            const std::string& owner) {
     std::vector<Index> number(x.size() / 3, -1), placed;
@@ -225,7 +225,7 @@ class GltfReader {
     }
   }
 
-  std::size_t most_corners_;  ///< without repetitions
+  std::size_t most_corners_;  ///< most corners without repeated meshes: one for each byte of the file
   GltfBuffers buffers_;
   std::size_t points_ = 0, corners_ = 0;
   PolygonMesh mesh_;

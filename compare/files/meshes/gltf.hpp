@@ -9,11 +9,13 @@
 namespace ogc::compare {
 
 /// Returns the triangles of all nodes of the file's scene, one after the other, in the scene's coordinates. Lines
-/// become loose edges; points and other scenes are left out, with a note. Corners that a primitive's faces don't name
-/// are left out; vertices of different primitives are not shared. `name` is the file's path: it begins the errors, and
-/// other files of buffers are looked for beside it. Throws InputError that names the primitive and its face, the
-/// accessor, view, buffer or node: an index out of range, data beyond their buffer, a node that is its own ancestor or
-/// has two parents, a coordinate that is not finite, compressed or sparse data, glTF 1.
+/// become loose edges; points and other scenes are left out, with a note. Vertices that no face of a primitive uses are
+/// left out; different primitives share no vertices.
+///
+/// `name` is the file's path. It begins the errors, and buffers in other files are looked for beside it. Throws
+/// InputError that names the primitive and its face, the accessor, view, buffer or node: an index out of range, data
+/// beyond their buffer, a node that is its own ancestor or has two parents, a coordinate that is not finite, compressed
+/// or sparse data, glTF 1.
 PolygonMesh parse_gltf(std::string_view bytes, const std::string& name);
 
 }  // namespace ogc::compare

@@ -14,21 +14,22 @@ namespace ogc::compare {
 /// Holds the JSON of a glTF file and its buffers; indices and lengths are checked before a number is read.
 class GltfBuffers {
  public:
-  /// Opens a .gltf or .glb file; the latter is a container of JSON and one buffer. `name` is the file's, for errors and
-  /// for buffers beside it. Throws InputError if it is neither, has another version than 2, or is truncated.
+  /// Opens a .gltf file, or a .glb file, which contains JSON and one buffer. `name` is the file's path, for errors and
+  /// for buffers beside it. Throws InputError if the file is neither, has another version than 2, or is truncated.
   GltfBuffers(std::string_view bytes, const std::string& name);
 
   const Json& root() const { return json_; }  ///< the whole document
   /// Returns entry `i` of one of the document's lists ("meshes"); the error for a missing entry names `user`, the
   /// object that refers to it.
   const Json& entry(const std::string& list, std::size_t i, const std::string& user) const;
-  /// Returns the whole number of that key, or `otherwise` without the key; errors call the object `owner`.
+  /// Returns the whole number under `key`, or `otherwise` if the object lacks the key; errors call the object `owner`.
   std::size_t whole(const Json& object, const char* key, const std::string& owner, std::size_t otherwise) const;
-  /// Returns the whole number of that key, which must exist.
+  /// Returns the whole number under `key`, which must exist.
   std::size_t whole(const Json& object, const char* key, const std::string& owner) const;
 
-  /// Returns all components of accessor `i`, entry after entry, which must be of `type` ("VEC3", "SCALAR"). Throws
-  /// InputError if it is of another type, sparse, compressed, or beyond its view or buffer.
+  /// Returns all components of accessor `i`, entry after entry. Throws InputError if the accessor's type is not `type`
+  /// ("VEC3", "SCALAR"), if it is sparse or compressed, or if it exceeds its view or buffer. `user` is the object that
+  /// refers to it, in errors.
   std::vector<double> read(std::size_t i, const std::string& type, const std::string& user);
 
   std::size_t bytes_beside() const { return bytes_beside_; }  ///< size of the buffers in other files that were read

@@ -1,4 +1,4 @@
-// A file is a sequence of keywords, each followed by its contents, in words that may be on any lines.
+// A file is a sequence of keywords, each followed by its contents. Line ends have no meaning between words.
 #include "compare/files/meshes/medit.hpp"
 
 #include <algorithm>
@@ -71,7 +71,7 @@ class MeditParser {
   }
 
   void vertices() {
-    // "0 0 0 0" and a blank
+    // A vertex takes at least 8 bytes: "0 0 0 0" and a blank.
     const std::size_t count = lines_.count(lines_.expect_word("the number of vertices"), "number of vertices", 8);
     for (std::size_t v = 1; v <= count; ++v) {
       const std::string what = "vertex " + std::to_string(v) + " of " + std::to_string(count);
@@ -118,7 +118,7 @@ class MeditParser {
     }
   }
 
-  /// Checks indices at the end, as elements may come before their vertices.
+  /// Checks indices at the end, because elements may come before the vertices that they name.
   PolygonMesh finish() {
     for (const auto& [v, line] : used_)
       if (v < 1 || v > std::ssize(mesh_.positions))

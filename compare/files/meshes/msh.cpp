@@ -1,5 +1,5 @@
-// A file is a sequence of sections, $Name … $EndName, of lines of words. Both formats give the same two lists, nodes by
-// tag and elements by type; they differ in the places of counts and tags.
+// A file is a sequence of sections, $Name … $EndName, of lines of words. Formats 2.2 and 4.1 both contain nodes by tag
+// and elements by type, with counts and tags in different places.
 #include "compare/files/meshes/msh.hpp"
 
 #include <array>

@@ -1,4 +1,5 @@
-// Reads the sections of the text format: keywords and some counts in lines, nodes and elements in bytes between them.
+// Reads binary files: their keywords and some counts are lines as in the text format, nodes and elements are bytes
+// between these lines.
 #include <array>
 #include <bit>
 #include <cmath>
@@ -48,7 +49,7 @@ class BinaryMshParser {
   std::int32_t integer(const char* what) { return cursor_.number<std::int32_t>(what); }
   double coordinate() { return cursor_.number<double>("a coordinate"); }
 
-  /// Returns a tag or a count of format 4.
+  /// Returns a tag or a count of format 4.1, which has 4 or 8 bytes.
   std::int64_t wide(const char* what) {
     if (size_of_count_ == 4) return cursor_.number<std::uint32_t>(what);
     const auto number = cursor_.number<std::uint64_t>(what);
@@ -59,7 +60,7 @@ class BinaryMshParser {
     return cursor_.counted(static_cast<double>(wide(what)), size, what);
   }
 
-  /// Returns a count of format 2, which has a line of its own.
+  /// Returns a count of format 2.2, which is a line of text.
   std::size_t line_count(const char* what, std::size_t size) {
     const std::string line(cursor_.line());
     double value = -1;

@@ -1,4 +1,5 @@
-// Tags of nodes may come in any order and with gaps, and elements before their nodes: everything is sorted at the end.
+// Tags of nodes may have any order and gaps, and elements may come before their nodes, so everything is sorted at the
+// end.
 #include "compare/files/meshes/msh_collector.hpp"
 
 #include <algorithm>
@@ -87,7 +88,7 @@ std::string MshCollector::elements_left_out() const {
   return text.empty() ? "nothing" : text;
 }
 
-/// Returns a tag as messages count, from 0.
+/// Returns a tag as MeshSource numbers nodes, from 0.
 Index MshCollector::file_number(std::int64_t tag, std::size_t place) const {
   if (tag < 1 || tag > std::numeric_limits<Index>::max())
     fail(place, "tag " + std::to_string(tag) + " is not from 1 to 2³¹ − 1");

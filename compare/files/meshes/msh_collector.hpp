@@ -1,4 +1,5 @@
-// Makes a mesh of the nodes, given by tag, and the elements, given by type, of Gmsh's formats in text and binary.
+// Makes a mesh of the nodes (given by tag) and the elements (given by type) in a Gmsh file. The readers of the text and
+// of the binary formats share it.
 #pragma once
 
 #include <array>
@@ -23,17 +24,18 @@ struct MshElementType {
 /// Gmsh's number for tetrahedra of four nodes.
 inline constexpr int msh_tetrahedron = 4;
 
-/// Collects nodes and elements and makes a mesh of them. A place is a line or, in a binary file, a byte.
+/// Collects nodes and elements and makes a mesh of them. A `place` is where an item begins in the file: a line or, in a
+/// binary file, a byte.
 class MshCollector {
  public:
-  /// Starts without nodes; `name` is the file's and must outlive it.
+  /// Starts without nodes. `name` is the file's name and must outlive the collector.
   MshCollector(const std::string& name, bool is_binary);
 
   /// Returns the type of that number. Throws InputError for unknown types and for elements with volume other than
   /// tetrahedra of four nodes.
   const MshElementType& type_of(std::int64_t number, std::size_t place) const;
   void add_node(std::int64_t tag, std::size_t place, const Vec3& position);  ///< adds a node
-  /// Adds an element; if it is no tetrahedron it is only counted.
+  /// Adds an element. Elements other than tetrahedra are only counted.
   void add_element(const MshElementType& type, std::int64_t tag, std::size_t place,
                    std::span<const std::int64_t> nodes);
   /// Returns the mesh, tetrahedra by numbers of nodes. Throws InputError: no node or no tetrahedron, a tag that is
@@ -64,7 +66,7 @@ class MshCollector {
   bool is_binary_;
   std::vector<Node> nodes_;
   std::vector<Element> elements_;
-  std::vector<std::size_t> left_out_;  ///< number by type, in the order of the table
+  std::vector<std::size_t> left_out_;  ///< by type, in the order of the table: number of elements that are left out
   PolygonMesh mesh_;
 };
 

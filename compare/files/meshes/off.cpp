@@ -9,7 +9,7 @@
 namespace ogc::compare {
 namespace {
 
-/// Least bytes of a line: "0 0 0" and its end, "1 0" and its end.
+/// Fewest bytes of a vertex ("0 0 0" and a line end) and of a face ("1 0" and a line end).
 constexpr std::size_t least_vertex = 6, least_face = 4;
 
 class OffParser {
@@ -20,7 +20,7 @@ class OffParser {
 
   PolygonMesh parse() {
     header();
-    // From here on counts are no larger than the file, and each allocation has its line.
+    // The counts are checked against the file's size, and memory grows line by line.
     for (std::size_t v = 0; v < vertices_; ++v) {
       lines_.expect_filled("vertex " + std::to_string(v) + " of " + std::to_string(vertices_));
       const double x = lines_.coordinate(), y = lines_.coordinate(), z = lines_.coordinate();

@@ -1,5 +1,5 @@
-// A header lists the scalars that follow; every PLY scalar fits a double exactly, so one function reads them all, and
-// unused ones are dropped.
+// The header lists the scalars that follow. A double represents every PLY scalar exactly, so one function reads them
+// all; unused scalars are dropped.
 #include <algorithm>
 #include <array>
 #include <bit>

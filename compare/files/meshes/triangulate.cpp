@@ -1,4 +1,4 @@
-// Clips ears. Rounding decides nothing important: an ear that is convex by rounding alone has next to no shape and
+// Cuts off ears. Rounding decides nothing important: an ear that is convex only by rounding has a shape near 0 and
 // comes last.
 #include "compare/files/meshes/triangulate.hpp"
 
@@ -17,7 +17,7 @@ Vec3 cross(const Vec3& a, const Vec3& b) {
 
 double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/// A face seen along its area vector.
+/// The corners of a face, seen along its area vector, that are not cut off yet.
 class Cutter {
  public:
   Cutter(std::span<const Index> corners, std::span<const Vec3> positions)
@@ -78,7 +78,7 @@ class Cutter {
   }
 
   /// Returns the best ear, or the number of corners if there is none. An ear that contains another corner waits until
-  /// that is gone.
+  /// that corner is cut off.
   std::size_t best_ear() const {
     std::vector<bool> blocked(left_.size());
     while (true) {

@@ -10,11 +10,13 @@
 namespace ogc::compare {
 
 /// Cuts a face of n ≥ 4 different corners into n − 2 triangles with its orientation. Corners need not lie in a plane:
-/// inside is decided as seen along the face's area vector Σ xᵢ × xᵢ₊₁ / 2 (Newell). A quad is cut from its first corner
-/// to its third, unless the worse triangle of the other cut has more than twice the shape (signed area over squared
-/// longest side): that cuts concave quads rightly, and even ones all alike. Larger faces lose their best-shaped ear
-/// first, the first of equal ones, which avoids slivers where the face allows it. Returns nothing if the face has no
-/// area or crosses itself in that view. `corners`: vertices; positions [m] by vertex.
+/// inside is decided as seen along the face's area vector Σ xᵢ × xᵢ₊₁ / 2 (Newell). The shape of a triangle is its
+/// signed area over its squared longest side.
+///
+/// A quad is cut from its first corner to its third, unless the worse triangle of the other cut has more than twice the
+/// shape. So concave quads are cut rightly, and all nearly square quads alike. From larger faces the ear with the best
+/// shape is cut off first (of equal ears the first), which avoids slivers where the face allows it. Returns nothing if
+/// the face has no area or crosses itself in that view. `corners`: vertices; positions [m] by vertex.
 std::vector<Triangle> triangulate(std::span<const Index> corners, std::span<const Vec3> positions);
 
 }  // namespace ogc::compare

@@ -1,5 +1,6 @@
-// Base64 comes in groups of four characters, and padding ends a part: VTK encodes the header of compressed data by
-// itself, other writers also that of stored data. Decoding continues after padding, so both are one case.
+// Base64 comes in groups of four characters, and padding ends a part. VTK encodes the header of compressed data
+// separately, other writers also the header of stored data. Decoding continues after padding, so both cases are read
+// alike.
 #include "compare/files/meshes/vtk_arrays.hpp"
 
 #include <algorithm>
@@ -134,8 +135,8 @@ class ArrayReader {
 
   std::string stored(Bytes& source) const { return source.take(header_word(source)); }
 
-  /// Reads number of blocks, size of a block, size of the last one (0: like the others), compressed size of each; then
-  /// the blocks.
+  /// Reads the number of blocks, the size of a block, the size of the last block (0: the same) and the compressed size
+  /// of each block; then the blocks.
   std::string unpacked(Bytes& source) const {
     if (const std::string compressor = value_in(document_.file, "compressor"); compressor != "vtkZLibDataCompressor")
       throw InputError(where_ + ": compressed by " + compressor +

@@ -10,7 +10,7 @@
 namespace ogc::compare {
 namespace {
 
-/// A kind with a fixed number of corners, or with at least that number.
+/// A kind of cell with `corners` corners, or with at least that number if `or_more`.
 struct Kind {
   int number;
   std::size_t corners;

@@ -13,11 +13,11 @@ namespace ogc::compare {
 /// Makes the cells of a file, given by VTK's numbers for their kinds, into tetrahedra, faces and loose edges of a mesh.
 class VtkCells {
  public:
-  /// Adds to `mesh`; `name` is the file's, for errors and notes. Both must outlive it.
+  /// Adds to `mesh`. `name` is the file's, for errors and notes. Both must outlive this object.
   VtkCells(PolygonMesh& mesh, const std::string& name) : mesh_(mesh), name_(name) {}
 
-  /// Adds a cell, whose corners are vertices of the mesh. Throws InputError that names it if its kind is not read
-  /// (hexahedra, wedges, pyramids, cells of higher order) or has another number of corners.
+  /// Adds a cell, whose corners are vertices of the mesh. Throws InputError that names the cell if its kind is not read
+  /// (hexahedra, wedges, pyramids, cells of higher order), or if its kind has another number of corners.
   void add(int kind, std::span<const Index> corners);
   /// Leaves out, with a note, single points, and everything but tetrahedra if there are any.
   void finish();
@@ -34,11 +34,11 @@ class VtkCells {
 /// VTK's numbers for the kinds of cells in its lists of PolyData.
 inline constexpr int vtk_poly_line = 4, vtk_strip = 6, vtk_polygon = 7;
 
-/// Returns a number of an array as the number of a kind; −1, which is none, if it can't be one.
+/// Converts a number of an array to a cell's kind; returns −1 if the number cannot be one.
 int vtk_kind(double value);
 
-/// Holds lists of corners, one after the other, by their ends: a cell's corners count from 0 in its piece, whose
-/// vertices begin at `first` in the mesh.
+/// Holds the corners of all cells of a piece in one list, and where each cell's corners end. Corners count from 0 in
+/// the piece, whose vertices begin at `first` in the mesh.
 struct VtkCellLists {
   std::string where;            ///< begins the errors: file and section
   std::vector<double> ends;     ///< end of each cell's corners
@@ -47,8 +47,8 @@ struct VtkCellLists {
   std::size_t count = 0;        ///< number of vertices of the piece
 };
 
-/// Calls use(number of the cell, its corners in the mesh) for each. Throws InputError that names the cell: an end out
-/// of order or beyond the corners, a corner that is no vertex of the piece.
+/// Calls use(number of the cell, its corners as vertices of the mesh) for each cell. Throws InputError that names the
+/// cell: ends that do not ascend or exceed the corners, a corner that is no vertex of the piece.
 void each_vtk_cell(const VtkCellLists& lists, const std::function<void(std::size_t, std::span<const Index>)>& use);
 
 /// Appends points to the mesh, three numbers each. Throws InputError that begins with `where` if the numbers are no

@@ -1,4 +1,5 @@
-// A file is a sequence of lines of words, some followed by a block of numbers: words, or big-endian bytes.
+// A file is a sequence of lines of words. Some lines are followed by a block of numbers, which are words or big-endian
+// bytes.
 #include "compare/files/meshes/vtk_legacy.hpp"
 
 #include <algorithm>
@@ -51,7 +52,7 @@ class VtkBlocks {
 
   bool is_new() const { return is_new_; }  ///< version 5 or later, with offsets of cells
 
-  /// Goes to the next line, blank or not; false after the last.
+  /// Goes to the next line, even a blank one; returns false after the last line.
   bool next_line() {
     if (cursor_ ? cursor_->left() == 0 : !lines_.next()) return false;
     if (cursor_) line_ = cursor_->line();
@@ -81,8 +82,8 @@ class VtkBlocks {
     return known->second;
   }
 
-  /// Returns the block after the line, `rows` of `columns` numbers; their bytes must be there before memory is
-  /// allocated.
+  /// Returns the block after the line, `rows` of `columns` numbers. Checks that the file is long enough before memory
+  /// is allocated.
   std::vector<double> numbers(std::size_t rows, std::size_t columns, ScalarType type, const std::string& what) {
     const std::size_t least = cursor_ ? size_of(type) : 2;  // a digit and a blank
     const std::size_t left = (cursor_ ? cursor_->left() : lines_.bytes_left() + 1) / least;
@@ -121,7 +122,7 @@ class VtkBlocks {
   TextLines lines_;
   std::optional<ByteCursor> cursor_;  ///< after the header of a binary file
   bool is_new_ = false;
-  std::string_view line_;  ///< of a binary file, after the words taken so far
+  std::string_view line_;  ///< in a binary file: rest of the line after the words taken so far
 };
 
 class VtkLegacyParser {
@@ -167,14 +168,15 @@ class VtkLegacyParser {
     }
   }
 
-  /// A section of cells: all of POLYDATA's, or the single one of a grid, whose kinds are elsewhere.
+  /// A section of cells: one of POLYDATA's lists, or the only list of a grid, which gives the cells' kinds in another
+  /// section.
   struct List {
     std::string_view keyword;
     int kind;
     VtkCellLists cells{};
   };
 
-  /// Reads each cell's number of corners, then these.
+  /// Reads cells of versions before 5: for each cell its number of corners, then the corners.
   void old_cells(List& list) {
     const std::size_t cells = blocks_.count("number of cells"), size = blocks_.count("number of numbers");
     const std::vector<double> numbers = blocks_.numbers(size, 1, ScalarType::int32, "numbers of cells");
@@ -195,7 +197,7 @@ class VtkLegacyParser {
                    " cells: the counts of " + std::string(list.keyword) + " are wrong");
   }
 
-  /// Reads offsets from 0, one more than there are cells, then corners.
+  /// Reads cells of version 5: offsets from 0, one more than there are cells, then corners.
   void new_cells(List& list) {
     const std::size_t offsets = blocks_.count("number of offsets"), corners = blocks_.count("number of corners");
     list.cells.ends = array("OFFSETS", offsets);

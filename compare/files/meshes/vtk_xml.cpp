@@ -60,7 +60,7 @@ class Reader {
   static void on_end(void* self, const char*) { static_cast<Reader*>(self)->end(); }
   static void on_text(void* self, const char* text, int length) {
     Reader& reader = *static_cast<Reader*>(self);
-    // VTK writes <InformationKey> into arrays.
+    // Skips the text of elements inside an array, such as VTK's <InformationKey>.
     if (reader.array_ != nullptr && reader.open_.back() == "DataArray")
       reader.array_->text.append(text, static_cast<std::size_t>(length));
   }
@@ -91,7 +91,7 @@ class Reader {
     open_.pop_back();
   }
 
-  /// Finds the data, which begin after the first underscore after the tag.
+  /// Finds the appended data, which begin after the first underscore behind the tag.
   void find_appended() {
     const std::size_t close = bytes_.find('>', appended_at_), underscore = bytes_.find('_', close);
     if (close == std::string_view::npos || underscore == std::string_view::npos)

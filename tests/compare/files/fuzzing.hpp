@@ -87,7 +87,7 @@ class Mutator {
   std::mt19937_64& random_;
 };
 
-/// Returns "", or a description of what a reader did with a damaged file and must not do.
+/// Reads a damaged file and returns "", or a description of what the reader did wrong.
 using Judge = std::string (*)(const std::string& bytes, const std::string& name);
 
 inline std::size_t address_space() {
@@ -103,7 +103,7 @@ inline std::size_t address_space() {
   const auto say = [&](const std::string& text) {
     if (write(out, text.data(), text.size()) < 0) _exit(3);
   };
-  // Catch's signal handlers are for the parent
+  // Signals of a reader must end this process, so Catch's handlers are removed.
   for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGBUS, SIGALRM}) std::signal(signal, SIG_DFL);
   if (limits_memory) {
     const std::size_t most = address_space() + most_memory + 2 * sample.bytes.size();
@@ -123,7 +123,7 @@ inline std::size_t address_space() {
   _exit(0);
 }
 
-/// Returns "" if every case passes, else the first case that failed and its error.
+/// Runs the cases in a child process. Returns "" if every case passes, else the first case that failed and its error.
 inline std::string failure(const Sample& sample, Judge judge, std::uint64_t seed, std::size_t cases) {
   std::array<int, 2> ends{};
   REQUIRE(pipe(ends.data()) == 0);

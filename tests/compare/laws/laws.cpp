@@ -1,5 +1,5 @@
-// Tests that laws can fail. A converged solve by Newton's method obeys each law. A solve of the same scene with another
-// constant breaks the law, which judges it with the original constant.
+// Tests that laws can fail. A converged solve by Newton's method obeys each law. A solve with another value of a
+// constant breaks the law, which still assumes the original value.
 #include <cmath>
 #include <fstream>
 #include <functional>
@@ -126,9 +126,9 @@ TEST_CASE("laws of rods hold of their closed answers, and of nothing a tenth off
   }
 }
 
-// The last step pulls an outer corner out by s. Everything else is at rest, so the step leaves f = M Δ/h² + ∇U − M a at
-// that corner only. Equation (5) of beams.cpp derives a limit from f, which a solver of few sweeps may reach, but not
-// one of many sweeps.
+// In the last step an outer corner is moved out by s. Everything else is at rest, so the step leaves a force f = M Δ/h²
+// + ∇U − M a, at that corner only. Equation (5) of beams.cpp derives a limit of the energy gained from f. The limit
+// applies to few sweeps, but not to many.
 TEST_CASE("laws: energy is gained by what few sweeps leave, and by nothing else", "[unit]") {
   const Law& pinned = find_law("pinned_sheet");
   const std::vector<Scene> scenes = pinned.scenes(LawSize::least);
@@ -210,6 +210,6 @@ TEST_CASE("laws: the step of a mass on a contact's spring", "[unit]") {
   const auto free = bounced({1, 2}, -10, 100, 0.5, 0.01);
   CHECK(free.x == Approx(1 + 0.02 - 0.001));
   CHECK(free.v == Approx(1.9));
-  // κ = 1: halfway between the target 0.4 and r.
+  // With κ = 1 the answer lies halfway between the target 0.4 and r.
   CHECK(bounced({0.4, 0}, 0, 1e4, 0.5, 0.01).x == Approx(0.45));
 }

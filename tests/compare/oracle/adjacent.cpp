@@ -19,8 +19,8 @@ namespace {
 
 using Simplex = std::vector<Index>;
 
-/// Returns the solution for the columns in `set` if it is unique and non-negative, else an empty list. The last entry
-/// of a row is its right side.
+/// Solves the equations `rows` for the unknowns in the bit set `set`; the others are 0. Returns the solution if it is
+/// unique and non-negative, else an empty list. The last entry of a row is its right side.
 std::vector<Rational> basic_solution(const std::vector<Row>& rows, std::size_t columns, unsigned set) {
   std::vector<Row> chosen(rows.size());
   std::vector<std::size_t> place;
@@ -54,7 +54,7 @@ std::vector<Rational> basic_solution(const std::vector<Row>& rows, std::size_t c
   return solution;
 }
 
-/// Returns whether two proper simplices share a point outside of the hull of their common vertices. At that point a
+/// Returns whether two proper simplices share a point outside of the hull of their common vertices. At such a point a
 /// vertex of the first simplex that is not common has a positive weight. If any solution has such a weight, a basic
 /// solution has one.
 bool meet_beyond(const Simplex& first, const Simplex& second, const std::vector<Vec3>& x) {
@@ -117,16 +117,16 @@ TEST_CASE("two triangles on an edge, a vertex, and beside a loose edge, as they 
   };
   const Vec3 o{0, 0, 0};
   const std::vector<Known> cases{
-      // They cross in their plane, with no corner of one in the other.
+      // Both triangles lie in one plane and cross, and no corner of one lies in the other.
       {{{0, 0.2, 0}, {2, 0.2, 0}, {0.5, 0.2, 2}, {1.5, 0.2, 2}}, {0, 1, 2}, {0, 1, 3}, true},
-      // They are folded flat with a corner in the other; folded onto the same place; folded nearly flat.
+      // Folded flat, with a corner of one triangle in the other; folded flat onto the same place; folded nearly flat.
       {{o, {2, 0, 0}, {1, 0, 2}, {0.9, 0, 1}}, {0, 1, 2}, {0, 1, 3}, true},
       {{o, {2, 0, 0}, {1, 0, 2}, {1, 0, 2}}, {0, 1, 2}, {0, 1, 3}, true},
       {{o, {2, 0, 0}, {1, 0, 2}, {0.9, 1e-7, 1}}, {0, 1, 2}, {0, 1, 3}, false},
-      // They are flat and open.
+      // In one plane: an open pair, on both sides of the common edge.
       {{o, {2, 0, 0}, {1, 0, 2}, {0.9, 0, -1}}, {0, 1, 2}, {0, 1, 3}, false},
-      // They share a vertex: one cuts the other; they overlap in their plane; an edge lies on the other; they have no
-      // other common point.
+      // Both share one vertex: one triangle cuts the other; they overlap in their plane; an edge lies on the other
+      // triangle; they have no other common point.
       {{o, {2, -1, 0}, {2, 1, 0}, {1, 0, -1}, {3, 0, 1.5}}, {0, 1, 2}, {0, 3, 4}, true},
       {{o, {2, 0, 0}, {0, 0, 2}, {2, 0, 0.5}, {0.5, 0, 2}}, {0, 1, 2}, {0, 3, 4}, true},
       {{o, {2, 0, 0}, {0, 0, 2}, {1, 0, 0}, {0, 0, -2}}, {0, 1, 2}, {0, 3, 4}, true},

@@ -49,7 +49,7 @@ std::vector<Intersection> all_pairs(const Topology& topology, const std::vector<
     test(Kind::edge_triangle, static_cast<Index>(e), topology.edges[e]);
   for (Index v = 0; v < topology.vertex_count; ++v)
     if (topology.vertex_edges[static_cast<std::size_t>(v)].size() > 0) test(Kind::vertex_triangle, v, {v, v});
-  // Adds pairs of an edge and the side of a triangle opposite to their only common vertex.
+  // Adds intersections of an edge with the side of a triangle opposite to their only common vertex.
   std::vector<Intersection> sides;
   for (std::size_t e = 0; e < topology.edges.size(); ++e)
     for (const Triangle& t : topology.triangles) {
@@ -66,7 +66,7 @@ std::vector<Intersection> all_pairs(const Topology& topology, const std::vector<
   return found;
 }
 
-/// An n × n grid on the unit square, rolled up to a spiral whose layers do not touch. `shear` turns it out of the
+/// An n × n grid on the unit square, rolled up to a spiral whose layers do not touch. `shear` tilts it against the
 /// coordinate planes.
 struct RolledSheet {
   std::vector<Vec3> positions;
@@ -135,7 +135,7 @@ TEST_CASE("two components that meet in a corner each lie on the other", "[unit]"
 }
 
 TEST_CASE("coplanar triangles that overlap are found even where no vertex lies on the other", "[unit]") {
-  // The triangles form a star: every edge crosses two edges of the other, and no corner lies inside.
+  // The triangles form a star: every edge of one crosses two edges of the other, and no corner lies inside.
   const std::vector<Vec3> positions{{0, 3, 1}, {3, -2, 1}, {-3, -2, 1}, {0, -3, 1}, {3, 2, 1}, {-3, 2, 1}};
   const Topology topology = build_topology(6, std::array{Triangle{0, 1, 2}, Triangle{3, 4, 5}});
   const AuditResult result = audit(topology, positions);
@@ -195,19 +195,19 @@ TEST_CASE("a pair beside an excluded pair of vertices is left out, either way ro
     const Exclusions exclusions{{}, partner_rows(6, pairs)};
     return audit(mesh.topology, mesh.positions, exclusions).count;
   };
-  CHECK(count({{5, 0}}) == 1);  // edge 3–5
+  CHECK(count({{5, 0}}) == 1);  // leaves out edge 3–5, not edge 3–4
   CHECK(count({{0, 5}}) == 1);
   CHECK(count({{4, 1}, {2, 5}}) == 0);
-  CHECK(count({{2, 3}}) == 0);          // both edges at 3 are beside vertex 2
-  CHECK(count({{4, 5}, {0, 1}}) == 2);  // each pair lies in one triangle
+  CHECK(count({{2, 3}}) == 0);          // vertex 3 is on both edges, vertex 2 on the triangle
+  CHECK(count({{4, 5}, {0, 1}}) == 2);  // both vertices of a pair belong to one triangle
 }
 
 TEST_CASE("collapsed triangles and loose edges are audited like the rest", "[unit]") {
   const std::vector<Vec3> positions{{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {1, -1, -1}, {1, 1, 1}, {5, 5, 5}};
   const Topology topology = build_topology(6, std::vector<Triangle>{{0, 1, 2}}, std::array{Edge{3, 4}, Edge{4, 5}});
   CHECK(audit(topology, positions).intersections == std::vector{edge_meets(topology, 3, 4, 0)});
-  // All vertices are at one point: two edges and three vertices lie on the triangle, and an end of one edge on the
-  // other.
+  // All vertices are at one point: two edges and three vertices lie on the triangle, and an end of one edge lies on the
+  // other edge.
   CHECK(audit(topology, std::vector<Vec3>(6, Vec3{1, 1, 1})).count == 6);
   CHECK(audit(build_topology(0, {}), {}).count == 0);
 }

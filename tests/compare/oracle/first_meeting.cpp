@@ -19,7 +19,7 @@ namespace {
 constexpr MeetingKind vertex = MeetingKind::vertex_triangle, edges = MeetingKind::edge_edge;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Returns the pair if its ends are doubles.
+/// Returns the pair in double; nothing if a position at the end of the motion is no double.
 std::optional<MovingPair> pair_of(const PairMotion& m) {
   MovingPair pair{.kind = m.edges ? edges : vertex};
   for (std::size_t k = 0; k < 4; ++k) {
@@ -95,9 +95,9 @@ TEST_CASE(
   CHECK(culled > (asked - met) / 2);
 }
 
-/// Coordinates are a few small integers, which give collapsed triangles, edges that are points, motions in one plane or
-/// along one line, and touching at begin and end. At dyadic times positions are doubles, and rational arithmetic
-/// decides whether the faces meet.
+/// Coordinates are a few small integers. They give collapsed triangles, edges that are points, motions in one plane or
+/// along one line, and faces that touch at the begin or the end. At dyadic times positions are doubles, and rational
+/// arithmetic decides whether the faces meet.
 TEST_CASE(
     "first meeting: degenerate motions on a grid agree with rational arithmetic at 17 times, and with themselves "
     "backwards and in any order of vertices",

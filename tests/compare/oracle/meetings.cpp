@@ -27,7 +27,7 @@ constexpr MeetingKind vertex = MeetingKind::vertex_triangle, edges = MeetingKind
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Rounds a coordinate so that the integers of the brute force represent it exactly.
+/// Rounds a coordinate to a multiple of 2⁻²⁰, so that the integers of the brute force represent it exactly.
 double coarse(double x) { return std::ldexp(std::nearbyint(std::ldexp(x, 20)), -20); }
 
 /// Random triangles and loose edges in the unit cube; every vertex moves by up to `reach`.
@@ -157,14 +157,14 @@ TEST_CASE(
   CHECK(result.count % 2 == 1);
   int change = 0;
   for (const Meeting& m : result.meetings) {
-    // The motion is a translation, so the edges meet once: before and after it, one edge is on different sides of the
-    // other.
+    // The motion is a translation, so two edges meet at most once, and one of them changes to the other's opposite
+    // side.
     std::vector<Vec3> before = from, after = from;
     const auto place = [&](std::vector<Vec3>& x, double t) {
       for (std::size_t v = at(n); v < x.size(); ++v) x[v].x = from[v].x + 3 * t;
     };
     place(before, m.time - 1e-6), place(after, m.time + 1e-6);
-    // These edges point along the ring; stored edges have the smaller vertex first.
+    // Returns the edge in the direction of its ring; stored edges have the smaller vertex first.
     const auto along = [&](Index e) {
       const Edge& edge = topology.edges[at(e)];
       return edge[1] - edge[0] == 1 ? edge : Edge{edge[1], edge[0]};
@@ -172,7 +172,7 @@ TEST_CASE(
     change += (sense(after, along(m.first), along(m.second)) - sense(before, along(m.first), along(m.second))) / 2;
   }
   CHECK(std::abs(change) == std::abs(linking_number(to, n) - linking_number(from, n)));
-  // A common motion has no meetings, and neither has a motion after which the rings are still linked.
+  // Neither has meetings: a motion of both rings together, and a motion after which the rings are still linked.
   for (std::size_t v = 0; v < to.size(); ++v) to[v] = {from[v].x + 3, from[v].y - 2, from[v].z + 7};
   CHECK(meetings(topology, from, to).count == 0);
   to = from;
@@ -200,7 +200,8 @@ TEST_CASE("meetings: what the audit leaves out is left out", "[unit]") {
   const Exclusions excluded{.groups = {}, .partners = partner_rows(4, std::vector<std::array<Index, 2>>{{1, 2}})};
   CHECK(meetings(apart, above, below, excluded).count == 0);
   const Topology joined = build_topology(4, {}, std::vector<Edge>{{0, 1}, {1, 2}, {2, 3}});
-  CHECK(meetings(joined, above, below).count == 1);  // first and last edge; the middle one shares a vertex with both
+  // only the first and the last edge meet, since the middle edge shares a vertex with both
+  CHECK(meetings(joined, above, below).count == 1);
 }
 
 TEST_CASE("meetings: lists at most what it is asked for, on any number of threads the same", "[property]") {
@@ -229,7 +230,7 @@ TEST_CASE("meetings: what a way will cost is told by all of a small mesh and by 
   CHECK(small.pairs == static_cast<double>(meetings(heap.topology, heap.from, heap.to).pairs_tested));
   CHECK(small.seconds > 0);
   CHECK(small.bytes > 2 * heap.from.size() * sizeof(Vec3));
-  // Each of 6,000 rods in a row meets the box of the next rod and of no other.
+  // The swept box of each of 6,000 rods in a row meets only the boxes of its neighbours.
   std::vector<Vec3> from, to;
   std::vector<Edge> rods;
   for (Index k = 0; k < 6000; ++k) {
@@ -247,8 +248,8 @@ TEST_CASE("meetings: what a way will cost is told by all of a small mesh and by 
 }
 
 TEST_CASE("meetings: a braid of 65,000 edges a step on is proved in seconds", "[property]") {
-  // Pairs of strands are wound about each other at 0.7 contact radii and slanted, so that boxes of near edges meet.
-  // Each vertex moves by 0.05 of a radius.
+  // Pairs of strands are wound about each other at a distance of 0.7 contact radii. They are slanted, so that boxes of
+  // near edges overlap. Each coordinate moves by up to 0.05 of a radius.
   const Index strands = 65, segments = 1000;
   const double radius = 1e-3;
   std::vector<Vec3> from, to;

@@ -1,7 +1,7 @@
 // Decides intersections by brute force, to check the oracle with another method and another type of numbers. Points of
 // a segment and of a triangle are convex combinations. So the two meet exactly if the linear system Σλ = 1, Σμ = 1, Σλᵢ
-// sᵢ = Σμⱼ tⱼ has a solution λ, μ ≥ 0; then one of its basic solutions is non-negative. All 31 sets of columns are
-// tried in rational arithmetic. There are no orientations and no cases, so degenerate configurations need no care.
+// sᵢ = Σμⱼ tⱼ has a solution λ, μ ≥ 0. Then one of its basic solutions is non-negative. All 31 sets of columns are
+// tried in rational arithmetic. The method distinguishes no cases, so degenerate configurations need no care.
 #pragma once
 
 #include <boost/multiprecision/cpp_int.hpp>

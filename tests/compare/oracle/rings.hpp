@@ -50,7 +50,8 @@ inline int linking_number(const std::vector<Vec3>& x, Index n) {
   return sum;
 }
 
-/// Returns 1 or −1, the side of ab on which cd lies: the sign of the determinant of ab, cd and the vector from a to c.
+/// Returns on which side of ab the edge cd lies, 1 or −1: the sign of the determinant of ab, cd and the vector from a
+/// to c.
 inline int sense(const std::vector<Vec3>& x, const Edge& ab, const Edge& cd) {
   const auto minus = [&](Index i, Index j) {
     return Vec3{x[ring_place(i)].x - x[ring_place(j)].x, x[ring_place(i)].y - x[ring_place(j)].y,

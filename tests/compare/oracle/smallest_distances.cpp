@@ -20,9 +20,10 @@ using Point = std::array<Rational, 3>;
 Rational dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
-/// Returns the squared distance from the origin to the nearest point of span(directions) + offset. Returns nothing if a
-/// coefficient is negative, if the coefficients of one of the two groups of directions add up to more than 1, or if the
-/// directions are dependent.
+/// Returns the squared distance from the origin to the nearest point of offset + span(directions). The first
+/// `first_group` directions and the others are the edges of two simplices. Returns nothing if the nearest point is
+/// outside of them, that is, if a coefficient is negative or if those of a group add up to more than 1. Also returns
+/// nothing if the directions are dependent.
 std::optional<Rational> nearest_inside(const std::vector<Point>& directions, std::size_t first_group,
                                        const Point& offset) {
   const std::size_t n = directions.size();
@@ -51,7 +52,8 @@ std::optional<Rational> nearest_inside(const std::vector<Point>& directions, std
   return dot(nearest, nearest);
 }
 
-/// Returns the squared distance of two convex hulls: the least over all pairs of faces, without distinguishing cases.
+/// Returns the squared distance of two convex hulls: the least over all pairs of their faces. No cases are
+/// distinguished.
 Rational hull_distance(const std::vector<Point>& first, const std::vector<Point>& second) {
   std::optional<Rational> least;
   for (unsigned a = 1; a < 1u << first.size(); ++a) {
@@ -113,14 +115,14 @@ TEST_CASE("smallest distances of a triangle above a triangle, by hand", "[unit]"
   std::vector<Vec3> positions{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 3}, {9, 9, 9}, {9, 8, 9}};
   const Topology topology = build_topology(6, std::vector<Triangle>{{0, 1, 2}, {3, 4, 5}});
   const SmallestDistances above = smallest_distances(topology, positions);
-  CHECK(above.vertex_triangle == 3);  // vertex 3 straight above the interior
+  CHECK(above.vertex_triangle == 3);  // vertex 3 is straight above the triangle's interior
   CHECK(above.vertex == 3);
   CHECK(above.triangle == 0);
   CHECK(above.edge_edge > 3);
   positions[3] = {2, -2, 0};
   positions[4] = {2, -9, 1};
   positions[5] = {2, -9, 2};
-  CHECK(smallest_distances(topology, positions).vertex_triangle == 2);  // beside edge 0–1
+  CHECK(smallest_distances(topology, positions).vertex_triangle == 2);  // vertex 3 is beside edge 0–1
   CHECK(smallest_distances(topology, positions).edge_edge == 2);
   positions[3] = {1, 1, 0};
   CHECK(smallest_distances(topology, positions).vertex_triangle == 0);

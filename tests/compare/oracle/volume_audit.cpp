@@ -58,7 +58,7 @@ TEST_CASE("a vertex on the surface is outside, whichever face, edge or corner it
 }
 
 TEST_CASE("a ray through edges and corners counts as one beside them", "[unit]") {
-  // Along +x the ray meets the far face's diagonal, or passes corners of a second cube.
+  // Along +x the ray hits the diagonal of the far face, or corners of a second cube.
   for (const Vec3& x : {Vec3{0.5, 0.5, 0.5}, {0.25, 0.25, 0.75}, {0.5, 0.75, 0.25}}) {
     CHECK(audited(scene_of({{x, {0, -5, 5}, {0, -5, 6}}}, {cube({})})).vertices_inside == 1);
     CHECK(audited(scene_of({{x, {0, -5, 5}, {0, -5, 6}}}, {cube({3, 0.5, 0.5}), cube({})})).vertices_inside == 1);
@@ -69,10 +69,11 @@ TEST_CASE("a ray through edges and corners counts as one beside them", "[unit]")
 TEST_CASE("each part answers by itself, and a rim is closed by a fan", "[unit]") {
   const Scene overlapping = scene_of({{{0.75, 0.5, 0.5}, {5, 5, 5}, {5, 5, 6}}}, {cube({}), cube({0.5, 0, 0})});
   CHECK(audited(overlapping).vertices_inside == 1);
-  CHECK(audited(overlapping).deepest == 0.25);  // in the part where it is deeper; 0.25 from x = 1 and from x = 0.5
+  // the vertex is 0.25 from x = 1 and from x = 0.5, and the larger depth counts
+  CHECK(audited(overlapping).deepest == 0.25);
   const Scene open = scene_of({{{0.5, 0.5, 0.75}, {0.5, 0.5, 1.25}, {5, 5, 6}}}, {open_box({})});
   CHECK(audited(open).vertices_inside == 1);
-  CHECK(audited(open).deepest == 0.5);  // to the walls, since no triangle is a lid
+  CHECK(audited(open).deepest == 0.5);  // distance from the walls, since the lid has no triangle
 }
 
 TEST_CASE("a vertex in the void of a part is outside, and one in its wall as deep as its nearer side says", "[unit]") {
@@ -134,7 +135,8 @@ Scene free_cubes(double back, bool apart) {
 TEST_CASE("vertices of free volumes inside each other, and inside their own body, are counted", "[unit]") {
   for (const bool apart : {true, false}) {
     const VolumePenetration found = audited(free_cubes(0.125, apart));
-    // Inside are (0.875, 0.25, 0.25) of the second cube and (1, 1, 1) of the first: 0.125 from x = 1 and x = 0.875.
+    // Inside are (0.875, 0.25, 0.25) of the second cube and (1, 1, 1) of the first. Their distances from x = 1 and x =
+    // 0.875 are 0.125.
     CHECK(found.vertices_inside == 2);
     CHECK(found.deepest == 0.125);
     CHECK(found.edges_meeting > 0);

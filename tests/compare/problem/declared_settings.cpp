@@ -1,5 +1,5 @@
-// Tests that settings declared by contestants join the problem's settings in the table, for all code that reads it. The
-// other tests of this program see these rows, too.
+// Tests that settings declared by contestants become part of the problem's table, for all code that reads it. All other
+// tests of this program also see the rows that this file declares.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -32,7 +32,7 @@ std::size_t index_of(std::string_view name) {
 }  // namespace
 
 TEST_CASE("declared settings follow the problem's, by the names of their contestants", "[unit]") {
-  // The contestants that are linked declare settings between "another" and "tests", in the order of their names.
+  // Linked contestants are sorted by name, so their settings come between those of "another" and of "tests".
   const std::size_t own = index_of("tests_share");
   CHECK(index_of("another_share") == index_of("rod_start") + 1);
   CHECK(index_of("another_share") < own);

@@ -13,7 +13,7 @@ using namespace ogc::compare;
 TEST_CASE("a mesh near 0 for its size has no local origin, one far away an exact one in the far coordinates",
           "[unit]") {
   CHECK(local_origin({}) == Vec3{});
-  CHECK(local_origin({{5e5, 0, 0}}) == Vec3{});  // a point has no size
+  CHECK(local_origin({{5e5, 0, 0}}) == Vec3{});  // a single point has no length
   CHECK(local_origin({{14, 0, 0}, {15, 1, 0}}) == Vec3{});
   CHECK(local_origin({{16, 0, 0}, {17, 1, 0}}) == Vec3{17, 0, 0});
   CHECK(local_origin({{512345.678, 3, 5403210.5}, {512445.678, 4, 5403300.25}}) == Vec3{512384, 0, 5403264});

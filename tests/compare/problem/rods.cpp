@@ -108,7 +108,7 @@ TEST_CASE("what no rod can be is named with what to do", "[unit]") {
                                            Contains("loose edge 1 of body 'yarn'"));
     folded.positions[3].y = 0x1p-149;
     CHECK(said(scene_of(folded)).empty());
-    // Segments at a branch are no neighbours, so that they may be folded.
+    // Segments at a branch do not count as neighbours, so they may be folded onto each other.
     folded.positions[3].y = 0;
     folded.positions.push_back({2, 1, 0});
     folded.loose_edges.push_back({2, 4});

@@ -1,6 +1,6 @@
-// Tests the compiler's rounding. g++ 12.2 at -O2 removes adjacent conversions to single precision and back (its
-// vectoriser of straight-line code). Then every comparison "as single precision stores it" is without effect. The build
-// disables that pass, and this test checks that it did.
+// Tests the compiler's rounding. At -O2 the vectoriser of straight-line code in g++ 12.2 removes adjacent conversions
+// to single precision and back. Comparisons of values "as single precision stores them" then have no effect. The build
+// disables that pass, and this test checks it.
 #include "tests/catch.hpp"
 
 #include "compare/problem/vector.hpp"

@@ -25,7 +25,7 @@ TEST_CASE("every setting has a name of its own and a default within its range", 
     CHECK(names.insert(info.name).second);
     CHECK(in_range(info, get_setting(defaults, info)));
     CHECK(info.minimum < info.maximum);
-    CHECK(std::ranges::count(info.meaning, ' ') >= 3);  // words, not only a symbol
+    CHECK(std::ranges::count(info.meaning, ' ') >= 3);  // requires words, not only a symbol
     CHECK(!info.unit.empty());
   }
 }

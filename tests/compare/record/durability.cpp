@@ -46,7 +46,7 @@ struct Report {
   std::int64_t frames = 0, last_step = -1, rows = 0;
 };
 
-/// Writes frames and rows without end, and reports after each what is written.
+/// Writes frames and rows without end. After each step reports to `pipe` what is written.
 [[noreturn]] void write_for_ever(const std::filesystem::path& folder, Index vertices, int pipe) {
   RunWriter run(folder, strip_scene(vertices), recorded_provenance(), {});
   for (std::int64_t step = 0;; ++step) {
@@ -59,7 +59,7 @@ struct Report {
   }
 }
 
-/// Returns the last report within this many milliseconds, after which it kills the writer.
+/// Starts a writer, kills it after this many milliseconds, and returns its last report.
 Report killed_after(int milliseconds, const std::filesystem::path& folder, Index vertices) {
   std::array<int, 2> ends{};
   REQUIRE(pipe(ends.data()) == 0);
@@ -152,7 +152,7 @@ TEST_CASE("frames are reported as written once they have their names, within sec
 TEST_CASE(
     "the trajectory grows with the frames, and is that which is assembled from them, whatever the size of a frame",
     "[property]") {
-  // Sizes: below and above the smallest that is packed, and one that fills a chunk and part of a second chunk.
+  // Numbers of vertices: fewer than a packed chunk needs; enough for one; more than one chunk holds.
   const Index vertices = GENERATE(10, 1500, 70001);
   const Scratch folder;
   RunWriter run(folder / "run", strip_scene(vertices), recorded_provenance(), {});
@@ -178,7 +178,7 @@ TEST_CASE(
   const Scratch folder;
   {
     RunWriter run(folder / "run", strip_scene(vertices), recorded_provenance(), {});
-    const SmallDisk disk(2500000);  // size limit of files, which the trajectory exceeds after some frames
+    const SmallDisk disk(2500000);  // limit of a file's size, which the trajectory exceeds after some frames
     const auto write_many = [&] {
       for (std::int64_t step = 0; step < 100; ++step) run.add_frame(strip_frame(step, vertices));
       run.flush();

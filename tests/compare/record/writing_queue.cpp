@@ -98,7 +98,7 @@ TEST_CASE("what is written is synced within the time of a group, also what was w
   CHECK(syncs == 2);  // nothing new has to be synced
   const Clock::time_point begin = Clock::now();
   while (Clock::now() - begin < 500ms) queue.add(1, {}, [] { std::this_thread::sleep_for(1ms); });
-  CHECK(syncs >= 4);   // syncs continue although there is always a next job
+  CHECK(syncs >= 4);   // syncs continue although there is always another job
   CHECK(syncs <= 13);  // but there are fewer syncs than jobs
 }
 

@@ -131,7 +131,7 @@ TEST_CASE("frames of one array each are read in natural order", "[unit]") {
     CHECK(sequence->name(10) == stem + "10.npy");
     check_frames(*sequence, 11);
   }
-  // The names are those that numpy.savez(file, vertices, triangles) gives.
+  // numpy.savez(file, vertices, triangles) gives the arrays these names.
   check_frames(*npz_sequence(
       written(scratch / "two.npz", zip({{"arr_0.npy", positions(true)}, {"arr_1.npy", triangles(true)}})), nullptr));
   std::vector<std::filesystem::path> files{written(scratch / "F.npy", triangles(true))};
@@ -163,7 +163,7 @@ TEST_CASE("arrays that hold no frames are refused with what to do", "[unit]") {
   CHECK_THAT(refused({{"frame_0.npy", positions(false)},
                       {"frame_1.npy", npy("<f8", "3, 3", false, raw(std::vector<double>(9)))},
                       {"f.npy", triangles(false)}}),
-             ContainsSubstring("accepted"));  // faces of the second array are checked when it is read
+             ContainsSubstring("accepted"));  // the faces of the second array are checked only when it is read
   std::string undecided = positions(false);
   undecided.replace(undecided.find("False"), 5, "Maybe");
   CHECK_THAT(refused({{"v.npy", undecided}, {"f.npy", triangles(false)}}), ContainsSubstring("Fortran order"));
@@ -266,7 +266,7 @@ void fuzz(std::uint64_t seed, int cases) {
     FAIL_CHECK("seed " << seed << ", case " << i << ": " << failed);
     return;
   }
-  CHECK(read[true] > cases / 100);  // some damage hits bytes that are not read
+  CHECK(read[true] > cases / 100);  // some damage is harmless, because it hits bytes that are not read
   CHECK(read[false] > cases / 4);
 }
 

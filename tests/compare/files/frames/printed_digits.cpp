@@ -1,5 +1,5 @@
-// Tests how many digits of text files are found: in each file format, in each format of numbers, and where digits mean
-// nothing.
+// Tests how many digits of text files are found: in each file format, with each way to print numbers, and for numbers
+// whose digits mean nothing.
 #include "compare/files/frames/printed_digits.hpp"
 
 #include <cmath>
@@ -44,7 +44,7 @@ struct Kind {
 
 const std::string ply_begins = "ply\nformat ascii 1.0\nelement info 1\nproperty float key\nelement vertex 12\n";
 
-/// Each file also contains other numbers than coordinates, with other digits.
+/// Each file also contains numbers that are no coordinates and have other digits.
 const std::vector<Kind> kinds{
     {"a.obj", [](const char* f) { return "vn 0.1234 0.5678 0.9999\n" + lines(f, "v ") + "f 1 2 3\n"; }},
     {"a.stl",
@@ -134,7 +134,7 @@ TEST_CASE("exact and binary coordinates have no digits to speak of", "[unit]") {
                  "property float y\nproperty float z\nend_header\n0.123456789"));
   CHECK_FALSE(of("cut.ply", "ply\nformat ascii 1.0\nelement vertex 12"));
   CHECK_FALSE(of("cut.vtp", "<Points><DataArray format=\"ascii\""));
-  // Only heights are rounded, on a grid of exact numbers.
+  // Only the heights z are rounded; x and y lie on a grid and are exact.
   std::string field;
   for (int i = 0; i < points; ++i)
     field += "v " + text("%.2g", 0.1 * i) + " 0.5 " + text("%.9g", coordinate(i, 0)) + "\n";

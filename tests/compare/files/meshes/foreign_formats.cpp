@@ -149,7 +149,7 @@ TEST_CASE("what is wrong with a glTF file is named with its primitive, accessor,
   }
   CHECK_THAT(gltf_error(replaced(replaced(whole, "\"scale\":[1,2,1]}", "\"scale\":[1,2,1]}" + nodes), "\"nodes\":[1]",
                                  "\"nodes\":[1" + numbers + "]")),
-             !Contains("repeat"));            // six corners of nineteen bytes
+             !Contains("repeat"));            // repeats meshes with six corners in nineteen bytes
   const std::string corners(3'000'000, 'A');  // indices of one byte, all 0
   const std::string large = replaced(
       replaced(square_gltf("\"uri\":\"data:;base64," + corners + "\","), "\"componentType\":5123,\"count\":6",

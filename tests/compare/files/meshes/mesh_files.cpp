@@ -271,7 +271,7 @@ TEST_CASE("lines end with a line feed, a carriage return or both, and a byte ord
   }
   CHECK_THROWS_WITH(parse_polygon_mesh(std::string("\xff\xfev\0 \0", 6), "m.obj"),
                     Contains("m.obj: begins as text in UTF-16"));
-  std::string binary = print_ply(mesh, PlyEncoding::binary);  // its data begin with a line feed
+  std::string binary = print_ply(mesh, PlyEncoding::binary);  // the line feed that begins its data must stay
   const std::size_t end = binary.find("end_header\n") + 11;
   binary = with_ends(binary.substr(0, end), "\r") + "\n" + binary.substr(end + 1);
   CHECK(of_ply(binary).positions[0].x != 0);

@@ -92,7 +92,8 @@ TEST_CASE("broken VTP files are refused with the array or cell and the reason", 
           "appended data are missing");
 }
 
-// The appended data begin with a length of 8 bytes before each array. A length beyond the end takes no memory.
+// In the appended data a length of 8 bytes precedes each array. For a length beyond the file's end no memory must be
+// allocated.
 TEST_CASE("a VTP file cut anywhere, or with an absurd length, is refused", "[unit]") {
   const std::string bytes = vtp_bytes(
       {.mesh = mesh, .vertex_numbers = {0, 1, 2, 3}, .cell_numbers = {0, 0, 1}, .cell_counts = {0, 0, 0}});
