@@ -56,8 +56,9 @@ class RodSystem {
 
   /// Begins a step at xᵗ with q = qᵗ; damping is relative to this state.
   void begin_step(const std::vector<Triple<double>>& start, std::int64_t number);
-  /// Sets q after the guess loop. A free segment rotates from qᵗ as its direction does from xᵗ to x; with
-  /// rod_start=kept it keeps qᵗ. A prescribed segment rotates with its motion. A fixed segment keeps qᵗ.
+  /// Sets q after the guess loop by rotating qᵗ. A free segment rotates as its direction does from xᵗ to x, or not at
+  /// all with rod_start=kept. A prescribed segment rotates as its motion says, or else as its direction does. A fixed
+  /// segment keeps qᵗ.
   void turn(const std::vector<Triple<double>>& x);
   /// Moves each free segment to its minimiser, colour by colour.
   void sweep(const std::vector<Triple<double>>& x);
