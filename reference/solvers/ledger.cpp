@@ -222,7 +222,7 @@ class LedgerWriter::Writer : private RoundedScene {
   }
 
   struct Nearest {
-    bool is_known = false;                                    ///< whether it was searched for
+    bool is_known = false;                                    ///< whether the nearest pair was searched for
     float distance = std::numeric_limits<float>::infinity();  ///< [m]
     Vec3f normal{};  ///< from the vertex's side to the other; 0 if there is no pair
   };
@@ -233,7 +233,7 @@ class LedgerWriter::Writer : private RoundedScene {
   std::vector<std::size_t> free_, prescribed_;
   std::vector<std::uint8_t> is_fixed_;
   State start_, target_, x_;
-  double energy_ = 0;  ///< of x_ [J]
+  double energy_ = 0;  ///< energy at x_ [J]
   float query_radius_ = 0;
   std::vector<Vec3f> previous_;   ///< X_prev of the last detection
   std::vector<Nearest> nearest_;  ///< by vertex, at X_prev

@@ -78,7 +78,7 @@ class Potential {
   std::vector<Mobility> unknowns() const;
   /// Returns the stencil's unknowns in the order of its derivatives; unused entries are −1.
   std::array<compare::Index, 4> vertices(std::size_t stencil) const;
-  std::vector<std::array<compare::Index, 4>> vertices() const;  ///< of all stencils
+  std::vector<std::array<compare::Index, 4>> vertices() const;  ///< unknowns of all stencils
 
   double elastic_energy(const State& x) const;             ///< without damping [J]
   double contact_energy(const State& x) const;             ///< normal energies [J]

@@ -12,8 +12,8 @@ std::size_t vertex_count(FormKind form) { return form == FormKind::points ? 2 : 
 /// A contact prepared for its kernel, with the features that hold the contact points.
 struct Prepared {
   PlacedContact term;
-  std::array<Triple<double>, 4> corner;           ///< positions at the form's places
-  std::array<std::uint8_t, 4> place{0, 1, 2, 3};  ///< places of these positions among the contact's vertices
+  std::array<Triple<double>, 4> corner;           ///< positions of the vertices, in the order of ClosestForm::at
+  std::array<std::uint8_t, 4> place{0, 1, 2, 3};  ///< places of these vertices among the contact's vertices
 };
 
 /// Prepares a contact term at x and returns its group. Terms with the same closest features and the same stage of the

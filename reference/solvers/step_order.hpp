@@ -11,7 +11,7 @@ namespace ogc::reference {
 
 /// Counts the prescribed vertices that are behind their targets, if bounds are planes (method.md §5.6, Detections).
 struct StepLag {
-  compare::Index lagging = 0;  ///< number of such vertices
+  compare::Index lagging = 0;  ///< number of prescribed vertices behind their targets
   bool has_advanced = false;   ///< whether one of them has moved since the last detection
 };
 
@@ -68,7 +68,7 @@ class StepOrder {
   const compare::Settings& settings_;
   double redetect_vertices_;  ///< γ_e K
   bool guessing_ = true;      ///< whether the guess loop runs
-  bool lag_asked_ = false;    ///< whether a lag has triggered a detection in this step
+  bool lag_asked_ = false;    ///< whether a vertex behind its target has triggered a detection in this step
   bool found_ = false;        ///< whether contacts and bounds are valid for the next event
   std::int64_t rounds_ = 0, iterations_ = 0, since_detection_ = 0;
 };

@@ -16,7 +16,7 @@ struct FreeVertex {
   float bound = 0;                                 ///< b_v [m]
   double inertia = 0;                              ///< m/h² [N/m]
   std::span<const compare::VertexPlane> planes{};  ///< half-spaces of the vertex
-  bool is_scaled = false;  ///< whether a cut vertex stops on the way from X_prev instead of sliding
+  bool is_scaled = false;  ///< whether a cut vertex stops on the path from X_prev to its proposal instead of sliding
 };
 
 /// Whether truncation changes an update; doubtful if both are right.

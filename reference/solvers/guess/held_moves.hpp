@@ -68,7 +68,7 @@ class HeldMoves {
   double radius_;
   bool is_first_ = true;  ///< whether no round has taken place
   std::vector<bool> stays_;
-  std::vector<Triple<double>> taken_;  ///< t by vertex [m]
+  std::vector<Triple<double>> taken_;  ///< t of each vertex (what contacts removed in the previous round) [m]
   std::vector<double> taken_error_;    ///< accepted error of another implementation's t [m]
 };
 

@@ -51,8 +51,8 @@ class MovingPlanes {
     std::array<std::size_t, 4> vertices{};
     std::size_t second_from = 1;
     Triple<double> normal;
-    double least = 0;  ///< least allowed gap [m]
-    double gap = 0;    ///< [m]
+    double least = 0;  ///< least allowed separation [m]
+    double gap = 0;    ///< g of the head of this file [m]
   };
   /// Returns min over q of n·x − max over p of n·x; `at` maps a vertex to x.
   template <class At>
@@ -69,7 +69,7 @@ class MovingPlanes {
 
   State centre_;
   double ball_ = 0;             ///< γ_p r_q [m]
-  std::vector<double> radius_;  ///< of the ball about X_prev, minus rounding; 0 if the vertex stays [m]
+  std::vector<double> radius_;  ///< radius of the ball about X_prev, reduced by rounding; 0 if the vertex stays [m]
   std::vector<Mobility> mobility_;
   std::vector<Pair> pairs_;
   std::vector<std::uint32_t> first_of_, of_vertex_;  ///< pairs of each vertex

@@ -58,7 +58,7 @@ StepResult NewtonSolver::step(const std::vector<Vec3f>& start, const std::vector
   pattern_stale_ = true;
   guess(GuessEnd::contact);
   if (!moves_planes(newton_.truncation)) return finish(status_of(solve()));
-  detect_next_ = true;  // the guess loop has only balls
+  detect_next_ = true;  // the contacts of the guess loop come with balls, not planes
   const std::uint32_t status = status_of(solve());
   return finish(end_between_planes(status));
 }

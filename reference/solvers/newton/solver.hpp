@@ -100,9 +100,9 @@ class NewtonSolver : public StepSolver, private ContactStep {
   };
   enum class Outcome { converged, iteration_limit, indefinite, no_decrease, not_finite };
   struct Direction {
-    State delta;         ///< of all vertices [m], then of all segments [1]; 0 if not free
+    State delta;         ///< δ of all vertices [m], then ω of all segments [1]; 0 if not free
     State truncated;     ///< δ'
-    double largest = 0;  ///< ‖δ‖_∞ [m]
+    double largest = 0;  ///< largest ‖δ_v‖ of all vertices [m]
     std::size_t cut = 0;
   };
 
@@ -149,7 +149,7 @@ class NewtonSolver : public StepSolver, private ContactStep {
   PotentialDerivatives derivatives_;  ///< of the last iteration
   /// whether the next, or the present, detection judges a solve that converged with earlier contacts
   bool judge_next_ = false, judging_ = false;
-  HessianProjection projection_ = HessianProjection::none;  ///< of derivatives_
+  HessianProjection projection_ = HessianProjection::none;  ///< projection with which derivatives_ were computed
   int judgements_ = 0;                                      ///< number of judgements that did not halve the force
   double least_judged_ = 0;                                 ///< least force of all judgements [N]
   double reference_torque_ = -1;  ///< Σ ‖∂E/∂ω‖ after the guess [N m]; negative if not yet known

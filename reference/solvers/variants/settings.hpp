@@ -36,7 +36,7 @@ constexpr bool majorises(ContactBlocks blocks) {
 }
 /// Selects when positions are truncated to their bounds.
 enum class CutAfter {
-  update,    ///< for all vertices, after the iteration
+  update,    ///< after each update, so that later updates read the truncated position
   iteration  ///< all vertices together, after the iteration
 };
 /// Returns whether each update truncates its vertex.
