@@ -40,8 +40,8 @@ std::string first_mismatch(const StageReport& report) {
   return print_problem(report.tally.mismatches[0].name) + ": " + report.tally.mismatches[0].message;
 }
 
-/// Selects planted faults: all, those that every generator's cases can reveal, or those that name the only generator
-/// that reveals them.
+/// Selects planted faults: all, those that a mix of all generators' cases reveals, or those that need the cases of one
+/// named generator.
 enum class Shown { in_any_way, by_any, by_its_own };
 
 /// Checks that the judge catches the faults planted in these stages.

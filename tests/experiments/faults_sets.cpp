@@ -142,8 +142,8 @@ struct OverlapEnd {
   bool in_blocks = false;
 };
 
-/// Returns the ends of the overlap, computed in double. Edges at the ends of exactly parallel edges may be
-/// perpendicular to the connection, so the block test allows a rounding error above 0.
+/// Returns the ends of the overlap, computed in double. Exactly parallel edges are perpendicular to their connection,
+/// so the block test allows a rounding error above 0.
 std::vector<OverlapEnd> ends_of_overlap(const DetectIn& in, const Edge& e, const Edge& f) {
   const auto at = [&](Index v) { return Vec3{in.positions[v].x, in.positions[v].y, in.positions[v].z}; };
   const auto in_block = [&](Index v, const Vec3& c) {

@@ -102,7 +102,7 @@ class NewtonSolver : public StepSolver, private ContactStep {
   struct Direction {
     State delta;         ///< δ of all vertices [m], then ω of all segments [1]; 0 if not free
     State truncated;     ///< δ'
-    double largest = 0;  ///< largest ‖δ_v‖ of all vertices [m]
+    double largest = 0;  ///< largest ‖δ_v‖ of vertices and l ‖ω‖ of segments [m]
     std::size_t cut = 0;
   };
 
