@@ -29,8 +29,8 @@ struct Meeting {
   /// the activation g
   compare::ContactActivation activation = compare::ContactActivation::ogc;
   bool across = false;  ///< whether g' is taken from the other side of its jump at τ; only if d is within rounding of τ
-  Input distance;             ///< d, without derivatives if it is 0
-  double doubt = 0;           ///< error of the vector between the contact points [m]
+  Input distance;       ///< d, without derivatives if it is 0
+  double doubt = 0;     ///< error of the vector between the contact points [m]
   double distance_doubt = 0;  ///< error of d, to first order [m]
   /// whether the derivatives may underestimate the error in the place of the contact points
   /// (compare/stages/contact_force.hpp)

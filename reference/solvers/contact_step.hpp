@@ -110,9 +110,9 @@ class ContactStep {
   float query_radius_ = 0;
   /// whether contacts must be detected; whether they were detected at the present x
   bool detect_next_ = false, fresh_ = false;
-  std::size_t cut_ = 0;                       ///< vertices cut in the last iteration, prescribed ones included
-  std::int64_t iterations_since_ = 0;         ///< iterations since the last detection
-  double reference_force_ = -1;               ///< mean ‖f*‖ [N]; negative if not yet known
+  std::size_t cut_ = 0;                ///< vertices cut in the last iteration, prescribed ones included
+  std::int64_t iterations_since_ = 0;  ///< iterations since the last detection
+  double reference_force_ = -1;        ///< mean ‖f*‖ [N]; negative if not yet known
   double residual_ = 0;
   compare::StepMetrics metrics_;
   std::vector<compare::IterationMetrics> rows_;

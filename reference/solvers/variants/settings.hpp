@@ -8,8 +8,8 @@ namespace ogc::reference {
 
 /// Selects the contacts that a detection lists (contact_sets.hpp).
 enum class ContactSet {
-  ogc,      ///< each closest face whose block contains the other side, once (Alg. 1 and 2)
-  pairs,    ///< the closest faces of each pair of primitives within r, as in IPC; blocks are not tested
+  ogc,    ///< each closest face whose block contains the other side, once (Alg. 1 and 2)
+  pairs,  ///< the closest faces of each pair of primitives within r, as in IPC; blocks are not tested
   /// for each vertex the closest point of each other body, as with the gradient of an unsigned distance field
   distance
 };

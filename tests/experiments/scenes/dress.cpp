@@ -158,7 +158,8 @@ TEST_CASE(
   for (const Index v : {3, 4})
     CHECK(std::ranges::equal(left_out.partners[static_cast<std::size_t>(v)], std::array{0, 1}));
   CHECK(stitched_start(scene).others == 0);
-  // At the start of the motion, the body's shells (frames) are 0.75 m below their position in the data set.
+  // The body's frames in the data set begin 0.75 m above the body of the draped start. So the motion is moved down by
+  // 0.75 m.
   const PrescribedMotion& motion = scene.motions[0];
   CHECK(prescribed_targets(scene, motion, 0)[0] == Vec3f{0, -1, 0});
   CHECK(prescribed_targets(scene, motion, 0.08)[2] == Vec3f{0, -0.75f, 1});
