@@ -6,8 +6,9 @@
 
 namespace ogc::reference {
 
-/// Computes values in multiprecision. Scales are sums of the moduli of the terms; the two-stage energy has the terms as
-/// Eq. 18 and 20 print them (with logarithms of metres). Value and scale are zero for d ≥ r.
+/// Computes energy, slope and curvature of all cases in multiprecision. The scale of a value is the sum of the moduli
+/// of its terms. The two-stage energy has the terms of Eq. 18 and 20 as printed, with logarithms of metres. Value and
+/// scale are zero for d ≥ r.
 compare::ActivationTruth activation(const compare::ActivationIn& in);
 
 /// The activation and its derivatives by d at one distance, rounded from multiprecision.

@@ -34,9 +34,10 @@ std::vector<T> with_turn(const Inputs& inputs, const T& angle) {
   return {angle, angle + T(Input(value.value > 0 ? -2 * std::numbers::pi : 2 * std::numbers::pi))};
 }
 
-/// The scales that remain if first derivatives vanish. The gradient has an error of n u · cond. The block has the
-/// square of this error. The force has its product with the error of the moment, to which the other roundings of a
-/// force belong.
+/// Scales of the errors that do not vanish with the first derivatives of force and block. The gradient ∇θ has an error
+/// of n u · condition, where n is bending_gradient and u is 2⁻²⁴. The block's error is the square of this error, times
+/// the curvature. The force's error is the product of this error and the error of the moment ∂E/∂θ; all roundings of
+/// the force except those of ∇θ count as the moment's.
 struct SecondOrder {
   double force, block;
 };
@@ -50,13 +51,13 @@ SecondOrder second_order(const Inputs& inputs, const HingeTermOf<Input>& term, c
   return {moment_share * error * inputs.condition(energy.slope), error * energy.bend(0).value * gradient};
 }
 
-/// The question in Input numbers.
+/// A case of the stage in Input numbers.
 struct Question {
   const compare::BendingCase& asked;
   Inputs inputs;
   Hinge<ByVertex> x;
   Fold<Input> before;
-  HingeTermOf<Input> term;  ///< with strain damping
+  HingeTermOf<Input> term;  ///< includes damping by strain, but not damping by vertex
   Input damping;            ///< for both forms of damping
   Triple<Input> moved;      ///< motion of the vertex, for damping by vertex
 
@@ -73,7 +74,7 @@ struct Question {
     }
   }
   bool by_vertex() const { return !damps_strain(asked.damping_form); }
-  /// Returns the term with this angle at the start.
+  /// Returns the energy of the hinge with the angle θᵗ = `start`.
   HingeTermOf<Input> from(const Input& start) const {
     HingeTermOf<Input> result = term;
     result.start = start;
@@ -81,8 +82,8 @@ struct Question {
   }
 };
 
-/// Returns the answers for all accepted angles now and at the start; also a zero answer if the hinge may count as
-/// collapsed.
+/// Returns the answers for all accepted pairs of the present angle and the angle at the start. Adds a zero answer if
+/// the hinge may count as collapsed.
 template <class AnswerAt>
 std::vector<ForceAnswer> over_angles(const Question& q, bool damped, AnswerAt answer_at) {
   const Fold<ByVertex> now(q.x);

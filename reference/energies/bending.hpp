@@ -5,7 +5,7 @@
 
 namespace ogc::reference {
 
-/// Returns the exact answer; for an angle near ±π also the answers on the other side of the cut.
+/// Returns the exact answer first. If the angle is near ±π, the answers for the angle minus or plus 2π follow.
 std::vector<compare::ForceAnswer> bending(const compare::BendingCase& question);
 
 /// Computes all cases, in parallel over them.

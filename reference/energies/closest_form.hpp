@@ -11,7 +11,8 @@
 
 namespace ogc::reference {
 
-/// The features that hold the contact points, with the places of their vertices in the form.
+/// The features that hold the contact points. The comments give the places of the features' vertices in
+/// ClosestForm::at, first side; second side.
 enum class FormKind : std::uint8_t {
   points,        ///< 0, 1
   point_line,    ///< 0; 1 2
@@ -20,11 +21,12 @@ enum class FormKind : std::uint8_t {
   fixed_weights  ///< nearly parallel edges: the points of method.md §1.4, with constant weights
 };
 
-/// The contact points: the first is the sum with the positive weights, the second minus the sum with the negative ones.
+/// The contact points of two faces. The first point is Σ w x over the positive weights, the second is −Σ w x over the
+/// negative weights.
 struct ClosestForm {
   FormKind kind = FormKind::points;  ///< features that hold the contact points
   std::array<std::uint8_t, 4> at{};  ///< the contact's vertex at each place of the form
-  /// by vertex of the contact; 1 in sum on the first side, −1 on the second
+  /// by vertex of the contact; they add up to 1 on the first side, to −1 on the second
   std::array<double, 4> weight{};
 };
 
@@ -42,7 +44,7 @@ Triple<T> separation(const std::array<Number, 4>& weight, const std::array<Tripl
   return sum;
 }
 
-/// Returns |h|; `scaled` is h ‖n‖ of a height h along the normal n.
+/// Returns the modulus |h| of a height h along the normal n from `scaled` = h ‖n‖.
 template <class T>
 T height(const T& scaled, const Triple<T>& normal) {
   using std::sqrt;

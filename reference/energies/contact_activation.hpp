@@ -1,6 +1,6 @@
-// Contact energy over distance, over any number type: Eq. 18 with Eq. 19 corrected, and the variants of the ablation
-// (method.md §4.2). T is the type of the distance, P that of radius and stiffness: P is a plain number if only the
-// distance is differentiated, and T if the condition of the answer is computed, too.
+// The contact energy g(d) over any number type: Eq. 18 with Eq. 19 corrected, and the variants of the ablation
+// (method.md §4.2). T is the type of the distance. P is the type of radius and stiffness: a plain number if only the
+// distance is differentiated, T if derivatives by radius and stiffness are needed, too.
 #pragma once
 
 #include "compare/problem/settings.hpp"
@@ -8,7 +8,8 @@
 
 namespace ogc::reference {
 
-/// Returns the quadratic stage for d ≥ τ = r/2, and k' (ln τ − ln d) plus the quadratic value at τ below.
+/// Returns the quadratic stage k/2 (r − d)² for d ≥ τ = r/2. Below τ, returns k' (ln τ − ln d) plus the quadratic
+/// stage's value at τ; k' is `log_stiffness`.
 template <class T, class P>
 T two_stage_energy(const T& d, const P& r, const P& k, const P& log_stiffness) {
   using std::log;
@@ -17,8 +18,8 @@ T two_stage_energy(const T& d, const P& r, const P& k, const P& log_stiffness) {
   return log_stiffness * (T(log(tau)) - log(d)) + T(P(0.5) * k * depth * depth);
 }
 
-/// Returns g(d) [J] for 0 < d < r, with radius r [m] and stiffness k_c [N/m]. `ogc_as_printed` uses the numbers of Eq.
-/// 19 in metres.
+/// Returns g(d) [J] for 0 < d < r, with radius r [m] and stiffness k_c [N/m]. For `ogc_as_printed`, Eq. 19 is evaluated
+/// with lengths in metres.
 template <class T, class P>
 T activation_energy(compare::ContactActivation kind, const T& d, const P& r, const P& k) {
   using std::log;
@@ -41,7 +42,7 @@ T activation_energy(compare::ContactActivation kind, const T& d, const P& r, con
 struct ActivationForm {
   bool has_stages = false;  ///< g has another formula below τ = r/2
   bool jumps = false;       ///< g' jumps at τ
-  bool ends_flat = false;   ///< g' is 0 at r, without a slope there
+  bool ends_flat = false;   ///< g' is 0 at r, and its own slope there is 0
 };
 /// Returns the properties of one activation.
 inline ActivationForm form_of(compare::ContactActivation kind) {

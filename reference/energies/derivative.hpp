@@ -1,6 +1,7 @@
-// Forward differentiation. A number holds its derivatives by N inputs. The type nests: this gives second derivatives
-// and, with a question's inputs as the innermost directions, the condition of every derivative. No derivative of an
-// energy is written by hand here.
+// Forward differentiation: a number that stores its value and its derivatives by N inputs. No derivative of an energy
+// is written by hand here. The type can be nested. Two levels give second derivatives. If the innermost level
+// differentiates by all given numbers of a test case, each derivative also shows how strongly it reacts to rounding of
+// the given numbers (Inputs::condition).
 #pragma once
 
 #include <algorithm>
@@ -14,18 +15,18 @@ namespace ogc::reference {
 /// Returns the value without derivatives.
 inline double plain(double x) { return x; }
 
-/// A number with its derivatives by N inputs. Slopes from `count` on are 0 and need not be computed: most factors of an
-/// energy depend on few of its inputs, or on none.
+/// A number with its derivatives by N inputs. Slopes from the number `count` on are 0 and are not computed, because
+/// most factors of an energy depend on few inputs.
 template <class T, std::size_t N>
 struct Derivative {
-  T value{};                 ///< of the expression
+  T value{};                 ///< value of the expression
   std::size_t count = 0;     ///< number of slopes that may differ from 0
   std::array<T, N> slope{};  ///< by input
 
   Derivative() = default;
   Derivative(const T& constant) : value(constant) {}
   Derivative(double constant) requires(!std::is_same_v<T, double>) : value(constant) {}
-  /// Makes the variable with the number `direction`.
+  /// Makes the variable that is the input with the number `direction`.
   Derivative(const T& at, std::size_t direction) : value(at), count(direction + 1) { slope[direction] = T(1.0); }
 
   friend Derivative operator+(Derivative a, const Derivative& b) {
@@ -72,8 +73,8 @@ double plain(const Derivative<T, N>& x) {
   return plain(x.value);
 }
 
-/// Returns max(0, x) with the derivatives of x even for x < 0, because the unit of a judged error must hold on both
-/// sides of the corner.
+/// Returns max(0, x), but keeps the derivatives of x for x < 0. The derivatives are units of the judge's errors, and
+/// rounding may put x on either side of the corner.
 inline double positive_part(double x) { return std::max(0.0, x); }
 template <class T, std::size_t N>
 Derivative<T, N> positive_part(Derivative<T, N> x) {
@@ -81,8 +82,8 @@ Derivative<T, N> positive_part(Derivative<T, N> x) {
   return x;
 }
 
-/// Returns the same if x is a product of `factor`. If the other number is negative, only its derivatives are kept,
-/// times `factor`.
+/// Returns max(0, x) if x is a product of `factor` and another number. If the other number is negative, the result is 0
+/// with the derivatives `factor` times those of the other number.
 inline double positive_part(double x, double) { return std::max(0.0, x); }
 template <class T, std::size_t N>
 Derivative<T, N> positive_part(const Derivative<T, N>& x, const Derivative<T, N>& factor) {
@@ -90,7 +91,7 @@ Derivative<T, N> positive_part(const Derivative<T, N>& x, const Derivative<T, N>
   return factor * positive_part(x / factor);
 }
 
-/// Returns f(x); `value` and `slope` are those of f there.
+/// Returns f(x) from `value` = f(x) and `slope` = f'(x).
 template <class T, std::size_t N>
 Derivative<T, N> chained(const T& value, const T& slope, const Derivative<T, N>& x) {
   Derivative<T, N> result(value);
@@ -99,7 +100,7 @@ Derivative<T, N> chained(const T& value, const T& slope, const Derivative<T, N>&
   return result;
 }
 
-/// Takes the derivative at 0 as 0: energies reach the root only multiplied by a quantity that is 0 there, too.
+/// Returns the root, with the derivative 0 at x = 0. Energies multiply the root by a quantity that is also 0 there.
 template <class T, std::size_t N>
 Derivative<T, N> sqrt(const Derivative<T, N>& x) {
   using std::sqrt;

@@ -8,11 +8,11 @@
 
 namespace ogc::reference {
 
-/// The ends x0 and x1 of the edge, then the opposite vertices.
+/// The vertices of a hinge: the ends x0 and x1 of the edge, then the opposite vertices o0 and o1.
 template <class T>
 using Hinge = std::array<Triple<T>, 4>;
 
-/// Returns a truth value; over lanes, one for each lane.
+/// Returns whether all coordinates are 0. Over SIMD lanes, returns one truth value for each lane.
 template <class T>
 auto is_zero(const Triple<T>& a) {
   return plain(a[0]) == 0.0 && plain(a[1]) == 0.0 && plain(a[2]) == 0.0;
@@ -35,8 +35,8 @@ struct Fold {
   auto collapsed() const { return is_zero(first) || is_zero(second); }
   /// Returns whether a kernel may treat the hinge as collapsed (compare/stages/bending.hpp).
   bool may_count_as_collapsed() const { return is_needle(first, x[2]) || is_needle(second, x[3]); }
-  /// Returns whether the sine at some end of the edge is below the contract's limit; the end with the longer side has
-  /// the smaller sine.
+  /// Returns whether the sine of a triangle's angle at one end of the edge is below bending_needle · 2⁻²⁴. The end with
+  /// the longer side has the smaller sine.
   bool is_needle(const Triple<T>& normal, const Triple<T>& opposite) const {
     const double side = std::max(plain_length(opposite - x[0]), plain_length(opposite - x[1]));
     return plain_length(normal) < compare::bending_needle * compare::unit_roundoff * plain_length(edge) * side;

@@ -51,7 +51,8 @@ Friction acting(Meeting meeting, const compare::FrictionForceCase& q) {
   compare::ForceAnswer result = answer(inputs, energy, block);
   const double stiff = reach(inputs, {&stiffness, 1});
   add_weight_error(meeting, q.contact, stiff * reach(inputs, u), 2 * stiff, result);
-  // At the radius and without slip both factors vanish, and the first order does not include their product.
+  // At d = r both the normal force and, without slip, u vanish. The first order of the product then lacks the product
+  // of both errors.
   result.force_scale += compare::contact_grey * compare::unit_roundoff * inputs.condition({&stiffness, 1}) *
                         inputs.condition(u);
   const double pull = q.friction * meeting.slope_doubt(), over_slip = slope_over_slip(y, limit).value;
@@ -62,7 +63,7 @@ Friction acting(Meeting meeting, const compare::FrictionForceCase& q) {
   return {result, std::abs(beyond.value) <= compare::near_factor * inputs.condition({&beyond, 1})};
 }
 
-/// Returns upper limits: f₁ ≤ 1, f₁/y ≤ 2/ε, ‖I − n nᵀ‖ = √2.
+/// Returns upper limits of force and block, from f₁ ≤ 1, f₁/y ≤ 2/ε and ‖I − n nᵀ‖ = √2.
 compare::ForceAnswer largest(const compare::FrictionForceCase& q, double distance) {
   compare::ForceAnswer bounds;
   const double force = q.friction * largest_slopes(q.contact, distance).first;
@@ -72,7 +73,8 @@ compare::ForceAnswer largest(const compare::FrictionForceCase& q, double distanc
   return bounds;
 }
 
-/// Returns the accepted answers. A decision is near if one of the contact is or, in an acting contact, one of the slip.
+/// Returns the accepted answers of a case. The case has a near decision if a decision of the contact is near, or if the
+/// contact acts and ‖u‖ is near ε.
 Accepted answers_of(const compare::FrictionForceCase& question, const std::vector<Meeting>& all) {
   bool near = is_near_decision(question.contact, all.front());
   std::vector<compare::ForceAnswer> accepted = answers(

@@ -30,13 +30,14 @@ struct HingeTermOf {
     }
     return false;
   }
-  /// Returns the energy as a function of the angle: all of it, or the damping of the isometric model.
+  /// Returns the energy terms that depend on the angle: elastic energy and damping, but only damping in the isometric
+  /// model.
   template <class T>
   T energy_of(const T& angle) const {
     const T moved = angle - T(start), elastic = elastic_of(angle);
     return damping == 0.0 ? elastic : elastic + 0.5 * stiffness * damping * moved * moved;
   }
-  /// Returns the energy that depends on positions without the angle: c/2 ‖Σ w x‖² of the isometric model.
+  /// Returns the energy terms that depend on positions but not on the angle: c/2 ‖Σ w x‖² of the isometric model.
   template <class T>
   T energy_of(const Hinge<T>& x) const {
     T elastic(0.0);
@@ -69,7 +70,8 @@ struct HingeTermOf {
   /// Returns the constants (head of stencil_terms.hpp).
   auto numbers() { return std::tie(stiffness, rest_angle, damping, start, weight); }
   auto numbers() const { return std::tie(stiffness, rest_angle, damping, start, weight); }
-  /// Returns the properties that stencils side by side must share (head of stencil_terms.hpp).
+  /// Returns the choices that select branches; stencils that are evaluated side by side must agree in them (head of
+  /// stencil_terms.hpp).
   auto kinds() { return std::tie(model); }
   auto kinds() const { return std::tie(model); }
 
@@ -91,7 +93,7 @@ struct HingeTermOf {
 /// A hinge over doubles.
 using HingeTerm = HingeTermOf<double>;
 
-/// Adds force and block of the terms with θ: c (1 + k) ∇θ ∇θᵀ, in the isometric model k c ∇θ ∇θᵀ.
+/// Adds force and block of the terms with θ. The block is c (1 + k) ∇θ ∇θᵀ, in the isometric model k c ∇θ ∇θᵀ.
 template <class Number>
 void add_angle(const HingeTermOf<Number>& term, const ByOwn<Number>& angle, VertexSystemOf<Number>& sum) {
   const Second<1, Number> energy = along(angle.value, [&](const Second<1, Number>& a) { return term.energy_of(a); });

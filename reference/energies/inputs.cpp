@@ -6,8 +6,8 @@ namespace ogc::reference {
 
 namespace {
 
-/// Returns a length for a condition, at least 2⁻¹⁰⁰ m if not 0: products of smaller lengths with the factors of an
-/// energy may underflow.
+/// Returns the size of an input for `condition`: the length, but at least 2⁻¹⁰⁰ m if it is not 0. Products of smaller
+/// lengths with the factors of an energy may underflow.
 double sized(double length) { return length == 0 ? 0 : std::max(length, 0x1p-100); }
 
 }  // namespace
@@ -27,7 +27,7 @@ Input Inputs::number(double value, double size) {
 
 namespace {
 
-/// ∂f/∂q for a vector q: one row for each number of f.
+/// ∂f/∂q of an answer f by a vector q: one row for each number of f.
 using Rows = std::vector<std::array<double, 3>>;
 
 Rows rows_of(std::span<const Input> answer, std::size_t first) {
@@ -49,7 +49,7 @@ double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) 
 }  // namespace
 
 double Inputs::stencil_condition(std::span<const Input> answer, const Range& stencil) const {
-  // The point at the origin comes first: moving it is the same as moving all others by the opposite.
+  // The point at the origin is points[0]. Moving it has the same effect as moving all other points by the opposite.
   std::vector<std::array<double, 3>> points(1);
   std::vector<double> norms(1);
   Rows origin(answer.size());

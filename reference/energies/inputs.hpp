@@ -1,5 +1,6 @@
-// Differentiates by the inputs of a stencil first, so that each later derivative (force, block) has a condition. The
-// condition is the unit in which the judge counts errors (compare/stages/force.hpp).
+// Differentiates an energy by all given numbers of its stencil (positions, constants) at the innermost level. So each
+// later derivative (force, block) has a condition Σ ‖∂f/∂q‖ ‖q‖ over the given numbers q. The condition is the unit in
+// which the judge counts errors (compare/stages/force.hpp).
 #pragma once
 
 #include <span>
@@ -10,24 +11,24 @@
 
 namespace ogc::reference {
 
-/// A number with its derivatives by the inputs of a question.
+/// A number with its derivatives by the given numbers of one case.
 using Input = Derivative<double, 28>;
-/// A number with its derivatives by the own vertex, on which the question's force acts.
+/// An Input number with its derivatives by the position of the own vertex, on which the force acts.
 using ByVertex = Derivative<Input, 3>;
 
-/// Collects the inputs of one stencil.
+/// Collects the given numbers (inputs) of one stencil.
 class Inputs {
  public:
-  /// Returns p − from as one input. It is exact, because double holds the difference of two single-precision numbers of
-  /// similar size.
+  /// Returns p − from as one input. Double holds the difference of two single-precision numbers of similar size
+  /// exactly.
   Triple<Input> vector(const compare::Vec3f& p, const compare::Vec3f& from);
-  /// Returns a given number with the error u |value|.
+  /// Returns a given number as an input. Its error is u |value|, u = 2⁻²⁴.
   Input number(double value) { return number(value, std::abs(value)); }
-  /// Returns a number with the error u · `size`. If `size` is the condition of a computed number, that number's own
-  /// inputs can be dropped.
+  /// Returns a number as an input whose error is u · `size`. For a computed number, pass its condition as `size`; the
+  /// inputs from which it was computed are then not needed.
   Input number(double value, double size);
-  /// Returns all points of a stencil relative to points[origin], whose entry is 0. A kernel may take any point as the
-  /// origin, so the condition is the largest over all origins.
+  /// Returns all points of a stencil relative to points[origin]; the entry of points[origin] is 0. A kernel may take
+  /// any point as the origin, so the condition is the largest over all origins.
   template <std::size_t N>
   std::array<Triple<Input>, N> stencil(const std::array<compare::Vec3f, N>& points, std::size_t origin) {
     std::array<Triple<Input>, N> relative;
@@ -36,7 +37,7 @@ class Inputs {
       if (k != origin) relative[k] = vector(points[k], points[origin]);
     return relative;
   }
-  /// Returns Σ ‖∂f/∂q‖ ‖q‖ over the inputs q, for an answer f of several numbers (Euclidean norms).
+  /// Returns Σ ‖∂f/∂q‖ ‖q‖ (Euclidean norms) over the inputs q. f is `answer`, which may have several numbers.
   double condition(std::span<const Input> answer) const;
 
  private:
@@ -54,26 +55,26 @@ class Inputs {
   std::size_t used_ = 0;
 };
 
-/// Returns a point that does not depend on the own vertex.
+/// Returns a point whose derivatives by the own vertex are 0.
 Triple<ByVertex> fixed(const Triple<Input>& point);
-/// Returns the own vertex, which is the origin of the relative coordinates.
+/// Returns the own vertex as the variable, at the origin of the relative coordinates.
 Triple<ByVertex> own_vertex();
 
 using Block = BlockOf<Input>;
 
-/// Returns a force and its block as an answer.
+/// Returns force and block as an answer, with their units of error.
 compare::ForceAnswer answer(const Inputs& inputs, const VertexSystemOf<Input>& system);
-/// Returns the answer of an energy, whose force is minus its slope, and a block.
+/// Returns the answer with the force −∂E/∂x and this block, with their units of error.
 compare::ForceAnswer answer(const Inputs& inputs, const ByVertex& energy, const Block& block);
 
-/// Adds damping by vertex to an elastic force with the block B: adds −k B `moved` to the force and k B to the block.
-/// `moved` is the vertex's motion since the start of the step, k is `damping`.
+/// Adds damping by vertex to an elastic force with the block B: the force gets −k B `moved`, the block k B. `moved` is
+/// the vertex's motion since the start of the step, k is `damping`.
 compare::ForceAnswer damped_by_vertex(const Inputs& inputs, const VertexSystemOf<Input>& elastic, const Input& damping,
                                       const Triple<Input>& moved);
 
-/// Multiplies the units of error, for a model with other tolerances than its stage.
+/// Multiplies the units of error. Needed for a model whose tolerances differ from those of its stage.
 compare::ForceAnswer with_units(compare::ForceAnswer answer, double force, double block);
-/// Adds two answers that are rounded separately.
+/// Returns the sum of two answers that are rounded separately; their units of error add up.
 compare::ForceAnswer sum(compare::ForceAnswer a, const compare::ForceAnswer& b);
 
 }  // namespace ogc::reference

@@ -1,13 +1,14 @@
-// IPC's lagged potential of a slip in Input numbers (method.md §4.4), for contacts of all kinds. f₀ is the integral of
-// f₁. The energy's derivative by the squared slip, f₁(y)/(2 y), has its own formula, which is finite for zero slip.
+// IPC's lagged friction potential f₀ as a function of the slip length y, in Input numbers (method.md §4.4), for
+// contacts of all kinds. f₀ is the integral of f₁. Its derivative by the squared slip, f₁(y)/(2 y), has a separate
+// formula that is finite at zero slip.
 #pragma once
 
 #include "reference/energies/inputs.hpp"
 
 namespace ogc::reference {
 
-/// Returns ‖u‖, where the error of u is `units` of u · condition. If u may be 0, it has no direction, and ‖u‖ changes
-/// by the length of any change of u.
+/// Returns ‖u‖ of a slip u whose error is `units` · 2⁻²⁴ · condition. If u may be 0 within this error, its direction is
+/// unknown. ‖u‖ then changes by the length of any change of u.
 inline Input slip_length(const Inputs& inputs, const Triple<Input>& slip, double units) {
   Input y = sqrt(dot(slip, slip));
   if (y.value > units * compare::unit_roundoff * inputs.condition(slip)) return y;

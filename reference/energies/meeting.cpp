@@ -14,8 +14,8 @@ namespace {
 using compare::ContactForceCase;
 using compare::ContactSides;
 
-/// The place of the contact points: on a triangle the weights of its second and third corner, on edges the parameters
-/// from end 0 to end 1.
+/// The place of the contact points: the weights of a triangle's second and third corner, or the parameters on both
+/// edges, 0 at end 0 and 1 at end 1.
 using Parameters = std::array<Input, 2>;
 using Vertices = std::array<Triple<Input>, 4>;
 
@@ -27,8 +27,8 @@ Input foot(const Triple<Input>& p, const Triple<Input>& a, const Triple<Input>& 
   return dot(p - a, e) / dot(e, e);
 }
 
-/// Returns `free`, clamped to `end`. Within rounding of the end it keeps the derivatives of the unclamped parameter,
-/// because it may move there.
+/// Returns `end`, where a clamped parameter lies. If `free`, the unclamped parameter, is within rounding of `end`, the
+/// result has the derivatives of `free`, because rounding may leave the parameter unclamped.
 Input at_end(const Inputs& inputs, Input free, double end) {
   if (!(std::abs(free.value - end) <= compare::contact_grey * compare::unit_roundoff * inputs.condition({&free, 1})))
     return Input(end);
@@ -36,7 +36,7 @@ Input at_end(const Inputs& inputs, Input free, double end) {
   return free;
 }
 
-/// Returns the parameters of the point's foot in the triangle's plane.
+/// Returns the weights of the second and third corner at the foot of point x[0] in the triangle's plane.
 Parameters in_plane(const Vertices& x) {
   const auto &p = x[0], &a = x[1], &b = x[2], &c = x[3];
   const Triple<Input> n = cross(b - a, c - a);
@@ -72,8 +72,8 @@ std::vector<Parameters> all_on_triangle(const Inputs& inputs, const ContactForce
   return all;
 }
 
-/// Returns the parameters for a point and a segment: end 0, end 1, interior, in the order that breaks ties of a
-/// collapsed segment.
+/// Returns the accepted parameters of the closest point of a segment: for end 0, end 1, interior. This order decides
+/// which feature of a collapsed segment is the exact one.
 std::vector<Parameters> all_on_segment(const Inputs& inputs, const ContactForceCase& q, const Vertices& x) {
   const Vec3f &p = q.vertex[0], &a = q.vertex[1], &b = q.vertex[2];
   std::array<Membership, 3> membership;
@@ -94,8 +94,8 @@ std::vector<Parameters> all_on_segment(const Inputs& inputs, const ContactForceC
   return all;
 }
 
-/// Returns the parameter on the first of two edges; `feature` and `other` are the features of both edges. `skew`:
-/// whether their lines have unique closest points.
+/// Returns the parameter of the closest point on the first of two edges. `feature` and `other` are the closest features
+/// of the first and the second edge; `skew` is whether their lines have unique closest points.
 Input on_edge(const Inputs& inputs, bool skew, EdgeFeature feature, const Triple<Input>& u0, const Triple<Input>& u1,
               EdgeFeature other, const Triple<Input>& v0, const Triple<Input>& v1) {
   if (!skew && feature != EdgeFeature::interior && other == EdgeFeature::interior)
@@ -111,7 +111,8 @@ Parameters on_edges(const Inputs& inputs, bool skew, EdgeFeatures features, cons
           on_edge(inputs, skew, features.second, x[2], x[3], features.first, x[0], x[1])};
 }
 
-/// Applies the rule for nearly parallel edges: the middle of the overlap, and its projection.
+/// Returns the parameters by the rule for nearly parallel edges: the middle of the overlap on the first edge, and its
+/// projection on the second.
 Parameters middle_of_overlap(const Vertices& x) {
   const Input s = Input(0.5) * (within_unit(foot(x[2], x[0], x[1])) + within_unit(foot(x[3], x[0], x[1])));
   return {s, within_unit(foot(x[0] + s * (x[1] - x[0]), x[2], x[3]))};
@@ -124,8 +125,8 @@ std::vector<Parameters> all_on_edges(const Inputs& inputs, const ContactForceCas
   if (rule.certain) return {middle_of_overlap(x)};
   std::vector<Parameters> all;
   if (rule.exact) all.push_back(middle_of_overlap(x));
-  // If the interiors hold the closest points, the edges overlap, so the rule applies at every small angle. Then no
-  // crossing of nearly parallel lines is computed.
+  // Nearly parallel edges whose interiors hold the closest points overlap, so the rule for nearly parallel edges
+  // applies. The intersection of their lines is then not computed.
   const Margin angle = parallel(q.vertex[0], q.vertex[1], q.vertex[2], q.vertex[3]);
   const bool is_small = sign(angle) < 0 && !grey(angle), certain = are_closest(pair, closest).certain;
   if (!(is_small && closest == interiors)) all.push_back(on_edges(inputs, !is_small, closest, x));
@@ -158,9 +159,9 @@ std::array<Input, 4> weights(ContactSides sides, const Input& first, const Input
   return {one, -one, zero, zero};
 }
 
-/// Returns e_k as one input. Its size is its condition plus the square of the normal's error, 4 u ‖e‖‖e'‖ from two
-/// products and a difference of rounded edges. For parallel edges, where the first order vanishes, this is the only
-/// error.
+/// Returns e_k as one input. Its size is its condition plus the square of the normal's error. The normal e × e' has the
+/// error 4 u ‖e‖‖e'‖, u = 2⁻²⁴, from two products and a difference of rounded edges. For parallel edges, where the
+/// first order vanishes, this square is the only error.
 Input mollified(const ContactForceCase& q, Inputs& inputs) {
   Inputs own;
   const Triple<Input> e = own.vector(q.previous[1], q.previous[0]), f = own.vector(q.previous[3], q.previous[2]);
@@ -180,7 +181,7 @@ Input shared(const ContactForceCase& q, Inputs& inputs) {
   return inputs.number(result.value, own.condition({&result, 1}));
 }
 
-/// Returns the exact e_k, then the one after a flip of a grey decision.
+/// Returns the exact e_k first. If the edges may count as parallel or not within rounding, the other e_k follows.
 std::vector<Input> energy_shares(const ContactForceCase& q, Inputs& inputs) {
   if (q.sides != ContactSides::edge_edge) return {one};
   if (q.rest_squared[0] > 0 && q.rest_squared[1] > 0) return {mollified(q, inputs)};
@@ -192,7 +193,7 @@ std::vector<Input> energy_shares(const ContactForceCase& q, Inputs& inputs) {
   return rule.exact ? std::vector{share, one} : std::vector{one, share};
 }
 
-/// Returns vertices relative to the origin of Meeting::vertex.
+/// Returns vertices relative to the origin that the comment of Meeting names.
 Vertices relative(ContactSides sides, const std::array<Vec3f, 4>& at, Inputs& inputs) {
   Vertices vertices;
   const std::size_t base = sides == ContactSides::edge_edge ? 0 : 1;
@@ -201,7 +202,7 @@ Vertices relative(ContactSides sides, const std::array<Vec3f, 4>& at, Inputs& in
   return vertices;
 }
 
-/// Returns a meeting without weights and e_k.
+/// Returns a meeting whose weights and e_k are not yet set.
 Meeting begun(const ContactForceCase& q) {
   Meeting meeting;
   meeting.vertex = relative(q.sides, q.vertex, meeting.inputs);
@@ -219,8 +220,9 @@ void measure(Meeting& meeting) {
   meeting.distance_doubt = factor * meeting.inputs.condition({&meeting.distance, 1});
 }
 
-/// Returns whether a face is a needle. In units of the longest side, a foot at distance d on a triangle of height h has
-/// an error of u d/h² of the width across h: 3/64 for h = 2⁻⁹, d = 3.
+/// Returns whether a triangle is a needle, or one edge much shorter than the other. In units of the longest side, a
+/// foot at distance d on a triangle of height h has an error of u d/h² of the width across h. For h = 2⁻⁹ and d = 3
+/// this is 3/64 (u = 2⁻²⁴).
 bool has_needle(const ContactForceCase& q, const Vertices& x) {
   constexpr double least_squared = 0x1p-18;
   const auto squared = [&](std::size_t a, std::size_t b) { return dot(x[a] - x[b], x[a] - x[b]).value; };
@@ -286,7 +288,7 @@ double Meeting::slope_doubt() const {
 
 namespace {
 
-/// Sets the weights. Each has an error of u, besides those of its inputs.
+/// Sets the weights. Each weight has an error of u = 2⁻²⁴ beside the errors of its inputs.
 void weigh(Meeting& meeting, ContactSides sides, const Parameters& at) {
   const bool has_parameters = sides != ContactSides::point_point;
   const Input first = has_parameters ? meeting.inputs.number(0, 1) : zero,
@@ -294,7 +296,7 @@ void weigh(Meeting& meeting, ContactSides sides, const Parameters& at) {
   meeting.weight = weights(sides, at[0] + first, at[1] + second);
 }
 
-/// Returns a meeting with the constants of `common` for each accepted place of the contact points.
+/// Returns a copy of `common` with weights for each accepted place of the contact points.
 std::vector<Meeting> weighed(const ContactForceCase& question, Meeting common) {
   std::vector<Meeting> all;
   common.needle = has_needle(question, common.vertex);
@@ -338,7 +340,7 @@ LargestSlopes largest_slopes(const ContactForceCase& question, double distance) 
   using Twice = Derivative<Once, 1>;
   const double r = question.contact_radius;
   LargestSlopes largest;
-  // −g' falls with the distance, except for ogc_as_printed, which jumps at τ.
+  // −g' decreases with the distance. Only for ogc_as_printed it also jumps at τ = r/2, so τ is examined, too.
   for (const double d : {std::clamp(distance, 0x1p-23 * r, r), std::clamp(distance, 0.5 * r, r)}) {
     const Twice g = activation_energy(question.activation, Twice(Once(d, 0), 0), r, double{question.stiffness});
     largest = {std::max(largest.first, -g.value.slope[0]), std::max(largest.second, g.slope[0].slope[0])};
@@ -361,7 +363,7 @@ std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings, 
     }
     if (acts || ends) all.push_back(acting(meeting));
     none = none || !acts || ends;
-    // The contact points of a needle may also lie elsewhere, at any larger distance.
+    // On a needle, rounding may move the contact points elsewhere, to any larger distance.
     const bool touches = meeting.doubt > 0 && meeting.may_touch(), of_needle = meeting.needle && (acts || ends);
     const double distance = touches ? 0 : meeting.distance.value - meeting.distance_doubt;
     if (touches || of_needle) nearest = any ? std::min(nearest, distance) : distance;

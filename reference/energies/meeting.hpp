@@ -19,29 +19,31 @@
 
 namespace ogc::reference {
 
-/// One accepted way of meeting. Coordinates are relative to end 0 of the first edge, or to the second side's first
-/// vertex if the first side is a point.
+/// One accepted place of the contact points, with everything that follows from it. Coordinates are relative to end 0 of
+/// the first edge, or to the second side's first vertex if the first side is a point.
 struct Meeting {
   Inputs inputs;
   std::array<Triple<Input>, 4> vertex;  ///< x [m]
-  std::array<Input, 4> weight;          ///< 1 in sum on the first side, −1 on the second
+  std::array<Input, 4> weight;          ///< weights that add up to 1 on the first side, to −1 on the second
   Input contact_radius, stiffness;      ///< r; k_c e_k
   /// the activation g
   compare::ContactActivation activation = compare::ContactActivation::ogc;
-  bool across = false;        ///< evaluated on the other side of the jump of g' at τ, within rounding of d
-  Input distance;             ///< d, without derivatives if it is 0
-  double doubt = 0;           ///< error of the vector between the contact points [m]
+  bool across = false;  ///< whether g' is taken from the other side of its jump at τ; only if d is within rounding of τ
+  Input distance;       ///< d, without derivatives if it is 0
+  double doubt = 0;     ///< error of the vector between the contact points [m]
   double distance_doubt = 0;  ///< error of d, to first order [m]
-  /// whether the first order may fail for the place of the contact points (compare/stages/contact_force.hpp)
+  /// whether the derivatives may underestimate the error in the place of the contact points
+  /// (compare/stages/contact_force.hpp)
   bool needle = false;
 
-  /// Returns |w| Σ |w_u| over the own vertex and the vertices that are updated with it.
+  /// Returns |w| Σ |w_u|. w is the own vertex's weight; the sum is over the own vertex and the vertices that are
+  /// updated with it.
   Input majorant(const compare::ContactForceCase& question) const;
   /// Returns Σ w_i x_i, the vector d n from the second side's contact point to the first's.
   Triple<Input> separation() const;
-  /// Returns d, clamped to 2⁻²³ r … r, at which slope and curvature are evaluated. The clamped value keeps d's
-  /// derivatives; only beyond r, outside the grey zone, it has none, so that nothing depends on how far the sides are
-  /// apart.
+  /// Returns the distance at which slope and curvature are evaluated: d clamped to 2⁻²³ r … r. The clamped value keeps
+  /// the derivatives of d. If d is certainly beyond r, it has none, so that nothing depends on the distance of sides
+  /// that are far apart.
   template <class T>
   T acting_distance(T d) const {
     if (is_beyond()) return T(contact_radius);
@@ -60,16 +62,16 @@ struct Meeting {
   bool may_jump() const {
     return form_of(activation).jumps && std::abs(distance.value - 0.5 * contact_radius.value) <= distance_doubt;
   }
-  /// Returns the error of −g' that the first order lacks [N]: if g' has no slope at r, the size of −g' within the error
-  /// of d about r.
+  /// Returns an additional error of −g' [N] for activations whose g' has no slope at r: the size of −g' within the
+  /// error of d about r. First-order errors do not include it.
   double slope_doubt() const;
-  /// Returns whether the contact has a force: 0 < d < r. Beyond r it has only a block.
+  /// Returns whether the contact has a force: 0 < d < r. For d ≥ r it has only a block.
   bool acts() const { return distance.value > 0 && distance.value < contact_radius.value; }
-  /// Returns whether rounding could decide between d < r and d ≥ r.
+  /// Returns whether rounding of d may change the decision d < r.
   bool may_end() const { return std::abs(distance.value - contact_radius.value) <= distance_doubt; }
   /// Returns whether d is certainly at least r.
   bool is_beyond() const { return distance.value >= contact_radius.value && !may_end(); }
-  /// Returns whether the contact points may touch within rounding; then neither d nor n is known.
+  /// Returns whether the contact points may coincide within rounding; neither d nor n is known then.
   bool may_touch() const { return distance.value <= 2 * doubt; }
 
  private:
@@ -77,45 +79,46 @@ struct Meeting {
   static void set_plain(ByVertex& x, double value) { x.value.value = value; }
 };
 
-/// Returns the exact meeting first, then the meetings after a flip of each grey decision.
+/// Returns the exact meeting first. A meeting for each other outcome of a grey decision follows.
 std::vector<Meeting> meetings(const compare::ContactForceCase& question);
 
 /// Returns whether a decision of the contact lies within near_factor: the features of the closest points, d = r, and d
 /// = τ if the activation has two stages.
 bool is_near_decision(const compare::ContactForceCase& question, const Meeting& exact);
 
-/// Selects where a stage's answer becomes 0.
+/// Selects the distances at which a stage's answer is 0.
 enum class Ends {
   at_radius,  ///< for d ≥ r
-  nowhere     ///< only at d = 0, where there is no normal
+  nowhere     ///< only for d = 0, where the normal is undefined
 };
 
 /// Returns a stage's accepted answers for all meetings of a contact. `acting` returns the answer of a meeting with a
-/// force. `largest` returns, as scales, upper limits of force and block at this distance [m] or beyond; it is used if
-/// the points may touch, and for needles.
+/// force. `largest` is used for needles, and if the contact points may coincide. It returns, as scales, upper limits of
+/// force and block at this distance [m] or beyond.
 std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings, Ends end,
                                           const std::function<compare::ForceAnswer(double)>& largest,
                                           const std::function<compare::ForceAnswer(const Meeting&)>& acting);
 
-/// Upper limits of −g' and g'' [N], [N/m] beyond a distance; distances below 2⁻²³ r count as 2⁻²³ r.
+/// Upper limits of −g' [N] and g'' [N/m] at and beyond a distance; distances below 2⁻²³ r count as 2⁻²³ r.
 struct LargestSlopes {
   double first = 0, second = 0;  ///< −g', g''
 };
 /// Returns the limits for all distances from `distance` [m] on.
 LargestSlopes largest_slopes(const compare::ContactForceCase& question, double distance);
-/// Returns an upper limit of |w| Σ |w_u|: the moduli of all weights add up to 2.
+/// Returns an upper limit of Meeting::majorant, |w| Σ |w_u|. The moduli of all weights add up to 2.
 inline double largest_majorant(const compare::ContactForceCase& question) { return question.together == 0 ? 1 : 2; }
 
-/// Returns the scale, relative to its size, of a number that may be completely wrong, up to its size and a rounding.
+/// Returns the factor from a number's size to its scale for which the tolerance accepts every value up to this size,
+/// plus one rounding.
 inline double units_of_whole(double tolerance) { return 1 / (compare::unit_roundoff * tolerance) + 1; }
 
-/// Returns the largest modulus that the answer may have within its error.
+/// Returns an upper limit of the answer's norm: its value plus its error.
 double reach(const Inputs& inputs, std::span<const Input> answer);
 
-/// Adds the error of each weight beyond that of its inputs to the scales. Weights are computed one by one, as in
-/// closest_face. So the error of each, even of a weight of 0, may be u times the largest condition of all weights.
-/// `force` and `curvature` are the largest ones for w = 1. If n vertices are updated together, the block has the factor
-/// |w| Σ |w_u|. Its error is the error of |w| times the sum, plus n errors times |w|.
+/// Adds to the scales the error that each weight has beyond its inputs' errors. Weights are computed as in
+/// closest_face, so the error of each, even of a weight of 0, may be u = 2⁻²⁴ times the largest condition of all
+/// weights. `force` and `curvature` are the largest force and curvature for w = 1. If n vertices are updated together,
+/// the block has the factor |w| Σ |w_u|. The factor's error is the error of |w| times the sum, plus n errors times |w|.
 void add_weight_error(const Meeting& meeting, const compare::ContactForceCase& question, double force, double curvature,
                       compare::ForceAnswer& answer);
 

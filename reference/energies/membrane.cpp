@@ -13,7 +13,7 @@ using compare::DampingForm;
 using compare::ForceAnswer;
 using compare::MembraneModel;
 
-/// The question in Input numbers. Corners are relative to the own corner, which is the first.
+/// A case in Input numbers. Corners are relative to the own corner, which is the first.
 struct Question {
   Inputs inputs;
   std::array<Triple<Input>, 3> corner, start;
@@ -45,9 +45,10 @@ struct Question {
 
 double length(const Triple<Input>& a) { return std::hypot(a[0].value, a[1].value, a[2].value); }
 
-/// Returns an answer if f₁ × f₂ may be 0, otherwise nothing: ψ without J. The part with J has an unknown direction. It
-/// is at most A (λ + 2μ) t in the force and A (μ b² + (λ + μ) t²) in the block, b = ‖∇N‖ of the corner. Both limits are
-/// enlarged by a hundredth, because J is not quite 0.
+/// Returns an answer that covers all directions of the normal f₁ × f₂ if f₁ × f₂ may be 0; otherwise returns nothing.
+/// Force and block are those of ψ without J. The scales cover the terms with J, whose direction is unknown: at most A
+/// (λ + 2μ) t in the force and A (μ b² + (λ + μ) t²) in the block, b = ‖∇N‖ of the corner. Both limits are enlarged by
+/// a hundredth, because J is not quite 0.
 std::optional<ForceAnswer> any_normal(const Question& q) {
   const Inputs& inputs = q.inputs;
   const MembraneTermOf<Input>& term = q.term;
@@ -74,7 +75,7 @@ std::optional<ForceAnswer> any_normal(const Question& q) {
   return result;
 }
 
-/// The parts of the contract that depend on the model.
+/// Tolerances and rules of the stage that depend on the membrane model.
 struct ModelRules {
   double force_tolerance = compare::membrane_force_tolerance, block_tolerance = compare::membrane_block_tolerance;
   bool needs_normal = false;  ///< whether a collapsed triangle gets the answer of any_normal
@@ -107,7 +108,7 @@ std::vector<ForceAnswer> damped_by_strain(const Question& q, const ModelRules& r
   return answers;
 }
 
-/// Enlarges the force's units for damping by vertex, because B `moved` is known no better than B.
+/// Enlarges the units of the force for damping by vertex: its force B `moved` is as inaccurate as the block B.
 ForceAnswer with_vertex_units(const ModelRules& rules, const ForceAnswer& answer) {
   return with_units(answer, (rules.block_tolerance + compare::per_vertex_additions) / compare::membrane_force_tolerance,
                     rules.block_tolerance / compare::membrane_block_tolerance);
@@ -119,7 +120,7 @@ std::vector<ForceAnswer> damped_by_motion(const Question& q, const ModelRules& r
   add_elastic(q.term, q.at, elastic);
   std::vector answers{with_vertex_units(rules, damped_by_vertex(q.inputs, elastic, q.term.damping, moved))};
   if (!any) return answers;
-  // The block is at most its centre plus its scale.
+  // An upper limit of the block's norm: the stored block plus its error.
   constexpr double u = compare::unit_roundoff;
   const double largest = std::hypot(any->block[0], any->block[3], any->block[5]) +
                          rules.block_tolerance * u * any->block_scale;

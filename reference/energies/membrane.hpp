@@ -5,7 +5,8 @@
 
 namespace ogc::reference {
 
-/// Returns the exact answer; if the stable Neo-Hookean model has no normal, also an answer that covers every normal.
+/// Returns the exact answer. For a collapsed triangle of the stable Neo-Hookean model, whose normal is undefined, an
+/// answer that covers every normal follows.
 std::vector<compare::ForceAnswer> membrane(const compare::MembraneCase& question);
 
 /// Computes all cases, in parallel over them.

@@ -13,7 +13,7 @@ namespace ogc::reference {
 template <class T>
 using Deformation = std::array<Triple<T>, 2>;
 
-/// The components xx, xy, yy of G.
+/// Components xx, xy, yy of the symmetric Green strain G.
 template <class T>
 using Strain = std::array<T, 3>;
 
@@ -117,7 +117,7 @@ struct MembraneTermOf {
 /// A triangle over doubles.
 using MembraneTerm = MembraneTermOf<double>;
 
-/// F and G as functions of one corner, and G as three independent variables.
+/// F and G as functions of one corner's position, and a copy of G whose components are independent variables.
 template <class Number>
 struct MembraneCorner {
   Deformation<ByOwnTwice<Number>> f;
@@ -130,8 +130,8 @@ struct MembraneCorner {
   }
 };
 
-/// Adds force and material part of the block of an energy of the strain: its second derivative along the derivatives of
-/// G.
+/// Adds force and block of an energy of the strain G. The block is the material part: the energy's second derivative by
+/// G along the derivatives of G.
 template <class Number>
 void add_strain(const Strain<ByOwnTwice<Number>>& g, const ByOwnTwice<Number>& energy, VertexSystemOf<Number>& sum) {
   for (std::size_t i = 0, k = 0; i < 3; ++i) {
@@ -141,8 +141,8 @@ void add_strain(const Strain<ByOwnTwice<Number>>& g, const ByOwnTwice<Number>& e
   }
 }
 
-/// Adds the geometric part of the block, from the elastic stress, if it is positive. G is a quadratic function whose
-/// second derivative is a multiple of the identity.
+/// Adds the geometric part of the block, from the elastic stress, if it is positive. The second derivative of G by the
+/// corner is a multiple of the identity.
 template <class Number>
 void add_geometric(const Number& area, const Strain<ByOwnTwice<Number>>& g, const ByOwnTwice<Number>& elastic,
                    VertexSystemOf<Number>& sum) {
@@ -151,7 +151,7 @@ void add_geometric(const Number& area, const Strain<ByOwnTwice<Number>>& g, cons
   add_identity(positive_part(geometric, area), sum.block);
 }
 
-/// Adds the exact second derivative, but max(0, ·) of its eigenvalue along the normal.
+/// Adds the exact force and second derivative, but replaces the negative eigenvalue along the normal by 0.
 template <class Number>
 void add_neo_hookean(const Number& area, const ByOwnTwice<Number>& energy, const Triple<Number>& normal,
                      VertexSystemOf<Number>& sum) {

@@ -1,5 +1,5 @@
-// Computes all cases of a batch in parallel. Each case has its own place in the result, so the number of threads
-// changes nothing.
+// Computes all cases of a batch in parallel. Each case writes to a separate place of the result, so the result does not
+// depend on the number of threads.
 #pragma once
 
 #include <utility>
@@ -18,7 +18,7 @@ struct Accepted {
   Accepted(std::vector<compare::ForceAnswer> all, bool is_near = false) : answers(std::move(all)), near(is_near) {}
 };
 
-/// Computes the truth about each case with `truth_of`.
+/// Computes the truth about each case with the function `truth_of`.
 template <class Case, class TruthOf>
 compare::ForceTruth for_all(const std::vector<Case>& cases, TruthOf truth_of) {
   compare::ForceTruth truth{std::vector<std::vector<compare::ForceAnswer>>(cases.size()),

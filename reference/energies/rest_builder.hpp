@@ -1,6 +1,6 @@
-// Collects the rest state; each kind of element adds its own part. Each quantity is written once, as polynomials over a
-// number type. Exact numbers give the value, so needles, flat hinges and folds lose no bit before the last root,
-// quotient or angle. Input numbers give the unit of the value's error.
+// Collects the rest state. Each kind of element adds its own part. Each quantity is written once, as polynomials over a
+// number type. With exact numbers it gives the value: needles, flat hinges and folds lose no bit before the last root,
+// quotient or angle. With Input numbers it gives the unit of the value's error.
 #pragma once
 
 #include <CGAL/Mpzf.h>
@@ -11,26 +11,26 @@
 
 namespace ogc::reference {
 
-/// The numbers in which polynomials of coordinates are computed.
+/// The exact number type for polynomials of coordinates.
 using Exact = CGAL::Mpzf;
 
-/// Returns at least 64 bits of an exact number: a second double holds the rest of the first one.
+/// Returns an exact number with at least 64 bits. A second double holds what the first double lacks.
 inline long double number(const Exact& x) {
   const double high = x.to_double();
   return static_cast<long double>(high) + static_cast<long double>((x - Exact(high)).to_double());
 }
-/// Returns it unchanged.
+/// Returns the Input number itself, so that one formula serves both number types.
 inline Input number(const Input& x) { return x; }
 
-/// Converts a vertex without loss.
+/// Converts a vertex to exact numbers without loss.
 inline Point<Exact> exact(const compare::Vec3& p) { return {Exact(p.x), Exact(p.y), Exact(p.z)}; }
 
-/// Converts a vertex of a rounded scene without loss.
+/// Converts a vertex to single precision; without loss, because the scene is rounded.
 inline compare::Vec3f single(const compare::Vec3& p) {
   return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
 }
 
-/// Returns p − from as one input.
+/// Returns p − from as one input of `inputs`.
 inline Point<Input> input(Inputs& inputs, const compare::Vec3& p, const compare::Vec3& from) {
   const Triple<Input> v = inputs.vector(single(p), single(from));
   return {v[0], v[1], v[2]};
@@ -39,7 +39,7 @@ inline Point<Input> input(Inputs& inputs, const compare::Vec3& p, const compare:
 /// Returns the unit of the error of one number.
 inline double unit_of(const Inputs& inputs, const Input& answer) { return inputs.condition({&answer, 1}); }
 
-/// Collects the truth about a scene.
+/// Collects the truth about the rest state of a scene.
 struct RestBuilder {
   const compare::Scene& scene;
   const compare::Topology& topology;
@@ -63,7 +63,7 @@ struct RestBuilder {
   }
 };
 
-// Each kind adds its elements, in the order of the contract, and their masses.
+// Adds the elements of one kind, in the order of the contract (compare/stages/rest_state.hpp), and their masses.
 void add_rest(compare::TriangleKind, RestBuilder& to);
 void add_rest(compare::HingeKind, RestBuilder& to);
 void add_rest(compare::TetrahedronKind, RestBuilder& to);

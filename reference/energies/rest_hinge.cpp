@@ -39,7 +39,7 @@ struct Fold {
   }
 };
 
-/// Adds the weights of the last hinge; they are 0 in all models but the isometric one.
+/// Adds the weights of the last hinge. They are 0 except in the isometric model.
 void add_weights(compare::BendingModel model, const Fold<Exact>& fold, const Fold<Input>& reacting,
                  const std::array<Point<Exact>, 2>& opposite, const std::array<Point<Input>, 2>& reacting_opposite,
                  const Inputs& inputs, compare::RestStateTruth& truth) {

@@ -15,7 +15,8 @@ void add_edge(RestBuilder& to, const compare::Edge& edge) {
   to.truth.edge_length_squared_scale.push_back(unit_of(inputs, dot(reacting, reacting)));
 }
 
-/// Computes the harmonic mean of the stiffnesses as the reciprocal of the mean reciprocal.
+/// Adds the material of contacts between two bodies: the harmonic mean of the stiffnesses (0 if one is 0) and the mean
+/// friction.
 void add_meeting(compare::RestStateTruth& truth, const compare::Material& a, const compare::Material& b) {
   const long double ka = a.contact_stiffness, kb = b.contact_stiffness;
   const long double stiffness = ka == 0 || kb == 0 ? 0 : 2 / (1 / ka + 1 / kb);

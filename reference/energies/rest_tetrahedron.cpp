@@ -6,8 +6,8 @@
 namespace ogc::reference {
 namespace {
 
-/// A tetrahedron as polynomials of its coordinates: 6V, and the inward normals n_k of the faces opposite to the
-/// corners, with twice the faces' areas. ∇N_k = n_k/(6V).
+/// A tetrahedron as polynomials of its coordinates. `six_volumes` is 6V. `normal` holds the inward normals n_k of the
+/// faces opposite to the corners; ‖n_k‖ is twice the face's area. ∇N_k = n_k/(6V).
 template <class T>
 struct SolidShape {
   Point<T> normal[4];

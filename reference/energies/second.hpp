@@ -1,7 +1,7 @@
-// Forward differentiation to second order of a function of N variables: value, gradient and one triangle of the
-// Hessian. Derivative nested in itself would compute the other triangle, too. A separate type pays off, because
-// Newton's method differentiates each stencil of a mesh in each iteration. `Number` is a double, or several of them
-// side by side (lanes.hpp).
+// Forward differentiation to second order of a function of N variables: value, gradient, and one triangle of the
+// Hessian. `Derivative` nested in itself would also compute the other triangle. The separate type saves time, because
+// Newton's method differentiates each stencil of a mesh in each iteration. `Number` is double, or several doubles in
+// SIMD lanes (lanes.hpp).
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace ogc::reference {
 
-/// Calls visit(i, j, k) for each entry k = (i, j), j ≤ i, of a triangle of N rows. The loop is unrolled, because short
-/// loops of varying length cost more than their bodies.
+/// Calls visit(i, j, k) for each entry (i, j), j ≤ i, of a lower triangle of N rows; k is the entry's number. The loop
+/// is unrolled, because short loops of varying length cost more than their bodies.
 template <std::size_t N, class Visit>
 [[gnu::always_inline]] inline void for_triangle(Visit visit) {
   [&]<std::size_t... I>(std::index_sequence<I...>) {
@@ -28,13 +28,13 @@ template <std::size_t N, class Visit>
   (std::make_index_sequence<N>{});
 }
 
-/// A number with gradient and Hessian. `bend` returns second derivatives, which linear numbers (positions, edges and F)
-/// do not store: they would be more than three quarters of the copied data.
+/// A number with gradient and Hessian. Linear numbers (positions, edges, F) do not store their second derivatives,
+/// which are 0 and would be more than three quarters of the copied data.
 template <std::size_t N, class Number = double>
 class Second {
  public:
   static constexpr std::size_t bends = N * (N + 1) / 2;  ///< second derivatives of N inputs, each pair once
-  Number value;                                          ///< of the expression
+  Number value;                                          ///< value of the expression
   std::array<Number, N> slope;                           ///< by input
 
   Second() : Second(Number(0.0)) {}
@@ -51,7 +51,7 @@ class Second {
     return *this;
   }
 
-  /// Returns entry k of the second derivatives: row i holds ∂²/∂i∂j for j ≤ i.
+  /// Returns entry k of the Hessian's lower triangle, row by row: row i holds ∂²/∂i∂j for j ≤ i.
   Number bend(std::size_t k) const { return linear_ ? Number(0.0) : bend_[k]; }
 
   friend Second operator+(Second a, const Second& b) {
@@ -117,7 +117,7 @@ class Second {
       for (std::size_t k = 0; k < bends; ++k) result.bend_[k] += first * x.bend_[k];
     return result;
   }
-  /// Takes all derivatives at 0 as 0, like Derivative.
+  /// Returns the root; at x = 0 all derivatives are 0, as for Derivative.
   friend Second sqrt(const Second& x) {
     using std::sqrt;
     if (x.value == 0.0) return {};
@@ -146,7 +146,8 @@ class Second {
   }
 
  private:
-  /// Selects the constructor that leaves slopes and bends uninitialised; the caller must fill them at once.
+  /// Selects the constructor that leaves slopes and second derivatives uninitialised; the caller must fill them at
+  /// once.
   struct Open {};
   Second(Open, const Number& at) : value(at), linear_(false) {}
 

@@ -5,7 +5,7 @@
 
 namespace ogc::reference {
 
-/// Computes one case; see compare/stages/spring.hpp.
+/// Returns the exact answer of one case (compare/stages/spring.hpp).
 compare::ForceAnswer spring(const compare::SpringCase& question);
 
 /// Computes all cases, in parallel over them.

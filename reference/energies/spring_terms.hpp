@@ -47,7 +47,8 @@ struct SpringTermOf {
   auto kinds() const { return std::tie(); }
 
  private:
-  /// Returns k_s/2 (l − from)². If l = 0 and from > 0, the direction is undefined, and the root has no derivatives.
+  /// Returns k_s/2 (l − from)². If l = 0 and from > 0, the direction is undefined, and the root of l² has no
+  /// derivatives.
   template <class T>
   T about(const Triple<T>& apart, const Number& from) const {
     using std::sqrt;
@@ -58,14 +59,14 @@ struct SpringTermOf {
 /// A spring over doubles.
 using SpringTerm = SpringTermOf<double>;
 
-/// Returns max(0, 1 − l₀/l), a spring's lateral stiffness in units of k_s; 1 if l = 0.
+/// Returns max(0, 1 − l₀/l), the stiffness across the spring in units of k_s; 1 if l = 0.
 template <class Number>
 Number held_across(const Number& length, const Number& rest_length) {
   return plain(length) == 0.0 ? Number(1.0) : positive_part(1.0 - rest_length / length);
 }
 
-/// Adds the force, the block w² k_s (n nᵀ + max(0, 1 − l₀/l)(I − n nᵀ)), and w² k k_s n nᵀ of the damping. If l = 0,
-/// the block is w² k_s I (compare/stages/spring.hpp). `apart`: Σ wᵢ xᵢ; `own_weight`: weight of the vertex.
+/// Adds the spring's force and block. The block is w² k_s (n nᵀ + max(0, 1 − l₀/l)(I − n nᵀ)), plus w² k k_s n nᵀ for
+/// damping. If l = 0, the block is w² k_s I (compare/stages/spring.hpp). `apart` is Σ wᵢ xᵢ; `own_weight` is w.
 template <class Number>
 void add_spring(const SpringTermOf<Number>& term, const Number& own_weight, const Triple<ByOwn<Number>>& apart,
                 VertexSystemOf<Number>& sum) {

@@ -1,8 +1,8 @@
 // The energy of each kind of stencil as one scalar function of its vertices, over any number type (method.md §4).
-// Newton's method differentiates it by all vertices. The stages of the sweep differentiate by one vertex and use the
-// same strains and angles. `Number` is the type of a stencil's constants: a double, or one double for each of several
-// stencils side by side. `numbers` returns these constants. `kinds` returns the properties that all stencils side by
-// side must share.
+// Newton's method differentiates the energy by all vertices. The stages of the sweep differentiate by one vertex, with
+// the same strains and angles. `Number` is the type of a stencil's constants: a double, or SIMD lanes with one double
+// for each of several stencils that are evaluated side by side. `numbers` returns these constants. `kinds` returns the
+// choices that select branches; all stencils side by side must agree in them.
 #pragma once
 
 #include <tuple>
@@ -18,7 +18,8 @@
 
 namespace ogc::reference {
 
-/// A contact: e_k g(d). The form is determined when the energy is evaluated.
+/// A contact with the energy e_k g(d). The features that hold the contact points are found when the energy is
+/// evaluated.
 template <class Number>
 struct ContactTermOf {
   compare::ContactSides sides = compare::ContactSides::point_point;
@@ -33,7 +34,7 @@ struct ContactTermOf {
   T energy_at(const T& distance) const {
     return mollifier * contact_activation(activation, distance, contact_radius, stiffness);
   }
-  /// Returns the energy at vertices of a form (closest_form.hpp) [J].
+  /// Returns the energy at the vertices x [J]; `form` holds the closest features (closest_form.hpp).
   template <class T, std::size_t N>
   T energy(const ClosestForm& form, const std::array<Triple<T>, N>& x) const {
     return energy_at(form_distance(form, x));
@@ -42,15 +43,15 @@ struct ContactTermOf {
   /// Returns the constants (head of this file).
   auto numbers() { return std::tie(contact_radius, stiffness, mollifier); }
   auto numbers() const { return std::tie(contact_radius, stiffness, mollifier); }
-  /// Returns the properties that stencils side by side must share (head of this file).
+  /// Returns the choices in which stencils side by side must agree (head of this file).
   auto kinds() { return std::tie(activation); }
   auto kinds() const { return std::tie(activation); }
 };
 /// A contact over doubles.
 using ContactTerm = ContactTermOf<double>;
 
-/// Lagged friction of a contact: μ λ f₀(‖u‖), u = (I − n nᵀ)(Σ wᵢ xᵢ − Σ wᵢ xᵢᵗ); λ, n and w are those of a fixed
-/// state.
+/// Lagged friction of a contact: μ λ f₀(‖u‖), u = (I − n nᵀ)(Σ wᵢ xᵢ − Σ wᵢ xᵢᵗ). λ, n and w are constants, taken from
+/// a fixed state.
 template <class Number>
 struct FrictionTermOf {
   compare::ContactSides sides = compare::ContactSides::point_point;
@@ -71,7 +72,8 @@ struct FrictionTermOf {
     const T along = normal[0] * moved[0] + normal[1] * moved[1] + normal[2] * moved[2];
     return moved - Triple<T>{normal[0] * along, normal[1] * along, normal[2] * along};
   }
-  /// Returns the energy from ‖u‖². f₀' = f₁: f₀ = y − ε/3 for y ≥ ε, y²/ε − y³/(3ε²) below, so that f₀(0) = 0.
+  /// Returns the energy from `squared` = ‖u‖². With y = ‖u‖, f₀ is y − ε/3 for y ≥ ε and y²/ε − y³/(3ε²) below. So
+  /// f₀(0) = 0 and f₀' = f₁.
   template <class T>
   T energy_of(const T& squared) const {
     using std::sqrt;

@@ -49,11 +49,13 @@ struct Elastic {
 
 double length_of(const Triple<Input>& v) { return std::hypot(v[0].value, v[1].value, v[2].value); }
 
-/// Adds errors that the condition lacks. The edges of the opposite face are rounded separately. So their normal, of 6
-/// units, has an error of 6 u times its two longest edges even if its inputs cancel (a far corner beside two near
-/// ones); J has this error times the longest distance to the face. Also adds the product of the errors of J − 1 and the
-/// normal, of 12 and 6 units (compare/stages/tetrahedron.hpp), which remains if both nearly vanish. `resisted`: k
-/// ‖moved‖ of damping by vertex, whose block is `grown` times the elastic block.
+/// Adds errors that the condition lacks:
+/// - The edges of the face opposite to the own corner are rounded separately. So the face's normal (6 roundings) has an
+///   error of 6 u (u = 2⁻²⁴) times the two longest edges, even if a far corner beside two near ones makes the condition
+///   small. J has this error times the longest distance to the face.
+/// - If J − 1 (12 roundings) and the normal (6) nearly vanish together, the product of their errors remains
+///   (compare/stages/tetrahedron.hpp).
+/// With damping by vertex, `resisted` is k ‖moved‖, and the block is `grown` times the elastic block.
 compare::ForceAnswer with_rounded_edges(const Elastic& elastic, compare::ForceAnswer answer, double resisted = 0,
                                         double grown = 1) {
   constexpr double u = compare::unit_roundoff, ratio_units = 12, normal_units = 6;
@@ -87,7 +89,7 @@ Gradients gradients_of(const compare::TetrahedronCase& q, Inputs& inputs) {
   return gradient;
 }
 
-/// Returns Gᵗ; each component comes with the unit of its error.
+/// Returns the Green strain Gᵗ at the start; each component is paired with the unit of its error.
 std::array<std::pair<double, double>, 6> strain_at_start(const compare::TetrahedronCase& q) {
   Inputs inputs;
   const std::array<Triple<Input>, 4> x = inputs.stencil(q.start, 0);

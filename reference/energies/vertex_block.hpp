@@ -1,6 +1,6 @@
-// Force and sweep block of one vertex, over any number type: over doubles for whole runs (solvers/vertex_system.hpp),
-// over Input numbers for the stages' answers with their conditions. The block of each energy is derived once, beside
-// the energy (membrane_terms.hpp, hinge_terms.hpp, spring_terms.hpp); this file has the common parts.
+// Force and sweep block of one vertex, over any number type. Whole runs use doubles (solvers/vertex_system.hpp). The
+// judged stages use Input numbers, which also give the units of error. Each energy's block is derived once, beside the
+// energy (membrane_terms.hpp, hinge_terms.hpp, spring_terms.hpp). This file has the common parts.
 #pragma once
 
 #include "reference/energies/derivative.hpp"
@@ -19,13 +19,13 @@ struct VertexSystemOf {
   BlockOf<Number> block{};  ///< [N/m]
 };
 
-/// Numbers with derivatives by the vertex's own coordinates, to first and second order.
+/// Numbers with derivatives by the own vertex's coordinates, to first and to second order.
 template <class Number>
 using ByOwn = Derivative<Number, 3>;
 template <class Number>
 using ByOwnTwice = Second<3, Number>;
 
-/// Returns the variable with the number `direction`.
+/// Returns the own coordinate with the number `direction` as a variable.
 template <class Number>
 ByOwnTwice<Number> variable(const Number& value, std::size_t direction) {
   ByOwnTwice<Number> x(value);
@@ -33,7 +33,7 @@ ByOwnTwice<Number> variable(const Number& value, std::size_t direction) {
   return x;
 }
 
-/// Sets the three own variables to x.
+/// Sets the three own coordinates to variables with the values x.
 template <class Number>
 void set_own(Triple<ByOwn<Number>>& to, const Triple<Number>& x) {
   for (std::size_t axis = 0; axis < 3; ++axis) to[axis] = ByOwn<Number>(x[axis], axis);
@@ -53,7 +53,7 @@ std::array<Triple<T>, Count> with_own(const std::array<Triple<Number>, Count>& c
   return x;
 }
 
-/// Returns the energy as a function of one measure, with slope and curvature.
+/// Returns the energy as a function of one quantity (an angle or a length), with slope and curvature at `measure`.
 template <class Number, class Energy>
 Second<1, Number> along(const Number& measure, Energy energy) {
   Second<1, Number> x(measure);

@@ -1,4 +1,5 @@
-// Normal force and friction have separate inputs: friction takes λ as one number, whose error is its condition.
+// Computes normal force and friction from separate inputs. Friction takes the normal force λ as one number, whose error
+// is λ's condition.
 #include "reference/energies/volume_force.hpp"
 
 #include "reference/energies/lagged_friction.hpp"
@@ -7,7 +8,7 @@
 namespace ogc::reference {
 namespace {
 
-/// Returns n as one given vector, whose error is u of its length.
+/// Returns n as one given vector; its error is 2⁻²⁴ of its length.
 Triple<Input> direction_of(Inputs& inputs, const compare::VolumeForceCase& q) {
   return inputs.vector({q.direction[0], q.direction[1], q.direction[2]}, {});
 }
@@ -19,7 +20,7 @@ std::array<Input, 4> weights_of(Inputs& inputs, const compare::VolumeForceCase& 
   return weight;
 }
 
-/// The normal force of a contact, if it acts.
+/// The normal force of one contact, computed as if the contact acted (r − φ > 0).
 struct Pressed {
   Inputs inputs;
   Input overlap;  ///< r − φ [m]
@@ -49,7 +50,7 @@ struct Pressed {
   }
 };
 
-/// The friction of a contact whose normal force is known.
+/// The friction of one contact with a known normal force.
 struct Rubbed {
   compare::ForceAnswer answer;
   bool near_limit = false;  ///< ‖u‖ lies within near_factor of ε
@@ -73,15 +74,16 @@ Rubbed rubbed(const compare::VolumeForceCase& q, const Pressed& pressed) {
   const ByVertex energy = chained(Input(strength * lagged_potential(y, limit)), Input(Input(0.5) * stiffness),
                                   dot(slip, slip));
   Block block;
-  // w (I − n nᵀ) times w: the derivative of the slip, without the normal part, which is 0 for a unit vector.
+  // The block is the stiffness times w² (I − n nᵀ). For a unit vector n this is the product of the slip's derivative w
+  // (I − n nᵀ) and its transpose.
   for (std::size_t i = 0, k = 0; i < 3; ++i)
     for (std::size_t j = i; j < 3; ++j, ++k) {
       const Input plane = (i == j ? Input(1.0) : Input(0.0)) - n[i] * n[j];
       block[k] = stiffness * own_weight.value * own_weight.value * plane;
     }
   Rubbed result{answer(inputs, energy, block), false};
-  // Errors beyond the first order: the product of both errors if λ and u vanish together, and f₁/y, which may become
-  // anything up to 2/ε if u may be 0.
+  // Errors that the first order lacks. If both λ and u vanish, the product of their errors remains. If u may be 0, f₁/y
+  // may be anything up to 2/ε.
   const double unit = compare::unit_roundoff, w = std::abs(own_weight.value.value),
                doubt_of_force = compare::volume_force_grey * unit * pressed.doubt,
                doubt_of_slip = slip_units * unit * inputs.condition(u),

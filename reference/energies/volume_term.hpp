@@ -1,5 +1,5 @@
-// A contact with a volume as an energy of its point and the triangle's corners (§3.9). n and w are those of the
-// detection and stay constant.
+// The energy of a contact with a volume, as a function of the point and the triangle's corners (§3.9). n and w are
+// those of the detection and stay constant.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace ogc::reference {
 
-/// A contact with a volume: first the point, then the corners of the triangle.
+/// A contact with a volume. Its vertices are the point, then the corners of the triangle.
 struct VolumeTerm {
   std::array<compare::Index, 4> vertex{-1, -1, -1, -1};
   std::array<double, 4> weight{1, 0, 0, 0};  ///< 1, −w₁, −w₂, −w₃
@@ -27,7 +27,7 @@ struct VolumeTerm {
     const T depth = overlap(separation(weight, x));
     return plain(depth) > 0 ? 0.5 * stiffness * depth * depth : T(0.0);
   }
-  /// Returns the friction with λ at these positions.
+  /// Returns the contact's friction, with the normal force λ at the positions x.
   FrictionTerm friction_at(const std::array<Triple<double>, 4>& x) const {
     const double force = friction * stiffness * std::max(0.0, overlap(separation(weight, x)));
     return {compare::ContactSides::point_triangle, vertex, weight, normal, start, force, slip_limit};

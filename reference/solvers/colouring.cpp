@@ -34,8 +34,8 @@ std::vector<Index> components(const std::vector<std::vector<Index>>& near) {
   return parent;
 }
 
-/// Replaces c by (c + k) mod n in the k-th component. Otherwise facing vertices of identical cloths would share a
-/// colour (method.md §7.3).
+/// Replaces each colour c by (c + k) mod n in the k-th component. Without this, facing vertices of identical cloths
+/// would have the same colour (method.md §7.3).
 void rotate(const std::vector<Index>& component, std::vector<Index>& colour) {
   const Index count = 1 + *std::ranges::max_element(colour);
   std::map<Index, Index> number;
@@ -53,7 +53,7 @@ std::vector<Index> free_vertices(const std::vector<Index>& groups) {
   return free;
 }
 
-/// Shuffles; std::shuffle differs from library to library.
+/// Shuffles the order with the seed. std::shuffle is not used, because its result differs between standard libraries.
 void shuffle(std::vector<Index>& order, std::int64_t seed) {
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));
   for (std::size_t n = order.size(); n > 1; --n) std::swap(order[n - 1], order[random() % n]);

@@ -19,7 +19,7 @@ constexpr double not_asked = std::numeric_limits<double>::quiet_NaN();
 
 double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
 
-/// Counts the contacts and the points in contact; contacts of one point are adjacent in the list.
+/// Counts the contacts with volumes and the points in contact. Contacts of one point are adjacent in the list.
 void count_volume_contacts(const ContactSets& sets, double contact_radius, compare::StepMetrics& metrics) {
   metrics.volume_contacts = static_cast<std::int64_t>(sets.volumes.size());
   metrics.depth_unresolved = static_cast<std::int64_t>(sets.unresolved.size());
@@ -174,8 +174,8 @@ void ContactStep::guess(GuessEnd end) {
   if (metrics_.guess_rounds > 0) metrics_.momentum_lost_guess = momentum_lost({x_, start_, target_}, potential_);
 }
 
-/// Two vertices at a distance d that moved by at most m each are at least d − 2m apart, and so are all faces. The
-/// smallest distances are those of surfaces; distances to volumes are unknown.
+/// Two vertices at a distance d that moved by at most m each are at least d − 2m apart; the same holds for all faces.
+/// The smallest distances are known for surfaces only, so the result is false for scenes with volumes.
 bool ContactStep::nothing_near() const {
   if (compare::has_volumes(scene_)) return false;
   double largest = 0;

@@ -1,10 +1,11 @@
 // The parts of a step (Algorithm 3, method.md §5.2) that Newton's method and VBD share: targets, detections with their
-// regions, the guess loop, prescribed vertices, the row of the step. Each solver moves the free vertices between two
-// detections in its own way.
+// regions, the guess loop, prescribed vertices, the row of the step. Each solver has its own iterations between two
+// detections. The order of calls:
 //
-//   begin ── guess: detect, x ← y inside the regions, again while many are cut ──┐
-//     ┌────────────────────────────────────────────────────────────────────────┘
-//     the solver's iterations, with detect_here where detect_next_ is set ── finish
+//   begin    sets xᵗ and the targets y
+//   guess    repeats: detect at x, move x towards y inside the regions; until few vertices are cut
+//   loop of the solver: detect_here if detect_next_ is set, then one iteration
+//   finish   returns the result
 #pragma once
 
 #include "compare/contestant.hpp"
@@ -30,7 +31,7 @@ class StepSolver {
   /// Computes the step with this number, from 1. Throws compare::ResourceError if memory runs out.
   virtual StepResult step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity,
                           std::int64_t number) = 0;
-  /// Sets qᵗ of the rods' segments for the next step; an empty span selects the orientations of the scene's start.
+  /// Sets qᵗ of the rods' segments for the next step. An empty span selects the orientations at the scene's start.
   virtual void set_orientations(std::span<const compare::Quaternion> orientations) = 0;
   /// Returns q at the end of the last step.
   virtual std::vector<compare::Quaternion> orientations() const = 0;
@@ -38,15 +39,16 @@ class StepSolver {
   virtual std::vector<std::string> stage_names() const = 0;
 };
 
-/// Selects what ends the guess loop, besides few cut vertices and `guess_rounds`.
+/// Selects a condition that ends the guess loop early. Without it, the loop ends if few vertices are cut, or after
+/// `guess_rounds`.
 enum class GuessEnd {
-  rounds,  ///< nothing else; contacts stop the vertices that would close them, all others move on (method.md §5.2)
-  /// the first contact; a contact at xᵗ means no round. Otherwise vertices in contact would stay while others move on,
+  rounds,  ///< no other condition; contacts stop approaching vertices, all others move on (method.md §5.2)
+  /// the first contact; with contacts at xᵗ no round runs. A further round would move only vertices without contact,
   /// and the mesh would distort
   contact
 };
 
-/// The parts of a step, as a base class of solvers.
+/// Base class of solvers with the shared parts of a step.
 class ContactStep {
  public:
   ContactStep(const ContactStep&) = delete;
@@ -56,7 +58,7 @@ class ContactStep {
   /// Number of the detection stage, which is the first stage of every solver.
   static constexpr std::size_t detection_stage = 0;
 
-  /// The scene must be rounded and valid; scene and topology must outlive this.
+  /// Takes a rounded and valid scene. Scene and topology must outlive this object.
   ContactStep(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options,
               std::size_t stages);
   ~ContactStep() = default;
@@ -64,18 +66,18 @@ class ContactStep {
   void begin(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity,
              std::int64_t number);
   void detect_here();
-  /// Runs the guess loop. Friction is lagged to xᵗ, where contact forces are those of a converged step.
+  /// Runs the guess loop. Friction is lagged to xᵗ, because the contact forces there are those of a converged step.
   void guess(GuessEnd end);
   bool in_contact() const;  ///< whether the last detection found contacts
-  /// Returns whether cut vertices trigger a detection: at least `times` γ_e K of them, and at least one. With planes,
-  /// prescribed vertices behind their targets do not count. One of them alone triggers a detection if the last
-  /// detection let it advance, otherwise once a step.
+  /// Returns whether cut vertices trigger a detection: at least `times` γ_e K of them, and at least one. With
+  /// bounds=planes, prescribed vertices behind their targets are counted separately. One such vertex alone triggers a
+  /// detection if it has moved since the last detection; otherwise it triggers only one detection in a step.
   bool asks(std::size_t cut, std::int64_t times = 1);
   bool nothing_near() const;  ///< whether x certainly has no contacts, without a detection
   std::size_t move_prescribed();
   /// Returns whether a detection is due after an iteration that cut `cut` vertices, by `asks` or by `detection_every`.
   bool detection_due(std::size_t cut);
-  void set_residual(double mean_force);  ///< Eq. 29; the first force of a step is f*
+  void set_residual(double mean_force);  ///< sets the residual of Eq. 29; the first force of a step is f*
   compare::IterationMetrics new_row(bool detects) const;
   StepResult finish(std::uint32_t status);
   double elapsed_ms() const;  ///< time since the step began
@@ -106,10 +108,11 @@ class ContactStep {
   Detected detected_;
   FeasibleRegions regions_;
   float query_radius_ = 0;
-  bool detect_next_ = false, fresh_ = false;  ///< contacts must be detected; they were detected at the present x
-  std::size_t cut_ = 0;                       ///< vertices cut in the last iteration, prescribed ones included
-  std::int64_t iterations_since_ = 0;         ///< iterations since the last detection
-  double reference_force_ = -1;               ///< mean ‖f*‖ [N]; negative if not yet known
+  /// whether contacts must be detected; whether they were detected at the present x
+  bool detect_next_ = false, fresh_ = false;
+  std::size_t cut_ = 0;                ///< vertices cut in the last iteration, prescribed ones included
+  std::int64_t iterations_since_ = 0;  ///< iterations since the last detection
+  double reference_force_ = -1;        ///< mean ‖f*‖ [N]; negative if not yet known
   double residual_ = 0;
   compare::StepMetrics metrics_;
   std::vector<compare::IterationMetrics> rows_;
@@ -117,16 +120,17 @@ class ContactStep {
  private:
   static double now_ms();
 
-  /// Returns the displacements by which bounds=dat divides gaps at `here`; empty for other bounds.
+  /// Returns the displacements that bounds=dat (planes of *Divide and Truncate*) needs: it divides the gap of a pair in
+  /// proportion to the displacements of both sides. Empty for other bounds.
   std::vector<compare::Vec3f> displacements_at(const std::vector<compare::Vec3f>& here) const;
-  /// Replaces the method's contacts by the set that `reference_contact_set` selects.
+  /// Replaces the detected contacts by the set that the setting `reference_contact_set` selects.
   void replace_contacts();
   bool many(std::size_t cut, std::int64_t times) const;
   void move_towards(const Triple<double>& proposal, std::size_t vertex, std::size_t& cut);
 
   ContactSet contact_set_;
   /// Number of prescribed vertices behind their targets since the last call of `asks`; whether one of them has moved
-  /// since the last detection; whether a lag has triggered a detection in this step.
+  /// since the last detection; whether such a vertex has triggered a detection in this step.
   std::size_t lagging_ = 0;
   bool advanced_ = false, lag_asked_ = false;
   bool guessing_ = false;  ///< whether the guess loop runs

@@ -66,7 +66,8 @@ compare::VolumeForceCase question_of(const compare::SweepIn& in, const std::vect
   return question;
 }
 
-/// Returns Σ |w_u|/|w| over the contact's vertices with the updated vertex's colour, itself included (method.md §7.4).
+/// Returns Σ |w_u|/|w|. The sum is over the contact's vertices that have the updated vertex's colour; it includes the
+/// updated vertex, whose weight is w (method.md §7.4).
 double majorant(const compare::SweepIn& in, const compare::VolumeContact& contact, std::size_t own) {
   const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(contact.triangle)];
   const std::array<Index, 4> vertex{contact.point, corners[0], corners[1], corners[2]};
@@ -85,7 +86,7 @@ std::vector<compare::ForceAnswer> majorised(std::vector<compare::ForceAnswer> an
   return answers;
 }
 
-/// In units of u: up to three moduli are added to the vertex's own, and the sum times |w| replaces w².
+/// Roundings of the factor above: up to three additions of moduli (the sum times |w| replaces w²).
 constexpr double majorant_tolerance = 3;
 
 }  // namespace

@@ -18,7 +18,7 @@ ContactStencil stencil_of(const compare::Topology& topology, const compare::Vert
   return {sides[static_cast<std::size_t>(contact.face.kind)], {contact.vertex, facet[0], facet[1], facet[2]}, {-1, -1}};
 }
 
-/// The faces are ordered, first < second, so an edge never comes before a vertex.
+/// Expects first < second. Vertices come before edges in this order, so `first` is an edge only if `second` is one.
 ContactStencil stencil_of(const compare::Topology& topology, const compare::EdgeEdgeContact& contact) {
   const auto p = vertices_of(topology, contact.first), q = vertices_of(topology, contact.second);
   if (p[1] >= 0)

@@ -14,7 +14,7 @@
 
 namespace ogc::reference {
 
-/// All contacts of one detection, by kind.
+/// All contacts of one detection: between vertices and facets, between edges, and with volumes.
 struct ContactSets {
   std::vector<compare::VertexFacetContact> vertex_facet;
   std::vector<compare::EdgeEdgeContact> edge_edge;
@@ -25,16 +25,16 @@ struct ContactSets {
 /// Returns the vertices of a face in the order of the mesh; unused entries are −1.
 std::array<compare::Index, 3> vertices_of(const compare::Topology& topology, const compare::Face& face);
 
-/// A contact in the form of the force stages.
+/// A contact's vertices and edges, in the order of the force stages.
 struct ContactStencil {
   compare::ContactSides sides = compare::ContactSides::point_point;
   std::array<compare::Index, 4> vertex{-1, -1, -1, -1};  ///< first side, then second; unused entries are −1
-  /// the two edges if both sides are interiors of edges, whose energy is mollified
+  /// both edges if each side is the interior of an edge; the energy is then mollified
   std::array<compare::Index, 2> edge{-1, -1};
 };
-/// Returns the stencil of a vertex and a face.
+/// Returns the stencil of a contact between a vertex and a facet.
 ContactStencil stencil_of(const compare::Topology& topology, const compare::VertexFacetContact& contact);
-/// Returns the stencil of two edges, or of the closest faces of two edges.
+/// Returns the stencil of a contact between two edges; its sides may be ends of the edges.
 ContactStencil stencil_of(const compare::Topology& topology, const compare::EdgeEdgeContact& contact);
 
 /// Returns the squared rest lengths of a contact's two edges [m²]; 0 for an edge without triangles. Returns zeros if
@@ -42,7 +42,7 @@ ContactStencil stencil_of(const compare::Topology& topology, const compare::Edge
 std::array<float, 2> mollified_rest_squared(const compare::Topology& topology, const compare::RestStateOut& rest,
                                             const ContactStencil& stencil);
 
-/// Returns the material of the contact's two bodies. `body`: by vertex.
+/// Returns the contact stiffness and friction of the contact's two bodies. `body`: by vertex.
 const compare::MeetingMaterial& material_of(const compare::RestStateOut& rest, std::size_t body_count,
                                             std::span<const compare::Index> body, const ContactStencil& stencil);
 

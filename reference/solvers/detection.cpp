@@ -58,8 +58,8 @@ float sufficient_query_radius(const compare::Topology& topology, const compare::
       }
     query_radius = std::max(query_radius, nearest);
   }
-  // Rounding changes a distance by about 2⁻⁵⁰ of the coordinates. The radius is at least r, so 2⁻²⁰ of it covers this
-  // for coordinates up to 2³⁰ r.
+  // The result is enlarged by 2⁻²⁰. Rounding changes a distance by about 2⁻⁵⁰ of the coordinates, and the radius is at
+  // least r, so this is enough for coordinates up to 2³⁰ r.
   return std::min(most, static_cast<float>(query_radius * (1 + 0x1p-20)));
 }
 

@@ -1,4 +1,5 @@
-// Detects contacts for solvers in double. A detection reads single-precision positions, so X_prev is x rounded.
+// Detects contacts for solvers that compute in double. A detection reads single-precision positions, so X_prev is x
+// rounded.
 #pragma once
 
 #include <span>
@@ -9,7 +10,7 @@
 
 namespace ogc::reference {
 
-/// The result of a detection, and its positions.
+/// The contacts and bounds of a detection, and the positions at which they were found.
 struct Detected {
   ContactSets sets;                      ///< contacts up to the contact radius plus the margin
   ContactSets active;                    ///< contacts nearer than r
@@ -22,24 +23,25 @@ struct Detected {
 /// Rounds positions to the nearest single-precision numbers.
 std::vector<compare::Vec3f> rounded(const State& x);
 
-/// Returns a query radius between r and `most` that gives the `movable` vertices the same contacts and bounds as `most`
-/// at these positions. A triangle without v adjoins the side opposite to v, so b_v is at most γ_p times the distance to
-/// the nearest such side. The largest of these distances is enough. Returns `most` if a vertex has no such triangle.
-/// Both radii are in metres, r ≤ most.
+/// Returns a query radius between r and `most` [m] that is enough at these positions: the `movable` vertices get the
+/// same contacts and bounds as with `most`. A bound b_v is at most γ_p times the distance from v to the nearest
+/// triangle without v. If such a triangle adjoins a side opposite to v in one of v's triangles, the distance to that
+/// side is an upper limit. The result is the largest of these limits; it is `most` if some vertex has no such triangle.
 float sufficient_query_radius(const compare::Topology& topology, const compare::ExclusionView& exclusions,
                               const std::vector<std::size_t>& movable, const std::vector<compare::Vec3f>& positions,
                               float contact_radius, float most);
 
-/// Returns the radius up to which contacts are listed, r plus the margin [m].
+/// Returns the radius up to which contacts are listed: r plus the contact margin [m].
 double detection_radius(const compare::Settings& settings);
 
-/// Runs the stages detect_vertex_facet, detect_edge_edge and bound (or plane) at `positions`. `displacement`: by which
-/// bounds=dat divides gaps; otherwise empty.
+/// Runs the stages detect_vertex_facet, detect_edge_edge and bound (or plane) at `positions`. `displacement` is needed
+/// for bounds=dat (planes of *Divide and Truncate*), which divides each gap in proportion to the displacements of both
+/// sides; otherwise it is empty.
 Detected detect(const compare::Scene& scene, const compare::Topology& topology,
                 const compare::ExclusionView& exclusions, std::vector<compare::Vec3f> positions, float query_radius,
                 std::span<const compare::Vec3f> displacement = {});
 
-/// Returns all pairs within r_q at `positions`, ascending, each with the plane between its sides.
+/// Returns all pairs of primitives within r_q at `positions`, ascending, each with the plane between its sides.
 std::vector<NearPair> detect_pairs(const compare::Topology& topology, const compare::ExclusionView& exclusions,
                                    const std::vector<compare::Vec3f>& positions, float query_radius,
                                    double bounds_relaxation);

@@ -13,9 +13,9 @@ double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
 
 }  // namespace
 
-/// Subtracts the rounding from the bounds. Rounding to single precision moves a coordinate, at most ‖X_prev‖_∞ + b_v,
-/// by 2⁻²⁴ of it, hence the point by √3 times that; for tiny coordinates by √3 times the smallest number. A projection
-/// in double rounds coordinates and step a few times more, by 2⁻⁵⁰ of either.
+/// Reduces the bounds by the error of rounding to single precision. A coordinate is at most ‖X_prev‖_∞ + b_v and moves
+/// by 2⁻²⁴ of it; the point moves by √3 times that. For tiny coordinates it moves by √3 times the smallest number. A
+/// projection in double adds errors of 2⁻⁵⁰ of coordinates and step.
 FeasibleRegions::FeasibleRegions(const Detected& detected, compare::Bounds bounds)
     : centre_(widened(detected.previous)), planes_(centre_.size()), is_scaled_(!traits_of(bounds).slides) {
   const compare::BoundsTraits policy = traits_of(bounds);
@@ -30,8 +30,8 @@ FeasibleRegions::FeasibleRegions(const Detected& detected, compare::Bounds bound
   }
 }
 
-/// n is a unit vector up to 2⁻²³, and n·x has an error of at most 2⁻⁵⁰ of its size. A vertex that is nearer than this
-/// to one of its planes stays.
+/// Adds the vertex's half-spaces, reduced by rounding. n is a unit vector up to 2⁻²³, and n·x has an error of at most
+/// 2⁻⁵⁰ of its size. A vertex whose distance from a plane is smaller than these errors stays at X_prev.
 void FeasibleRegions::add_planes(std::size_t vertex, const Detected& detected, double rounding) {
   for (const compare::VertexPlane& plane : detected.planes.of(static_cast<compare::Index>(vertex))) {
     const Triple<double> normal{plane.normal.x, plane.normal.y, plane.normal.z};
@@ -93,7 +93,7 @@ double FeasibleRegions::share_inside(std::size_t vertex, const Triple<double>& x
     if (rise > room) share = std::min(share, std::max(0.0, room / rise * (1 - 0x1p-40)));
   }
   if (!(length(x + step - centre_[vertex]) > radius_[vertex])) return share;
-  // ‖a + s b‖ = R with ‖a‖ ≤ R has one root s ≥ 0.
+  // The equation ‖a + s b‖ = R with ‖a‖ ≤ R has one root s ≥ 0.
   const Triple<double> away = x - centre_[vertex];
   const double bb = dot(step, step), ab = dot(away, step), room = radius_[vertex] * radius_[vertex] - dot(away, away);
   if (room <= 0) return 0;

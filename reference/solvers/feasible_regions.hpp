@@ -1,6 +1,6 @@
 // The regions in which the vertices of Newton's method and VBD stay between two detections. Positions are doubles, but
-// a detection reads single-precision ones, so X_prev is x rounded. Each region is smaller than its bounds by the error
-// of this rounding. So x and its stored value keep the bounds (Eq. 27; method.md §5.6), and so does the way from X_prev
+// a detection reads single-precision positions, so X_prev is x rounded. Each region is smaller than its bounds by this
+// rounding error. So both x and its stored value keep the bounds (Eq. 27; method.md §5.6). So does the path from X_prev
 // over x to the next X_prev.
 #pragma once
 
@@ -12,30 +12,31 @@
 
 namespace ogc::reference {
 
-/// Holds for each vertex a ball about X_prev and, if bounds are planes, half-spaces. Without bounds a region is all of
-/// space.
+/// Holds the region of each vertex: a ball about X_prev and, if bounds are planes, half-spaces. Without bounds the
+/// region is all of space.
 class FeasibleRegions {
  public:
-  /// Maps n to H⁻¹ n, the direction in which a vertex with the block H leaves a half-space.
+  /// Maps a half-space's normal n to H⁻¹ n, H the vertex's block. A vertex outside slides back into the half-space in
+  /// this direction.
   using Metric = std::function<Triple<double>(const Triple<double>&)>;
 
   FeasibleRegions() = default;
   FeasibleRegions(const Detected& detected, compare::Bounds bounds);
 
-  /// `cut`: x was outside and has been changed.
+  /// A truncated position; `cut` is whether it differs from the given position.
   struct Inside {
     Triple<double> x;
     bool cut = false;
   };
-  /// Returns x if it is inside. Otherwise returns the closest point of the ball or, with half-spaces, a point of the
-  /// region near x. Then x slides along the half-spaces in the given metric (none: the shortest way). If it is still
-  /// outside, it is scaled towards `from`, which is inside. With bounds=dat x is scaled towards X_prev, also for
-  /// prescribed vertices.
+  /// Returns x if it is inside the region; otherwise a point of the region near x. Without half-spaces this is the
+  /// closest point of the ball. With half-spaces, x slides along them in the given metric (none: the shortest way). If
+  /// it is still outside, it is scaled towards `from`, which must be inside. With bounds=dat, x is only scaled, towards
+  /// X_prev.
   Inside inside(std::size_t vertex, const Triple<double>& from, const Triple<double>& x,
                 const Metric& metric = {}) const;
-  /// Returns the same for a prescribed vertex, which does not slide.
+  /// Truncates a prescribed vertex, which does not slide: the result is on the path from `from` to x.
   Inside inside_on_path(std::size_t vertex, const Triple<double>& from, const Triple<double>& x) const;
-  /// Returns the largest share in [0, 1] of `step` that stays inside.
+  /// Returns the largest share in [0, 1] of `step` for which x + share · step is inside.
   double share_inside(std::size_t vertex, const Triple<double>& x, const Triple<double>& step) const;
 
  private:

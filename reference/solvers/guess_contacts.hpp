@@ -1,4 +1,4 @@
-// Prepares the contacts of a detection for the guess loop: first vertex–facet contacts, then edge–edge contacts.
+// Prepares the contacts of a detection for the guess loop: vertex–facet contacts first, then edge–edge contacts.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace ogc::reference {
 
-/// Returns whether the mesh has the face.
+/// Returns whether the mesh has this face. A contestant's answer may contain others.
 inline bool is_there(const compare::Topology& topology, const compare::Face& face) {
   if (face.index < 0) return false;
   const auto i = static_cast<std::size_t>(face.index);
@@ -21,8 +21,8 @@ inline bool is_there(const compare::Topology& topology, const compare::Face& fac
   return false;
 }
 
-/// Converts detected contacts. `rest` has the friction of each pair of bodies. The contacts may come from any answer;
-/// contacts with faces that the mesh lacks are left out.
+/// Converts detected contacts. `rest` has the friction of each pair of bodies. The contacts may come from any
+/// contestant's answer; contacts with faces that the mesh lacks are left out.
 inline std::vector<GuessContact> guess_contacts(const compare::Scene& scene, const compare::Topology& topology,
                                                 const compare::RestStateOut& rest,
                                                 std::span<const compare::VertexFacetContact> vertex_facet,

@@ -28,8 +28,8 @@ void add(compare::Vec3& sum, const Triple<double>& a) { sum = {sum.x + a[0], sum
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// The rounded scene, as every stage reads it, and its derived data. It is a base class, so that it is made before the
-/// members that read it.
+/// The scene rounded to single precision, as the stages read it, and data derived from it. It is a base class, so that
+/// it is constructed before the members that read it.
 struct RoundedScene {
   compare::Scene scene;
   compare::Topology topology;
@@ -86,7 +86,7 @@ class LedgerWriter::Writer : private RoundedScene {
     return static_cast<double>(std::ranges::count_if(vertices, [&](std::size_t v) { return start[v] == end[v]; }));
   }
 
-  /// Sets the contacts and the centres X_prev = `previous` of the regions.
+  /// Sets the contacts, and the centres of the regions: X_prev = `previous`.
   void read_contacts(const ContactSets& contacts, const std::vector<Vec3f>& previous) {
     previous_ = previous;
     nearest_.assign(previous.size(), {});
@@ -109,13 +109,13 @@ class LedgerWriter::Writer : private RoundedScene {
     return sum;
   }
 
-  /// Sets the energy to its value at `x` and returns the change.
+  /// Evaluates the energy at `x`, stores it, and returns the change since the last call.
   double change_to(const State& x) {
     const double now = energy_at(x, start_);
     return now - std::exchange(energy_, now);
   }
 
-  /// Adds the change of the free vertices' momentum from `from` to `to`.
+  /// Adds to `sum` the change of the free vertices' momentum from `from` to `to`.
   void add_momentum(compare::Vec3& sum, const State& from, const State& to) const {
     for (const std::size_t v : free_) add(sum, (potential_.mass()[v] / step_) * (to[v] - from[v]));
   }
@@ -151,8 +151,8 @@ class LedgerWriter::Writer : private RoundedScene {
     x_ = stored;
   }
 
-  /// Returns x + H⁻¹ f for each free vertex, with positions at lower colours as the sweep stored them, and the targets
-  /// of prescribed vertices.
+  /// Returns the positions before truncation: x + H⁻¹ f for each free vertex, the target for each prescribed vertex. A
+  /// free vertex reads the positions at lower colours that the sweep stored.
   State proposals(const State& stored, const std::vector<Index>& colour) const {
     State proposed = stored;
     const SweepView view{x_, stored, colour};
@@ -165,10 +165,10 @@ class LedgerWriter::Writer : private RoundedScene {
     return proposed;
   }
 
-  /// Finds the cut vertices. Rounding makes every stored position differ from its proposal, but the trace has the
-  /// number of cut vertices. A prescribed vertex was cut if it differs from its proposal, which is exact. The remaining
-  /// cuts are assigned to the free vertices farthest from their proposals. All other proposals are set to the stored
-  /// positions.
+  /// Finds the vertices that the sweep cut; the trace has only their number. A prescribed vertex was cut if its stored
+  /// position differs from its proposal, because nothing else changes it. Free vertices always differ from their
+  /// proposals by rounding. So the remaining cuts are assigned to the free vertices farthest from their proposals. The
+  /// proposals of all other vertices are set to their stored positions.
   void find_cut(State& proposed, const State& stored, Index cut) {
     const auto behind = std::ranges::count_if(prescribed_, [&](std::size_t v) { return proposed[v] != stored[v]; });
     const auto taken = [&](std::size_t v) { return length(proposed[v] - stored[v]); };
@@ -179,7 +179,7 @@ class LedgerWriter::Writer : private RoundedScene {
     cut_.erase(end, cut_.end());
   }
 
-  /// Adds the momentum that truncation takes from the cut vertices, split by direction.
+  /// Adds the momentum that truncation removed from the cut vertices, split by direction.
   void enter_taken(const State& proposed, const State& stored) {
     find_nearest();
     for (const std::size_t v : cut_) {
@@ -196,7 +196,7 @@ class LedgerWriter::Writer : private RoundedScene {
     }
   }
 
-  /// Finds the nearest pair within r_q at X_prev of each cut vertex.
+  /// Finds for each cut vertex the nearest pair within r_q at X_prev.
   void find_nearest() {
     std::vector<std::uint8_t> sought(previous_.size(), 0);
     bool any = false;
@@ -222,7 +222,7 @@ class LedgerWriter::Writer : private RoundedScene {
   }
 
   struct Nearest {
-    bool is_known = false;                                    ///< whether it was searched for
+    bool is_known = false;                                    ///< whether the nearest pair was searched for
     float distance = std::numeric_limits<float>::infinity();  ///< [m]
     Vec3f normal{};  ///< from the vertex's side to the other; 0 if there is no pair
   };
@@ -233,7 +233,7 @@ class LedgerWriter::Writer : private RoundedScene {
   std::vector<std::size_t> free_, prescribed_;
   std::vector<std::uint8_t> is_fixed_;
   State start_, target_, x_;
-  double energy_ = 0;  ///< of x_ [J]
+  double energy_ = 0;  ///< energy at x_ [J]
   float query_radius_ = 0;
   std::vector<Vec3f> previous_;   ///< X_prev of the last detection
   std::vector<Nearest> nearest_;  ///< by vertex, at X_prev

@@ -1,6 +1,7 @@
-// Computes the ledger of a step by any solver: the changes of energy and momentum by each part of the step
-// (reference/ledger.md). The trace of the step is enough: what a sweep would have written without bounds is computed
-// here in double from the positions before and after it. So no solver or device needs code for the ledger.
+// Computes the ledger of a step by any solver: how much each part of the step changes energy and momentum
+// (reference/ledger.md). The trace of the step is enough: the positions that a sweep would have reached without bounds
+// are computed here in double from the positions before and after the sweep. So neither solvers nor devices need code
+// for the ledger.
 #pragma once
 
 #include <memory>
@@ -12,16 +13,15 @@
 
 namespace ogc::reference {
 
-/// Computes the ledgers of a scene's steps.
+/// Computes the ledgers of the steps of one scene.
 class LedgerWriter {
  public:
-  /// Rounds its copy of the scene, which must be valid. Throws InputError for damping by vertex, which has no
-  /// potential.
+  /// Takes a valid scene and rounds its copy. Throws InputError for damping by vertex, which has no potential.
   explicit LedgerWriter(const compare::Scene& scene);
   ~LedgerWriter();
-  /// Returns the ledger of the step from Xᵗ, Vᵗ that `trace` records. `contacts_at_end`: the contacts up to r at the
-  /// trace's last position, as the solver's detections find them. Throws std::invalid_argument if the trace does not
-  /// begin with a detection.
+  /// Returns the ledger of the step from Xᵗ, Vᵗ that `trace` records. `contacts_at_end`: the contacts within r that the
+  /// solver's detections find at the trace's last position. Throws std::invalid_argument if the trace does not begin
+  /// with a detection.
   compare::StepLedger of(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity,
                          const compare::StepOut& trace, const ContactSets& contacts_at_end);
 

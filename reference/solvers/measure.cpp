@@ -22,7 +22,7 @@ double distance_of(const ContactTerm& term, const State& x) {
   return length(separation(closest_form(term.sides, corners).weight, corners));
 }
 
-/// Fills the additional columns of a scene with rods.
+/// Fills the metrics that only scenes with rods have.
 void measure_rods(compare::StepMetrics& metrics, const State& x, const Potential& potential) {
   if (!potential.rods().is_used()) return;
   const RodSystem::Stretch stretch = potential.rods().stretch(x);

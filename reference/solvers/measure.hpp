@@ -1,5 +1,5 @@
-// Computes what a step needs before and after its solve: targets, velocities, and the numbers of its row. No iteration
-// depends on it, except through the targets.
+// Computes targets before a step's solve, and velocities and metrics after it. Only the targets influence the
+// iterations.
 #pragma once
 
 #include "compare/contestant.hpp"
@@ -30,10 +30,11 @@ double momentum_lost(const StepStates& states, const Potential& potential);
 double last_motion(const StepStates& states, const State& before, const Potential& potential);
 /// Returns the largest distance of a prescribed vertex from its target [m].
 double largest_lag(const State& x, const State& target, const std::vector<Mobility>& mobility);
-/// Fills the energies; with not-a-number if they are not wanted.
+/// Fills the energies; sets them to not-a-number if `wanted` is false.
 void measure_energies(compare::StepMetrics& metrics, const StepStates& states, const Potential& potential,
                       const compare::Scene& scene, bool wanted);
-/// Checks whether all vertices keep ‖x − x_prev‖ ≤ b_v, in double, and all half-spaces, exactly (method.md §5.5, §5.6).
+/// Checks whether all vertices keep their bounds: ‖x − X_prev‖ ≤ b_v in double, and all half-spaces exactly (method.md
+/// §5.5, §5.6).
 bool keeps_bounds(const std::vector<compare::Vec3f>& position, const Detected& detected);
 
 }  // namespace ogc::reference

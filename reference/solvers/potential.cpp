@@ -18,7 +18,7 @@ namespace {
 using compare::ContactSides;
 using compare::Index;
 
-/// Calls `visit` with an array of the positions of the contact's vertices.
+/// Calls `visit` with the positions of the contact's vertices, as an array of two, three or four.
 template <class Visit>
 auto with_count(ContactSides sides, const std::array<Index, 4>& vertex, const State& x, Visit visit) {
   switch (vertex_count(sides)) {
@@ -28,7 +28,7 @@ auto with_count(ContactSides sides, const std::array<Index, 4>& vertex, const St
   }
 }
 
-/// Returns e_k (compare/stages/contact_force.hpp) at the detection's single-precision positions.
+/// Returns e_k (compare/stages/contact_force.hpp); x holds the single-precision positions of the detection.
 double energy_share(const std::array<float, 2>& rest_squared, const std::array<Triple<double>, 4>& x) {
   if (rest_squared[0] > 0 && rest_squared[1] > 0) {
     const Mollifier<double> mollifier(x[1] - x[0], x[3] - x[2], rest_squared[0], rest_squared[1]);
@@ -141,7 +141,8 @@ void Potential::add_contact(const compare::VolumeContact& contact) {
   const compare::Vec3f& n = contact.direction;
   VolumeTerm term;
   term.vertex = {contact.point, corners[0], corners[1], corners[2]};
-  // The stored weights add up to 1 only up to rounding; the remainder would react to a translation.
+  // The stored weights add up to 1 only up to rounding. They are divided by their sum, because a translation would
+  // otherwise cause a force.
   const double sum = double{contact.weights[0]} + double{contact.weights[1]} + double{contact.weights[2]};
   for (std::size_t k = 0; k < 3; ++k) term.weight[k + 1] = -double{contact.weights[k]} / sum;
   term.normal = {double{n.x}, double{n.y}, double{n.z}};
@@ -284,7 +285,8 @@ PotentialDerivatives Potential::derivatives(const State& x, HessianProjection pr
   return result;
 }
 
-/// Sums moduli of derivatives, which give the effect of rounded positions on forces.
+/// Adds the stencil's moduli of derivatives to the noise of `result`: the effect of rounded positions on forces and
+/// energy.
 void Potential::measure(std::size_t stencil, std::size_t corners, PotentialDerivatives& result) const {
   const StencilDerivatives& derivatives = result.stencil[stencil];
   const auto vertex = vertices(stencil);
@@ -330,7 +332,8 @@ void Potential::sum_gradient(const State& x, PotentialDerivatives& result) const
   add_frame_noise(x, result);
 }
 
-/// Adds the effect of rounded frames on forces, and of rounded positions and frames on torques.
+/// Adds to the noise of `result` the effect of rounded frames on forces, and of rounded positions and frames on
+/// torques.
 void Potential::add_frame_noise(const State& x, PotentialDerivatives& result) const {
   const RodSystem& rods = this->rods();
   if (!rods.is_used()) return;

@@ -9,15 +9,15 @@ namespace {
 
 std::size_t vertex_count(FormKind form) { return form == FormKind::points ? 2 : form == FormKind::point_line ? 3 : 4; }
 
-/// A contact prepared for its kernel.
+/// A contact prepared for its kernel, with the features that hold the contact points.
 struct Prepared {
   PlacedContact term;
-  std::array<Triple<double>, 4> corner;           ///< positions at the form's places
-  std::array<std::uint8_t, 4> place{0, 1, 2, 3};  ///< places of these positions among the contact's vertices
+  std::array<Triple<double>, 4> corner;           ///< positions of the vertices, in the order of ClosestForm::at
+  std::array<std::uint8_t, 4> place{0, 1, 2, 3};  ///< places of these vertices among the contact's vertices
 };
 
-/// Prepares a contact term at x and returns its group: terms with one form and one stage of the activation share a
-/// batch.
+/// Prepares a contact term at x and returns its group. Terms with the same closest features and the same stage of the
+/// activation form a group, whose members are evaluated together. Returns `left_out` if the contact does not act.
 std::uint8_t prepare(const ContactTerm& term, const State& x, Prepared& to) {
   const std::array<Triple<double>, 4> corners = contact_corners(term.sides, term.vertex, x);
   const ClosestForm form = closest_form(term.sides, corners);
@@ -91,7 +91,7 @@ void differentiate(std::span<const ContactTerm> terms, const State& x, HessianPr
   });
 }
 
-/// Differentiates volume terms one by one: they are few compared with contacts between surfaces.
+/// Differentiates contacts with volumes one by one, because they are few compared with contacts between surfaces.
 void differentiate(std::span<const VolumeTerm> terms, const State& x, HessianProjection projection,
                    StencilDerivatives* to, const Finished& finished) {
   tbb::parallel_for(std::size_t{0}, terms.size(), [&](std::size_t i) {

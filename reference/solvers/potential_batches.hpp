@@ -1,6 +1,6 @@
-// Differentiates the stencils of contacts in batches of one form (energies/stencils/stencil_kernels.hpp), in parallel
-// over the batches. Each stencil has its own place in the result, so neither threads nor other stencils of a batch
-// change a bit.
+// Differentiates the stencils of contacts in batches, in parallel over the batches. All contacts of a batch have the
+// same kind of closest features (energies/stencils/stencil_kernels.hpp). Each stencil writes to a separate place of the
+// result, so the result depends neither on the number of threads nor on the other stencils of a batch.
 #pragma once
 
 #include <functional>
@@ -11,22 +11,22 @@
 
 namespace ogc::reference {
 
-/// Up to batch_width members of one group.
+/// Up to batch_width members of one group, which are evaluated together.
 struct Bundle {
   std::uint8_t group = 0;
   std::uint8_t size = 0;
   std::array<std::uint32_t, batch_width> member{};
 };
-/// Group number of members without a bundle.
+/// Group number of members that are not evaluated.
 constexpr std::uint8_t left_out = 255;
-/// Sorts members into bundles; `group` is the group of each member. Members with the same branches should have one
-/// group.
+/// Sorts members into bundles; `group` is the group of each member. Members that take the same branches should be in
+/// one group.
 std::vector<Bundle> bundled(const std::vector<std::uint8_t>& group);
 
 /// Called by `differentiate` for each finished stencil, on the thread that computed it.
 using Finished = std::function<void(std::size_t stencil)>;
 
-/// Writes the derivatives of all terms at x into the places from `to` on.
+/// Writes the derivatives of all terms at x to to[0], to[1], …
 void differentiate(std::span<const ContactTerm> terms, const State& x, HessianProjection projection,
                    StencilDerivatives* to, const Finished& finished);
 void differentiate(std::span<const VolumeTerm> terms, const State& x, HessianProjection projection,
@@ -34,7 +34,7 @@ void differentiate(std::span<const VolumeTerm> terms, const State& x, HessianPro
 void differentiate(std::span<const FrictionTerm> terms, const State& x, HessianProjection projection,
                    StencilDerivatives* to, const Finished& finished);
 
-/// Returns the positions of a contact's four places; unused places are at the origin.
+/// Returns the positions of a contact's vertices, always four; unused entries are 0.
 inline std::array<Triple<double>, 4> contact_corners(compare::ContactSides sides,
                                                      const std::array<compare::Index, 4>& vertex, const State& x) {
   std::array<Triple<double>, 4> corners{};

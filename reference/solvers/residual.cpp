@@ -6,7 +6,7 @@
 namespace ogc::reference {
 namespace {
 
-/// This is a base class, so that the scene is made before the ContactStep that reads it.
+/// The scene and its topology. It is a base class, so that it is constructed before the ContactStep that reads it.
 struct Problem {
   compare::Scene scene;
   compare::Topology topology;

@@ -1,5 +1,5 @@
-// Measures the residual of Eq. 29 at any solver's states (method.md §6), and its f*. It runs beside the solver, with
-// separate detections.
+// Measures the residual of Eq. 29 at states of any solver (method.md §6), and the force f* of its denominator. The
+// meter detects contacts itself and does not change the solver's.
 #pragma once
 
 #include <cstdint>
@@ -21,24 +21,25 @@ struct Residual {
   std::int64_t contacts = 0;
 };
 
-/// Measures residuals in double. Forces are those of all energies at the state; friction takes λ, n and weights from
-/// the state, too.
+/// Measures residuals in double. The force of a state is the sum of all energies' forces there; friction takes λ, n and
+/// w from the state, too.
 class ResidualMeter {
  public:
   /// Rounds its copy of the scene, which must be valid.
   explicit ResidualMeter(const compare::Scene& scene);
   ~ResidualMeter();
-  /// Begins the step from Xᵗ, Vᵗ with this number, and runs its guess loop; then states of this step can be measured.
-  /// `orientations`: Qᵗ of the segments of rods; empty: those of the scene's start.
+  /// Begins the step from Xᵗ, Vᵗ with this number and runs its guess loop. Then states of this step can be measured.
+  /// `orientations` are Qᵗ of the rods' segments; an empty span selects the orientations at the scene's start.
   void begin_step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity,
                   std::int64_t number, std::span<const compare::Quaternion> orientations = {});
   double reference_force() const;  ///< mean ‖f*‖ of the step [N]
-  /// Measures with contacts detected at the state itself. `orientations` belong to the state; empty: those of the last
-  /// state.
+  /// Measures the state with contacts detected at the state. `orientations` are those of the state; an empty span keeps
+  /// those of the last state.
   Residual at(const std::vector<compare::Vec3f>& position, std::span<const compare::Quaternion> orientations = {});
   Residual at(const std::vector<std::array<double, 3>>& position,
               std::span<const compare::Quaternion> orientations = {});
-  /// Measures with contacts detected at X_prev = `previous`, as a solver has them between two detections.
+  /// Measures the state with contacts that were detected at X_prev = `previous`, as a solver does between two
+  /// detections.
   Residual with(const ContactSets& contacts, const std::vector<compare::Vec3f>& previous,
                 const std::vector<compare::Vec3f>& position, std::span<const compare::Quaternion> orientations = {});
 

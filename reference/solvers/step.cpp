@@ -33,7 +33,8 @@ std::vector<std::vector<compare::HeldMove>> held_moves(const compare::StepIn& in
   return moves;
 }
 
-/// Returns for each vertex whether a contact keeps it in place, certainly or possibly; empty if the event is no round.
+/// Returns for each vertex whether a contact keeps it in place, certainly or possibly. Empty if the event is not a
+/// round of the guess loop.
 std::vector<bool> staying(const std::vector<compare::HeldMove>& moves) {
   std::vector<bool> stays;
   for (const compare::HeldMove& held : moves) stays.push_back(held.touches != 0);
@@ -73,7 +74,8 @@ Depth depth_of(const std::vector<compare::VolumeContact>& contacts, const compar
       above += w * (n.x * apart.x + n.y * apart.y + n.z * apart.z);
       size += std::abs(w) * (std::abs(n.x * apart.x) + std::abs(n.y * apart.y) + std::abs(n.z * apart.z));
     }
-    // φ + r/2 has no more terms than r − φ, for which compare/stages/volume_force.hpp counts the roundings.
+    // The sum φ + r/2 has as few terms as r − φ, so the rounding count of compare/stages/volume_force.hpp applies to
+    // it.
     if (std::abs(above) <= compare::volume_force_grey * compare::unit_roundoff * size)
       deepest = std::max(deepest, Depth::doubtful);
     else if (above < 0)
@@ -124,7 +126,7 @@ compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answe
     bool is_deep = false;
     if (is_there && *kind == compare::StepEventKind::sweep && volumes != nullptr) {
       const Depth depth = depth_of(*volumes, *in.topology, answer.events[i].position, settings.contact_radius);
-      // If doubtful, both answers are right; the answer's next event shows its choice.
+      // If the depth is doubtful, both orders of events are right; the answer's next event shows which one it follows.
       const bool detects_next = i + 1 < answer.events.size() &&
                                 answer.events[i + 1].kind == compare::StepEventKind::detection;
       is_deep = depth == Depth::deep || (depth == Depth::doubtful && detects_next);

@@ -9,16 +9,17 @@
 
 namespace ogc::reference {
 
-/// Prescribed vertices behind their targets, if bounds are planes (method.md §5.6, Detections).
+/// Counts the prescribed vertices that are behind their targets, if bounds are planes (method.md §5.6, Detections).
 struct StepLag {
-  compare::Index lagging = 0;  ///< number of such vertices
+  compare::Index lagging = 0;  ///< number of prescribed vertices behind their targets
   bool has_advanced = false;   ///< whether one of them has moved since the last detection
 };
 
 /// Depth in units of r from which a vertex is deep inside a volume (compare/volumes.md, The step).
 inline constexpr double deep_share = 0.5;
 
-/// Determines the next event from the number of vertices that each event cut. `moving` is K, the bounded_count.
+/// Determines the next event of a step from the number of vertices that each event cut. `moving` is K, the number of
+/// vertices with a bound.
 class StepOrder {
  public:
   StepOrder(const compare::Settings& settings, compare::Index moving)
@@ -31,7 +32,7 @@ class StepOrder {
     return found_ ? compare::StepEventKind::sweep : compare::StepEventKind::detection;
   }
 
-  /// Records the next event. `cut`: number of vertices that a round or an iteration cut; `is_deep`: whether an
+  /// Records that the event `next()` took place. `cut` is the number of vertices that it cut; `is_deep` is whether an
   /// iteration left a vertex deep inside a volume.
   void took_place(compare::Index cut, const StepLag& lag = {}, bool is_deep = false) {
     switch (*next()) {
@@ -67,7 +68,7 @@ class StepOrder {
   const compare::Settings& settings_;
   double redetect_vertices_;  ///< γ_e K
   bool guessing_ = true;      ///< whether the guess loop runs
-  bool lag_asked_ = false;    ///< whether a lag has triggered a detection in this step
+  bool lag_asked_ = false;    ///< whether a vertex behind its target has triggered a detection in this step
   bool found_ = false;        ///< whether contacts and bounds are valid for the next event
   std::int64_t rounds_ = 0, iterations_ = 0, since_detection_ = 0;
 };

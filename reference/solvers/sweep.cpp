@@ -22,7 +22,8 @@ std::span<const compare::VertexPlane> planes_of(const compare::SweepIn& in, Inde
 
 bool is_scaled(const compare::SweepIn& in) { return !traits_of(in.scene->settings.bounds).slides; }
 
-/// Returns the point from which a proposal is scaled instead of sliding.
+/// Returns the start of the path on which a position outside the half-spaces is moved back: X_prev if the bounds only
+/// scale, otherwise the old position.
 const compare::Vec3f& start_of_way(const compare::SweepIn& in, std::size_t i) {
   return is_scaled(in) ? in.previous[i] : in.old[i];
 }
@@ -37,7 +38,7 @@ VertexUpdate free_vertex(const compare::SweepIn& in, const compare::SweepOut& an
   return update_of(terms_of_vertex(in, stencils, SweepPositions(in, answer, v), v), vertex, answer.position[i]);
 }
 
-/// Truncates y by a question to the stage truncate.
+/// Truncates the target y of a prescribed vertex, as a case of the stage truncate.
 VertexUpdate prescribed_vertex(const compare::SweepIn& in, std::size_t i) {
   const compare::TruncateIn question{{in.previous[i]},
                                      {in.target[i]},
@@ -82,7 +83,8 @@ compare::SweepTruth sweep(const compare::SweepIn& in, const compare::SweepOut& a
 
 namespace {
 
-/// Returns the position of an update, stored inside its ball. If nothing slides, the way to it ends at the half-spaces.
+/// Returns the position of an update in single precision, inside its region. If the bounds only scale, the path from
+/// X_prev to the position is first cut at the half-spaces.
 compare::Vec3f stored(const compare::Vec3& position, const compare::SweepIn& in, std::size_t v) {
   const compare::TruncateIn region{{in.previous[v]},
                                    {in.old[v]},

@@ -1,4 +1,5 @@
-// Stage sweep: Algorithm 4. Updates each vertex in double; positions at lower colours are the answer's.
+// Stage sweep: Algorithm 4. Updates each vertex in double from the positions that the answer's own update read: the
+// answer's new positions at lower colours, the old ones elsewhere.
 #pragma once
 
 #include "compare/stages/sweep.hpp"
@@ -10,8 +11,8 @@ namespace ogc::reference {
 /// have several accepted answers, the truth uses the combination nearest to the answer.
 compare::SweepTruth sweep(const compare::SweepIn& in, const compare::SweepOut& answer);
 
-/// Runs the reference's own sweep: prescribed vertices, then colour by colour, in parallel within a colour. Positions
-/// are stored in single precision within their bounds. `stencils` must be made from `in`.
+/// Computes the reference's own sweep: prescribed vertices first, then colour by colour, in parallel within a colour.
+/// Positions are stored in single precision within their bounds. `stencils` must be constructed from `in`.
 compare::SweepOut reference_sweep(const compare::SweepIn& in, const SweepStencils& stencils);
 
 }  // namespace ogc::reference

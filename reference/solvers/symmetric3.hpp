@@ -1,5 +1,5 @@
-// Eigenvalues and eigenvectors of a symmetric 3×3 matrix. An error of the force moves a vertex differently far in the
-// directions of the eigenvectors, and contacts make the ratio of the eigenvalues large.
+// Eigenvalues and eigenvectors of a vertex's symmetric 3×3 block. They are needed because an error of the force moves a
+// vertex by different distances along the eigenvectors; with contacts the ratio of the eigenvalues is large.
 #pragma once
 
 #include <array>
@@ -8,19 +8,19 @@
 
 namespace ogc::reference {
 
-/// xx, xy, xz, yy, yz, zz, in the order of the blocks of compare/stages/force.hpp.
+/// A symmetric 3×3 matrix: xx, xy, xz, yy, yz, zz, as in compare/stages/force.hpp.
 using Symmetric3 = std::array<double, 6>;
 
-/// Returns the Frobenius norm of the whole matrix.
+/// Returns the Frobenius norm; entries off the diagonal count twice.
 double norm(const Symmetric3& a);
 
-/// A = Σ value[i] axis[i] axis[i]ᵀ, axes orthonormal.
+/// The eigenvalues and eigenvectors of A = Σ value[i] axis[i] axis[i]ᵀ; the axes are orthonormal.
 struct Eigen3 {
   std::array<double, 3> value{};
   std::array<compare::Vec3, 3> axis{};
 };
 
-/// Decomposes `a`. Values ascend; they lie within a few units of 2⁻⁵³ ‖A‖ of the exact ones.
+/// Decomposes `a`. The values ascend. Their errors are a few times 2⁻⁵³ ‖A‖.
 Eigen3 eigen_of(const Symmetric3& a);
 
 }  // namespace ogc::reference

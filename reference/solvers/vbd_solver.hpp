@@ -1,10 +1,10 @@
 // The reference's Vertex Block Descent: Algorithms 3 and 4 in double, for whole runs. Colours are solved one after the
-// other, vertices of a colour in parallel; method.md §7.2 defines the positions that they read. Each new position is
-// cut to its bound before it is written. Positions are doubles within a step and rounded at its end, as in Newton's
-// method.
+// other, vertices of one colour in parallel. method.md §7.2 defines which positions an update reads. Each new position
+// is truncated to its bound before it is written. Positions are doubles within a step and rounded at its end, as in
+// Newton's method.
 //
-// Residuals are measured beside the run, and their time does not count as the step's. Rows have residuals with the
-// contacts of the last detection, a step has the residual with contacts detected at its end.
+// The time of measuring residuals does not count as time of the step. A row of iterations.csv has the residual with the
+// contacts of the last detection; a row of steps.csv has the residual with contacts detected at the step's end.
 #pragma once
 
 #include "reference/solvers/contact_step.hpp"
@@ -16,10 +16,10 @@ namespace ogc::reference {
 /// Vertex Block Descent in double (Alg. 3 and 4).
 class VbdSolver : public StepSolver, private ContactStep {
  public:
-  /// The scene must be rounded and valid; scene and topology must outlive this. Reads the settings of
-  /// variants/settings.hpp. `colour`, by vertex: from 0 on if free, otherwise −1; no two vertices of a membrane, hinge
-  /// or spring may share one. If it is empty, the solver colours the vertices itself (colouring.hpp). Throws
-  /// std::invalid_argument if the colours do not fit the scene.
+  /// Takes a rounded and valid scene; scene and topology must outlive the solver. Reads the settings of
+  /// variants/settings.hpp. `colour`, by vertex: at least 0 if the vertex is free, otherwise −1. Two vertices of a
+  /// membrane, hinge or spring must have different colours. If `colour` is empty, the solver colours the vertices
+  /// (colouring.hpp). Throws std::invalid_argument if the colours do not fit the scene.
   VbdSolver(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options,
             std::vector<compare::Index> colour = {});
 
@@ -34,9 +34,11 @@ class VbdSolver : public StepSolver, private ContactStep {
   void iterate();
   std::size_t sweep();
   std::size_t cut_all(const State& old);  ///< cuts free vertices to their bounds
-  /// Returns whether a vertex is deep inside a volume, by the frozen contacts of the last detection.
+  /// Returns whether a vertex is deep inside a volume; depths come from the contacts of the last detection, with frozen
+  /// n and weights.
   bool is_deep_inside() const;
-  /// Calls `work`, which needs the meter, without adding its time to the step's; does nothing without a meter.
+  /// Calls `work`, which uses the residual meter, without adding its time to the step's. Does nothing if there is no
+  /// meter.
   template <class Work>
   void measured(Work work);
   void add_row(bool detects);

@@ -10,7 +10,7 @@ namespace ogc::reference {
 namespace {
 
 using compare::Index;
-/// Returns the positions of a stencil's vertices that the update of `self` reads.
+/// Returns the positions of a stencil's vertices that the update of vertex `self` reads.
 template <std::size_t Count>
 std::array<Triple<double>, Count> plain_corners(const std::array<Index, Count>& vertex, Index self,
                                                 const SweepView& x) {
@@ -20,18 +20,18 @@ std::array<Triple<double>, Count> plain_corners(const std::array<Index, Count>& 
   return corners;
 }
 
-/// Tells which of a contact's vertices are updated together, the updated vertex included.
+/// Whether each of a contact's four vertices is updated together with the updated vertex, which is included.
 using Updated = std::array<bool, 4>;
 
-/// Returns Σ |w_u| over the vertices that are updated together, divided by |w| of the updated vertex; 1 if its weight
-/// is 0. Blocks times this factor majorise the motion of all these vertices (method.md §7.4).
+/// Returns Σ |w_u|/|w|: the sum over the vertices that are updated together, w of the updated vertex; 1 if w is 0. A
+/// block times this factor majorises the energy for a simultaneous motion of all these vertices (method.md §7.4).
 double majorant(const std::array<double, 4>& weight, const Updated& updated, std::size_t own) {
   double sum = 0;
   for (std::size_t k = 0; k < 4; ++k) sum += updated[k] ? std::abs(weight[k]) : 0;
   return weight[own] == 0 ? 1 : sum / std::abs(weight[own]);
 }
 
-/// Returns which of a contact's vertices have the colour of `own` in `x`; only `own` with ContactBlocks::own.
+/// Returns which of a contact's vertices have the colour of `own`. With ContactBlocks::own returns only `own`.
 Updated updated_with(Index own, const std::array<Index, 4>& vertex, const SweepView& x, ContactBlocks blocks) {
   Updated updated{};
   for (std::size_t k = 0; k < 4; ++k) {
@@ -52,8 +52,7 @@ void add_friction(const FrictionTerm& term, double factor, const std::array<Trip
     add_outer(2 * factor * slope, component.slope, component.slope, sum.block);
 }
 
-/// Adds a contact. Below 2⁻²³ r slope and curvature are those at 2⁻²³ r, from r on those at r, as in the stage
-/// contact_force.
+/// Adds a contact. Slope and curvature are evaluated at d clamped to 2⁻²³ r … r, as in the stage contact_force.
 void add_contact(const Potential& potential, const ContactTerm& term, const Updated& updated, std::size_t place,
                  const std::array<Triple<double>, 4>& corners, VertexSystem& sum) {
   const ClosestForm form = closest_form(term.sides, corners);

@@ -1,7 +1,7 @@
 // The 3×3 system of one vertex in double, for whole runs: the sum of the forces and blocks of its stencils (method.md
-// §4). Each energy derives its force and block in its own file (listed in kinds/kinds.hpp). The judged sweep
-// (vertex_terms.hpp) sums the stages' answers for single-precision positions with their errors; its blocks come from
-// the same functions over another number type.
+// §4). Each energy's file derives its force and block (listed in kinds/kinds.hpp). The judged sweep (vertex_terms.hpp)
+// sums the answers of the force stages for single-precision positions, with errors. Its blocks come from the same
+// functions over another number type.
 #pragma once
 
 #include <array>
@@ -15,15 +15,15 @@
 
 namespace ogc::reference {
 
-/// Force and block of a vertex, inertia included; the block is positive definite.
+/// Force and block of a vertex, including inertia, which makes the block positive definite.
 using VertexSystem = VertexSystemOf<double>;
 
-/// Returns H⁻¹ a. Inertia alone makes H positive definite.
+/// Returns H⁻¹ a; H is the block.
 Triple<double> solved(const VertexSystem& system, const Triple<double>& a);
 
-/// The positions that an update reads (method.md §7.2): the new position of a vertex whose colour is below that of the
-/// updated vertex, otherwise the old position. Colours count from 0; −1 means a prescribed or fixed vertex, which moves
-/// first.
+/// The positions that an update reads (method.md §7.2): the new position of a vertex whose colour is lower than that of
+/// the updated vertex, otherwise the old position. Free vertices have colours from 0 on. Prescribed and fixed vertices
+/// have −1, because they move first.
 struct SweepView {
   const State& old;
   const State& fresh;
@@ -35,16 +35,16 @@ struct SweepView {
   }
 };
 
-/// The systems of all vertices of one potential.
+/// Computes the systems of the vertices of one potential.
 class VertexSystems {
  public:
   /// The potential must outlive this.
   explicit VertexSystems(const Potential& potential, ContactBlocks blocks = ContactBlocks::majorised);
-  /// Lists the potential's contacts again; must be called after they have changed.
+  /// Lists the potential's contacts by vertex. Must be called after the contacts have changed.
   void read_contacts();
-  /// Returns the system of a free vertex. Friction takes λ, n and w from the positions that the update reads.
+  /// Returns the system of a free vertex. λ, n and w of friction come from the positions that the update reads.
   VertexSystem at(compare::Index vertex, const SweepView& x) const;
-  /// Returns the mean ‖f‖ over free vertices [N], the numerator of Eq. 29.
+  /// Returns the mean ‖f‖ over free vertices [N], the numerator of the residual in Eq. 29.
   double mean_force(const State& x) const;
 
  private:

@@ -20,7 +20,7 @@ void add_element(ElementsOfVertex& rows, std::size_t element, const Vertices& ve
   }
 }
 
-/// Returns the vertices on which an element acts, by place.
+/// Returns the vertices on which an element exerts forces, in the order of their places in the element.
 template <class Kind, class Element>
 auto acting(const Element& element) {
   if constexpr (requires { Kind::pulled(element); })
@@ -46,7 +46,8 @@ SweepStencils::SweepStencils(const compare::SweepIn& in) : body(body_of_vertex(*
   for (std::size_t i = 0; i < in.volumes.size(); ++i) {
     const compare::VolumeContact& contact = in.volumes[i];
     const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(contact.triangle)];
-    // If the point is a corner of the triangle and c lies on the opposite edge, this corner has the weight 0.
+    // If the point is a corner of the triangle and the closest point c is on the opposite edge, this corner has weight
+    // 0.
     const auto corner = [&](std::size_t k) { return contact.weights[k] == 0 ? -1 : corners[k]; };
     add_element(volumes, i, std::array{contact.point, corner(0), corner(1), corner(2)});
   }

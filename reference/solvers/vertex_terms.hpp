@@ -1,5 +1,5 @@
-// Converts the stencils of one vertex to questions for the force stages, so that the sweep sums exactly those stages'
-// answers.
+// Converts the stencils of one vertex to cases of the force stages, so that the judged sweep sums exactly the answers
+// of these stages.
 #pragma once
 
 #include <array>
@@ -13,16 +13,18 @@
 
 namespace ogc::reference {
 
-/// One term of force and block, with its stage's tolerances in units of u · scale. Accepted answers within a tolerance
-/// of the exact one widen the spread and are not tried one by one. The spread is the largest of these differences,
-/// doubled because an answer's scale may be twice the exact one's.
+/// One term of force and block, with the tolerances of its stage in units of u · scale. Accepted answers within a
+/// tolerance of the exact answer are not tried one by one; they enlarge the spread. The spread is the largest
+/// difference from the exact answer, plus the tolerance, because the scale of an accepted answer may be twice that of
+/// the exact one.
 struct Term {
   std::vector<compare::ForceAnswer> accepted;  ///< the exact answer first
   double force_tolerance = 0, block_tolerance = 0;
   double force_spread = 0, block_spread = 0;  ///< [N], [N/m]
 };
 
-/// Makes a term from one energy's answers: answers near the exact one widen its spread, the others stay in `accepted`.
+/// Makes a term from the accepted answers of one energy. Answers near the exact one enlarge the spread; the others are
+/// kept in `accepted`.
 Term term_of(std::vector<compare::ForceAnswer> accepted, double force_tolerance, double block_tolerance);
 
 /// All terms of a vertex except inertia.
@@ -30,10 +32,10 @@ struct VertexTerms {
   std::vector<Term> terms;
 };
 
-/// By vertex: (number of the element, place of the vertex in the element).
+/// Elements by vertex: pairs (number of the element, place of the vertex in the element).
 using ElementsOfVertex = std::vector<std::vector<std::pair<std::size_t, std::size_t>>>;
 
-/// Lists the elements and contacts of each vertex.
+/// The elements and contacts of each vertex.
 struct SweepStencils {
   std::array<ElementsOfVertex, kind_count> elements;  ///< by kind
   ElementsOfVertex vertex_facet, edge_edge, volumes;
@@ -46,7 +48,7 @@ class SweepPositions {
  public:
   SweepPositions(const compare::SweepIn& in, const compare::SweepOut& answer, compare::Index own)
       : in_(in), answer_(answer), own_(own) {}
-  /// Returns the new position of a vertex of lower colour, the old one of any other.
+  /// Returns the new position if the vertex has a lower colour than `own`, otherwise the old position.
   const compare::Vec3f& operator[](compare::Index vertex) const {
     const auto i = static_cast<std::size_t>(vertex);
     return in_.colour[i] < in_.colour[static_cast<std::size_t>(own_)] ? answer_.position[i] : in_.old[i];
@@ -60,11 +62,12 @@ class SweepPositions {
   compare::Index own_;
 };
 
-/// Returns all terms of `vertex` except inertia, at the positions that its update reads.
+/// Returns all terms of `vertex` except inertia, at the positions that the vertex's update reads.
 VertexTerms terms_of_vertex(const compare::SweepIn& in, const SweepStencils& stencils, const SweepPositions& positions,
                             compare::Index vertex);
 
-/// Adds only the terms of contacts: normal force, and friction if μ > 0. A contact with a volume is one term.
+/// Adds the terms of contacts: normal force, and friction if μ > 0. Both forces of a contact with a volume form one
+/// term.
 void add_contact_terms(const compare::SweepIn& in, const SweepStencils& stencils, const SweepPositions& positions,
                        compare::Index vertex, VertexTerms& sum);
 

@@ -1,12 +1,15 @@
-// Errors. A right answer solves (H + δH) dx = f + δf with ‖δf‖ ≤ φ, ‖δH‖ ≤ η. With the exact dx* of H dx* = f
+// Derives the error limit of an update. A right answer dx solves (H + δH) dx = f + δf with ‖δf‖ ≤ φ and ‖δH‖ ≤ η. With
+// the exact dx* of H dx* = f, the eigenvectors vᵢ and eigenvalues λᵢ of H, and the smallest eigenvalue λ,
 //
-//   H (dx − dx*) = δf − δH dx,   |vᵢ·(dx − dx*)| ≤ (φ + η ‖dx‖)/λᵢ along each eigenvector of H,
-//   ‖dx‖ ≤ (‖dx*‖ + φ/λ)/(1 − η/λ), λ the smallest λᵢ.
+//   H (dx − dx*) = δf − δH dx,   |vᵢ·(dx − dx*)| ≤ (φ + η ‖dx‖)/λᵢ,   ‖dx‖ ≤ (‖dx*‖ + φ/λ)/(1 − η/λ).
 //
-// Storing moves the proposal by another u ‖x + dx‖. Truncation projects on a ball, which does not increase distances.
-// Its effect on single directions depends on the points, so the largest of the three errors counts for a vertex that
-// may be cut. A vertex that half-spaces cut, or may cut, must lie in its region, which the judge checks. If it does not
-// slide, it must also lie on the way from X_prev to its proposal, and its error is at most that of the proposal.
+// Storing the position x + dx adds an error of u ‖x + dx‖, u = 2⁻²⁴. The limit depends on truncation:
+//
+// - not cut: the limits above, along each eigenvector
+// - may be cut by the ball: the largest of the three limits in all directions. The projection on the ball does not
+//   increase distances, but it changes directions.
+// - may be cut by half-spaces: no limit; the judge checks that the position is inside the region. If vertices do not
+//   slide, the position must also be on the path from X_prev to the proposal, within the proposal's error.
 #include "reference/solvers/vertex_update.hpp"
 
 #include <algorithm>
@@ -26,7 +29,7 @@ using compare::Vec3f;
 using reference::norm;
 
 constexpr double u = compare::unit_roundoff, infinity = std::numeric_limits<double>::infinity();
-/// A vertex with more combinations of accepted answers is only checked against its bound.
+/// If the accepted answers of a vertex's terms have more combinations than this, only the bound is checked.
 constexpr std::size_t most_combinations = 4096;
 
 Vec3 wide(const Vec3f& a) { return {a.x, a.y, a.z}; }
@@ -36,7 +39,7 @@ Vec3 times(double s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
 double inner(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 double norm(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 
-/// H and f of one choice among the accepted answers, with φ and η; these include the solve's error.
+/// H and f for one choice among the accepted answers, with their errors η and φ. The errors include that of the solve.
 struct System {
   Vec3 force;
   Symmetric3 block{};
@@ -54,7 +57,7 @@ System system_of(const VertexTerms& terms, const FreeVertex& vertex, std::span<c
     sum.force = plus(sum.force, answer.force);
     for (std::size_t k = 0; k < 6; ++k) sum.block[k] += answer.block[k];
     errors_force += term.force_tolerance * answer.force_scale + term.force_spread / u;
-    // The stage's tolerance counts each entry off the diagonal once, but the matrix holds it twice.
+    // The stage's tolerance counts each entry off the diagonal once, but the matrix contains it twice.
     errors_block += term.block_tolerance * answer.block_scale * std::sqrt(2.0) + term.block_spread / u;
     moduli_force += norm(answer.force);
     moduli_block += norm(answer.block);
@@ -88,7 +91,8 @@ Vec3 nearest_on_way(const FreeVertex& vertex, const Vec3& proposal, const Vec3& 
   return plus(from, times(share, way));
 }
 
-/// Returns the largest distance of x beyond its half-spaces [m]; negative inside all, minus infinity without any.
+/// Returns the largest distance of x beyond one of its half-spaces [m]: negative inside all of them, minus infinity if
+/// there are none.
 double beyond_planes(const FreeVertex& vertex, const Vec3& x) {
   double beyond = -infinity;
   for (const compare::VertexPlane& plane : vertex.planes) {
@@ -98,8 +102,9 @@ double beyond_planes(const FreeVertex& vertex, const Vec3& x) {
   return beyond;
 }
 
-/// Checks an ill-conditioned vertex without a known position: if nothing was cut, dx·f ≥ −‖dx‖(φ + η‖dx‖) up to the
-/// error of storing. Returns the accepted error: infinity if that holds or the vertex may be cut, otherwise 0.
+/// Returns the accepted error of a vertex whose block is so ill-conditioned that the exact position is unknown. The
+/// error is infinity if the vertex may be cut, or if dx·f ≥ −‖dx‖(φ + η‖dx‖) up to the error of storing. Otherwise it
+/// is 0: the answer is wrong.
 double accepted_without_position(const System& system, const FreeVertex& vertex, const Vec3f& answer) {
   const Vec3 moved = minus(wide(answer), wide(vertex.old));
   const bool may_be_cut = norm(minus(wide(answer), wide(vertex.previous))) + truncation_error(vertex) >= vertex.bound ||
@@ -110,7 +115,8 @@ double accepted_without_position(const System& system, const FreeVertex& vertex,
   return inner(moved, system.force) >= -slack ? infinity : 0;
 }
 
-/// Returns the accepted error in the direction of `error`, without a cut: at most `along[i]` along axis i.
+/// Returns the accepted length of an error that has the direction of `error`. Its component along the i-th eigenvector
+/// may be at most `along[i]`.
 double accepted_along(const Vec3& error, const Eigen3& eigen, const std::array<double, 3>& along) {
   double share = 0;
   for (std::size_t i = 0; i < 3; ++i) share = std::max(share, std::abs(inner(error, eigen.axis[i])) / along[i]);
@@ -120,7 +126,7 @@ double accepted_along(const Vec3& error, const Eigen3& eigen, const std::array<d
 VertexUpdate update_with(const System& system, const FreeVertex& vertex, const Vec3f& answer) {
   const Eigen3 eigen = eigen_of(system.block);
   std::array<double, 3> stiffness;
-  // All terms except inertia are positive semidefinite.
+  // All terms of the block except inertia are positive semidefinite, so no eigenvalue is below the inertia.
   for (std::size_t i = 0; i < 3; ++i) stiffness[i] = std::max(eigen.value[i], vertex.inertia);
   const auto [least, most] = std::minmax_element(stiffness.begin(), stiffness.end());
   Vec3 change;
@@ -139,7 +145,7 @@ VertexUpdate update_with(const System& system, const FreeVertex& vertex, const V
   }
   const double length = (norm(change) + system.force_error / *least) / (1 - relative),
                numerator = system.force_error + block_error * length;
-  // The smallest positive number covers underflow.
+  // Adds the smallest positive number, which covers underflow.
   const double stored = u * (norm(proposal) + numerator / *least) + std::numeric_limits<float>::denorm_min();
   std::array<double, 3> along;
   for (std::size_t i = 0; i < 3; ++i) along[i] = numerator / stiffness[i] + stored;
@@ -187,7 +193,8 @@ VertexUpdate update_of(const VertexTerms& terms, const FreeVertex& vertex, const
   for (const Term& term : terms.terms)
     combinations = std::min(combinations * term.accepted.size(), most_combinations + 1);
   if (combinations > most_combinations) return {best.position, infinity, true, Cut::doubtful};
-  // If the bound hides which combination an answer chose, the cut may be that of any combination.
+  // If several combinations explain the answer because the bound hides their difference, each may decide whether it was
+  // cut.
   bool cuts_differ = false;
   while (advance(choice, terms)) {
     const VertexUpdate other = update_with(system_of(terms, vertex, choice), vertex, answer);

@@ -1,4 +1,4 @@
-// Computes one vertex update in double, and the accepted error of a right single-precision update.
+// Computes one vertex update in double, and the error that is accepted in a right single-precision update.
 #pragma once
 
 #include <array>
@@ -16,13 +16,13 @@ struct FreeVertex {
   float bound = 0;                                 ///< b_v [m]
   double inertia = 0;                              ///< m/h² [N/m]
   std::span<const compare::VertexPlane> planes{};  ///< half-spaces of the vertex
-  bool is_scaled = false;  ///< whether a cut vertex stops on the way from X_prev instead of sliding
+  bool is_scaled = false;  ///< whether a cut vertex stops on the path from X_prev to its proposal instead of sliding
 };
 
-/// Tells whether truncation changes an update; doubtful if both answers are right.
+/// Whether truncation changes an update; doubtful if both are right.
 enum class Cut { no, yes, doubtful };
 
-/// The fields of SweepTruth for one vertex.
+/// The truth about the update of one vertex; see SweepTruth.
 struct VertexUpdate {
   compare::Vec3 position;
   double accepted = 0;
@@ -30,7 +30,7 @@ struct VertexUpdate {
   Cut cut = Cut::no;
 };
 
-/// Returns the truth about `answer`, the position of the vertex in the answer.
+/// Returns the truth about `answer`, the contestant's new position of the vertex.
 VertexUpdate update_of(const VertexTerms& terms, const FreeVertex& vertex, const compare::Vec3f& answer);
 
 }  // namespace ogc::reference

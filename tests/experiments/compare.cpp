@@ -40,7 +40,8 @@ std::string first_mismatch(const StageReport& report) {
   return print_problem(report.tally.mismatches[0].name) + ": " + report.tally.mismatches[0].message;
 }
 
-/// Selects faults: all, those that any generator reveals, or those that only one generator reveals.
+/// Selects planted faults: all, those that a mix of all generators' cases reveals, or those that need the cases of one
+/// named generator.
 enum class Shown { in_any_way, by_any, by_its_own };
 
 /// Checks that the judge catches the faults planted in these stages.
@@ -53,10 +54,10 @@ void check_caught(const std::vector<Stage>& stages, Shown shown = Shown::in_any_
     fault.plant(wrong, authority);
     JudgeOptions options = few_cases(fault.stage);
     options.generator = fault.generator;
-    // A fault that only one generator reveals needs enough scenes of it.
+    // A fault that only one generator reveals needs more cases, because few of them come from this generator.
     const std::uint64_t most = (fault.generator.empty() ? 1 : 20) * options.cases;
     std::uint64_t found = 0;
-    // Most faults appear in a twentieth of the cases; all cases are tried only for the others.
+    // Most faults appear in a twentieth of the cases. Only if a fault does not, more cases are tried.
     for (options.cases /= 20; found == 0 && options.cases <= most; options.cases *= 20)
       found = judge_stage(fault.stage, wrong, authority, options).tally.mismatched;
     INFO(fault.name);
@@ -76,7 +77,6 @@ TEST_CASE("the exact answers pass their own judge", "[agreement]") {
   }
 }
 
-// The faults of a step are split into two tests, because together they take minutes.
 TEST_CASE("the judge catches every planted fault of a step that any generator shows", "[agreement]") {
   check_caught({Stage::step}, Shown::by_any);
 }
@@ -84,7 +84,7 @@ TEST_CASE("the judge catches every planted fault of a step that needs a generato
   check_caught({Stage::step}, Shown::by_its_own);
 }
 
-// The sweep after a wrong guess is wrong, too.
+// A wrong guess also makes the sweep wrong, but the judge must name the guess.
 TEST_CASE("the judge says of a wrong rule for what contacts leave that it is the guess that is wrong", "[agreement]") {
   const Authority authority = reference::authority();
   int asked = 0;
@@ -184,7 +184,7 @@ TEST_CASE(
   for (const StageReport& report : reports) {
     INFO(first_mismatch(report));
     CHECK(report.tally.mismatched == 0);
-    // with few cases the share of grey ones means nothing
+    // With few cases the share of grey cases has no meaning.
     CHECK((report.passed() || report.tally.total().cases < few_cases(report.tally.stage).cases));
   }
   CHECK(tests::loose_problems(reports) == std::vector<std::string>{});
@@ -231,7 +231,7 @@ TEST_CASE("ogc compare judges stages and writes a report", "[agreement]") {
   const auto json = nlohmann::json::parse(result.out);
   REQUIRE(json.at("stages").size() == 2);
   REQUIRE(json.at("stages").at(1).at("stage") == "truncate");
-  // Each generator rounds its share up.
+  // The number of cases is rounded up for each generator.
   const auto cases = json.at("stages").at(1).at("cases").get<std::size_t>();
   REQUIRE(cases >= 1000);
   REQUIRE(cases <= 1000 + generators(Stage::truncate).size());

@@ -25,7 +25,7 @@ std::map<std::string, std::string> frames_of(const fs::path& run) {
   return frames;
 }
 
-/// Returns steps.csv without times.
+/// Returns the rows of steps.csv without times.
 std::string rows_of(const fs::path& run) {
   compare::StepTable table = compare::read_steps(run);
   for (compare::StepMetrics& row : table.rows) row.wall_ms = 0, row.stage_ms.clear();
@@ -43,8 +43,8 @@ std::string iterations_of(const fs::path& run) {
   return text;
 }
 
-/// Checks the folder of a run that was cut off: every frame is whole, and all rows up to the checkpoint and all frames
-/// that the run reported exist.
+/// Checks the folder of an interrupted run. Every frame must be complete. All rows up to the checkpoint, and all frames
+/// that the run's output `said` to have written, must exist.
 void check_left(const fs::path& run, const std::string& said) {
   const compare::RunReader reader(run);
   std::int64_t last = -1;
@@ -82,13 +82,14 @@ Cuts run_with_cuts(const std::string& command, const fs::path& run, const std::s
   std::string arguments = command + " --out " + run.string();
   for (int attempt = 0; attempt < 40; ++attempt) {
     // With --foreground, timeout waits for the process that it kills. Without it, timeout dies by its own SIGKILL,
-    // maybe before the run releases its lock.
+    // possibly before the run releases its lock.
     const std::string before = cuts.in_time < 3 && cuts.killed < 20
                                    ? "timeout --foreground --preserve-status -s " + signal + " " +
                                          std::to_string(moment(random)) + " "
                                    : "";
     const ProgramResult result = run_ogc("run " + arguments, before);
-    // The signal may reach a run after its last step was written. The trajectory is then left to `ogc export`.
+    // The signal may reach a run after its last step was written. Only the trajectory is missing then, and `ogc export`
+    // writes it.
     if (result.status == 0 || is_finished(run)) {
       if (result.status != 0) REQUIRE(run_ogc("export " + run.string()).status == 0);
       if (cuts.in_time > 0) break;

@@ -1,4 +1,4 @@
-// Cuts runs of the program off by real signals and checks that their results equal those of an undisturbed run.
+// Interrupts runs of the program by real signals and checks that their results equal those of an uninterrupted run.
 #pragma once
 
 #include <filesystem>
@@ -14,13 +14,13 @@ struct Cuts {
   int killed = 0, in_time = 0;  ///< signals sent; signals that met a run after its start
 };
 
-/// Makes `ogc run COMMAND` in `run` and sends the signal (a name for kill) after random fractions of `seconds`, about
-/// the duration of the whole run. Resumes the run each time until it ends.
+/// Runs `ogc run COMMAND` with the output folder `run`. Sends the signal (a name for the command kill) after random
+/// fractions of `seconds`, about the duration of the whole run. Resumes the run after each signal until it ends.
 Cuts run_with_cuts(const std::string& command, const std::filesystem::path& run, const std::string& signal,
                    double seconds, unsigned seed);
 
-/// Makes the whole run in `folder`, then one run for each signal that is cut off by it, and checks that all results are
-/// equal.
+/// Makes an uninterrupted run in `folder`. Then makes one run for each signal, interrupted by this signal, and checks
+/// that all results are equal.
 void check_cut_runs(const std::filesystem::path& folder, const std::string& command,
                     std::initializer_list<std::string> signals);
 

@@ -1,5 +1,5 @@
-// Tests diagnoses: each known wrong form differs from the truth and is recognised, planted faults get the name of their
-// form, and a fault without a form gets none.
+// Tests diagnoses of wrong answers: each wrong form differs from the truth and is recognised, planted faults get the
+// name of their form, and a fault without a form gets no name.
 #include <map>
 #include <set>
 
@@ -17,8 +17,8 @@ using namespace ogc::compare;
 
 namespace {
 
-/// Adds failing cases if the judge found too few to name a form, as for rigid groups and solids, which are in few
-/// meshes.
+/// Adds failing cases if the judge found too few to name a form. This happens for rigid groups and solids, because few
+/// meshes have them.
 void look_for_more(Stage stage, const Contestant& contestant, const Authority& authority,
                    std::vector<TestCase>& failing) {
   for (const Generator& row : generators(stage))
@@ -28,7 +28,7 @@ void look_for_more(Stage stage, const Contestant& contestant, const Authority& a
     }
 }
 
-/// Returns the judge's diagnosis of this contestant from a short run.
+/// Returns the judge's diagnosis of this contestant after a short run.
 Diagnosis diagnosis_of(Stage stage, const Contestant& contestant, const Authority& authority) {
   JudgeOptions options;
   options.cases = is_mesh_stage(stage) ? 1000 : 2000;
@@ -42,7 +42,7 @@ Diagnosis diagnosis_of(Stage stage, const Contestant& contestant, const Authorit
 
 bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// Returns whether the diagnosis has this name, or another name that its cases can't distinguish from this one.
+/// Returns whether the diagnosis has this name, or lists the name among those that its cases do not distinguish.
 bool names(const Diagnosis& diagnosis, const std::string& name) {
   return diagnosis.name == name ||
          std::find(diagnosis.as_well.begin(), diagnosis.as_well.end(), name) != diagnosis.as_well.end();
@@ -57,14 +57,16 @@ std::vector<Evidence> evidence_of(Stage stage, const Contestant& contestant, std
   return all;
 }
 
-/// Returns the number of failing cases in a longer run, because few meshes have rigid groups or other rare subjects.
+/// Returns the number of failing cases in a longer run. Needed because few meshes have rigid groups or other rare
+/// properties.
 std::size_t failing_of_many(Stage stage, const Contestant& contestant, const Authority& authority) {
   JudgeOptions options;
   options.cases = 6000;
   return judge_stage(stage, contestant, authority, options).tally.mismatched;
 }
 
-/// Checks the contestant of each form of these stages on a few cases. Returns the number of forms.
+/// Checks on a few cases that each wrong form of the stages of this kind is recognised and fails. Returns the number of
+/// forms.
 std::size_t check_forms(CaseKind kind) {
   const Authority authority = reference::authority();
   std::size_t forms = 0;
@@ -81,7 +83,7 @@ std::size_t check_forms(CaseKind kind) {
       }
       INFO(stage_name(stage) << ": " << form.name << ", of " << answers.size() << " cases " << fits << " fit, " << fails
                              << " fail");
-      // A few cases do not fit: a form's answer may overflow single precision, and its changed input may lie close to a
+      // A few answers need not fit the form: they may overflow single precision, or the changed input may be close to a
       // jump.
       CHECK(static_cast<double>(fits) >= least_share * static_cast<double>(answers.size()));
       if (fails == 0) fails = failing_of_many(stage, wrong, authority);
@@ -168,7 +170,7 @@ TEST_CASE("planted faults that are known wrong forms are named, and others are n
 TEST_CASE("a form that fits too few of the failing cases is not named", "[agreement]") {
   const Authority authority = reference::authority();
   const auto right = tests::exact_contestant(authority).activation;
-  // A third of the cases use the printed formula, the others are 37 % too stiff. Neither form fits enough cases.
+  // A third of the cases use the printed formula, the others are 37 % too stiff. So neither form fits enough cases.
   Contestant mixed = tests::exact_contestant(authority);
   mixed.activation = [right](const ActivationIn& in) {
     ActivationIn other = in;
@@ -181,7 +183,7 @@ TEST_CASE("a form that fits too few of the failing cases is not named", "[agreem
     return right(other);
   };
   CHECK(diagnosis_of(Stage::activation, mixed, authority).name.empty());
-  // A single case is wrong, and it fits a form.
+  // Only one case is wrong, and it fits a form.
   Contestant once = tests::exact_contestant(authority);
   const TestCase test = generate({Stage::activation, "ladder.switch", 1, 7, "", {}});
   const auto& c = case_of<ActivationCase>(test.data);

@@ -25,7 +25,7 @@ Quaternion single(const std::array<double, 4>& q) {
   return {static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2]), static_cast<float>(q[3])};
 }
 
-/// Returns force and block of each case; of several accepted ones the first.
+/// Returns force and block of each case, rounded; if several answers are accepted, those of the first.
 ForceOut rounded(const ForceTruth& truth) {
   ForceOut out;
   for (const auto& accepted : truth.accepted) {
@@ -53,7 +53,8 @@ bool obeys(const Vec3f& x, const Vec3f& p, float b) {
   return margin.sign() <= 0;
 }
 
-/// Returns the exact position, rounded and then stepped towards the previous one until it obeys the bound.
+/// Returns the exact position, rounded, then moved towards `previous` by units in the last place until it obeys the
+/// bound.
 Vec3f stored(const Vec3& exact, const Vec3f& previous, float bound) {
   Vec3f x = single(exact);
   while (!obeys(x, previous, bound))
@@ -70,7 +71,7 @@ TruncateOut truncated(const TruncateIn& in, const TruncateTruth& truth) {
   return out;
 }
 
-/// Returns the exact targets, rounded, with the positions and cuts of the rounded targets.
+/// Returns the exact targets, rounded, and the positions and cut flags that follow from the rounded targets.
 InitialGuessOut guessed(const InitialGuessIn& in, const Authority& authority) {
   const InitialGuessTruth truth = authority.initial_guess(in);
   InitialGuessOut out;
@@ -160,15 +161,16 @@ Contestant exact_contestant(const Authority& authority) {
   exact.rest_state = [authority](const RestStateIn& in) { return authority.rest_state(in).exact; };
   exact.initial_guess = [authority](const InitialGuessIn& in) { return guessed(in, authority); };
   exact.sweep = [](const SweepIn& in) { return reference::reference_sweep(in, reference::SweepStencils(in)); };
-  // A step has no exact answer: the judge asks what follows from an answer's own positions and counts.
+  // A step has no exact answer: the judge checks what follows from the answer's own positions and counts. So the fast
+  // path's step is used.
   exact.step = fast::contestant(fast::Backend::cpu).step;
   return exact;
 }
 
 Contestant contestant_of(const WrongForm& form, const Authority& authority) {
   Contestant wrong = exact_contestant(form.wrong(authority));
-  // The truth of a plane and of a sweep depends on the answer. The contestant answers the question that the form makes
-  // of the given one.
+  // The truth about a plane or a sweep depends on the answer. So this contestant gives the right answer to the input
+  // that the wrong form makes of the given input.
   wrong.plane = [form, authority, right = wrong.plane](const PlaneIn& in) {
     PlaneOut out;
     Authority seen = authority;

@@ -1,4 +1,4 @@
-// Plants faults of forces on stencils: shares of 0.1 % and 0.01 %, and faults that few cases show.
+// Plants faults of forces on stencils: errors of 0.1 % and 0.01 %, and faults that few cases reveal.
 #include <cmath>
 
 #include "tests/compare/judge/faults.hpp"
@@ -9,7 +9,8 @@ using namespace compare;
 
 namespace {
 
-/// Skips the projection of the slip onto the plane of contact, between points.
+/// For contacts between two points, replaces the force by one along the whole relative motion: the normal part is not
+/// removed.
 void keep_normal_motion(const FrictionForceCase& c, Vec3f& force, const std::array<float, 6>& block) {
   if (c.contact.sides != ContactSides::point_point) return;
   const float strength = (block[0] + block[3] + block[5]) / 2, sign = c.contact.own == 0 ? -strength : strength;
@@ -25,7 +26,7 @@ bool is_closed_by_rounding(const SpringCase& c) {
   return c.ratio > 0 && apart(&Vec3f::x) == 0 && apart(&Vec3f::y) == 0 && apart(&Vec3f::z) == 0;
 }
 
-/// Reverses the part along g; the rest of the force is that of ‖F‖².
+/// Reverses the force of the volume ratio J; the force of ‖F‖² is unchanged.
 void flip_volume_gradient(const TetrahedronCase& c, Vec3f& force) {
   Vec3f stretch{};
   for (std::size_t k = 0; k < 3; ++k) {

@@ -1,4 +1,4 @@
-// Plants faults of ccd and barrier: last bits, small shares, and faults that few cases show.
+// Plants faults of ccd and barrier: errors in the last bit, small relative errors, and faults that few cases reveal.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,7 +18,7 @@ Fault of_time(const std::string& name, Spoil spoil) {
   });
 }
 
-/// Returns a fault that answers `time(impact)` in place of the time rounded down.
+/// Returns a fault that answers `time(impact)`, at most 1, in place of the exact time of impact rounded down.
 Fault of_impact(const std::string& name, float (*time)(double)) {
   return {"ccd: " + name, Stage::ccd, [time](Contestant& contestant, const Authority& authority) {
             contestant.ccd = [ask = authority.ccd, time](const CcdIn& in) {

@@ -1,4 +1,4 @@
-// Plants faults of closest_face and closest_points: a last bit, a feature alone, NaN.
+// Plants faults of closest_face and closest_points: an error in the last bit, a wrong feature, not-a-number.
 #include <cmath>
 #include <limits>
 

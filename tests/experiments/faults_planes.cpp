@@ -1,4 +1,5 @@
-// Plants faults of the planes: faults that let a pair pass, and faults that hold vertices which nothing should hold.
+// Plants faults of the planes: faults that let a pair pass through each other, and faults that restrict vertices
+// without need.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -38,20 +39,20 @@ VertexPlanes planes_of(const Rows& rows) {
   return planes;
 }
 
-/// Returns whether v is on the pair's second side.
+/// Returns whether vertex v belongs to the pair's second side.
 bool is_second(const PlaneIn& in, const PrimitivePair& pair, Index v) {
   if (pair.kind == Kind::vertex_triangle) return v != pair.first;
   return std::ranges::find(in.topology->edges[static_cast<std::size_t>(pair.first)], v) ==
          in.topology->edges[static_cast<std::size_t>(pair.first)].end();
 }
 
-/// Returns a fault that spoils the right answer.
+/// Returns a fault that changes the right answer by `spoil(in, out)`.
 template <class Spoil>
 Fault ball_fault(const std::string& name, Spoil spoil) {
   return spoiled("plane: " + name, &Contestant::plane, spoil);
 }
 
-/// Returns a fault that spoils all half-spaces of the right answer.
+/// Returns a fault that changes the half-spaces of the right answer by `spoil(in, rows)`.
 template <class Spoil>
 Fault row_fault(const std::string& name, Spoil spoil) {
   return ball_fault(name, [spoil](const PlaneIn& in, PlaneOut& out) {
@@ -61,7 +62,7 @@ Fault row_fault(const std::string& name, Spoil spoil) {
   });
 }
 
-/// Returns a fault that spoils each half-space of the right answer by itself.
+/// Returns a fault that changes each half-space of the right answer by `spoil(in, vertex, plane)`.
 template <class Spoil>
 Fault plane_fault(const std::string& name, Spoil spoil) {
   return row_fault(name, [spoil](const PlaneIn& in, Rows& rows) {
@@ -80,13 +81,13 @@ std::array<std::vector<Index>, 2> sides_of(const Topology& topology, const Primi
 
 double height(const Vec3f& n, const Vec3f& x) { return double{n.x} * x.x + double{n.y} * x.y + double{n.z} * x.z; }
 
-/// n·w of the pair's first side and −n·w of its second, for each vertex; w is the displacement.
+/// Speeds of approach by vertex: n·w for the pair's first side, −n·w for its second side; w is the displacement.
 struct Speeds {
   std::vector<double> first, second;
 };
 
-/// Returns a fault that computes the offsets of all pairs which displacements divide with another share s of the first
-/// side.
+/// Returns a fault with wrong offsets: where displacements divide a pair's gap, the first side gets the share
+/// `share_of_first`.
 Fault divided_otherwise(const std::string& name, const std::function<double(const Speeds&)>& share_of_first) {
   return plane_fault(name, [share_of_first](const PlaneIn& in, Index v, VertexPlane& plane) {
     if (in.displacement.empty()) return;
@@ -159,8 +160,7 @@ std::vector<Fault> division_faults() {
   };
 }
 
-/// Removes the planes of a triangle's corners on which the closest point does not depend: "their approach does not
-/// matter".
+/// Removes a triangle's planes from corners with weight 0 in the closest point, as if their approach did not matter.
 void weight_zero_ignored(const PlaneIn& in, Rows& rows) {
   const auto at = [&](Index v) { return in.positions[static_cast<std::size_t>(v)]; };
   for (std::size_t v = 0; v < rows.size(); ++v)
@@ -176,7 +176,8 @@ void weight_zero_ignored(const PlaneIn& in, Rows& rows) {
     });
 }
 
-/// Keeps the planes of each vertex's sixteen nearest pairs, independent of the pair's other vertices.
+/// Keeps only planes_of_vertex − 1 planes of a vertex that has planes_of_vertex. The pair's other vertices keep their
+/// planes.
 void asymmetric_cap(const PlaneIn&, Rows& rows) {
   for (auto& row : rows)
     if (row.size() == planes_of_vertex) row.pop_back();
@@ -198,7 +199,7 @@ std::vector<Fault> plane_by_plane() {
                   [](const PlaneIn&, Index, VertexPlane& plane) { plane.offset = static_cast<float>(plane.offset); }),
       plane_fault("one offset in the middle of a pair, which both sides may reach",
                   [](const PlaneIn& in, Index v, VertexPlane& plane) {
-                    // Of a gap g each side has γ_p g; up to the middle it is g/2.
+                    // Each side may use γ_p g of a gap g. The fault allows g/2, up to the middle.
                     const auto& x = in.positions[static_cast<std::size_t>(v)];
                     const Vec3f& n = plane.normal;
                     const double room = plane.offset - (double{n.x} * x.x + double{n.y} * x.y + double{n.z} * x.z);
@@ -275,7 +276,7 @@ std::vector<Fault> ball_by_ball() {
   };
 }
 
-/// Returns the balls of the paper: each vertex has that of its nearest pair.
+/// Returns the paper's bounds, without planes: each vertex has the ball of its nearest pair.
 std::vector<float> balls_of_all_pairs(const PlaneIn& in, const Authority& authority) {
   const DetectIn asked{in.topology, in.exclusions, in.positions, in.query_radius, in.query_radius};
   const DetectVertexFacetOut near = authority.detect_vertex_facet(asked).exact;
@@ -284,7 +285,7 @@ std::vector<float> balls_of_all_pairs(const PlaneIn& in, const Authority& author
       .exact.bound;
 }
 
-/// Returns a fault without planes.
+/// Returns a fault that has the paper's bounds and no planes.
 Fault balls_alone() {
   return {"plane: balls in place of planes", Stage::plane, [](Contestant& contestant, const Authority& authority) {
             contestant.plane = [authority](const PlaneIn& in) {
@@ -293,7 +294,7 @@ Fault balls_alone() {
           }};
 }
 
-/// Returns a fault whose planes give no room: balls are as small as without them.
+/// Returns a fault whose bounds are as small as without planes, so that the planes are useless.
 Fault balls_beside_planes() {
   return {"plane: balls of all pairs beside the planes", Stage::plane,
           [](Contestant& contestant, const Authority& authority) {
@@ -306,7 +307,8 @@ Fault balls_beside_planes() {
           }};
 }
 
-/// Returns a fault that takes fixed vertices for free ones: they have planes and leave the others γ_p alone.
+/// Returns a fault that treats fixed vertices as free: they get planes, and the other vertices may use only γ_p of the
+/// gap.
 Fault fixed_as_free() {
   return {"plane: fixed vertices taken for free ones", Stage::plane, [](Contestant& contestant, const Authority&) {
             contestant.plane = [right = contestant.plane](const PlaneIn& in) {

@@ -1,4 +1,5 @@
-// Plants faults of truncation by half-spaces: what other planar filters let pass, and what they hold for no reason.
+// Plants faults of truncation by half-spaces: mistakes of other planar filters that let a vertex leave its half-spaces,
+// or restrict it without need.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,7 +19,7 @@ double size(const Vec3f& n, const Vec3f& x) {
   return std::abs(double{n.x} * x.x) + std::abs(double{n.y} * x.y) + std::abs(double{n.z} * x.z);
 }
 
-/// Returns a fault that answers a changed question correctly, where half-spaces hold anything.
+/// Returns a fault that answers an input changed by `change(in)`; only if a vertex has half-spaces.
 template <class Change>
 Fault region_asked(const std::string& name, Change change) {
   return asked_wrongly("truncate: " + name, &Contestant::truncate, [change](TruncateIn& in) {
@@ -26,7 +27,7 @@ Fault region_asked(const std::string& name, Change change) {
   });
 }
 
-/// Returns a fault without the half-spaces for which `is_lost(in, case, number)` holds.
+/// Returns a fault that ignores the half-spaces for which `is_lost(in, case, number)` holds.
 template <class Lost>
 Fault lost_half_spaces(const std::string& name, Lost is_lost) {
   return region_asked(name, [is_lost](TruncateIn& in) {
@@ -43,7 +44,7 @@ Fault lost_half_spaces(const std::string& name, Lost is_lost) {
   });
 }
 
-/// Returns a fault that spoils the right answer where half-spaces hold the vertex.
+/// Returns a fault that changes the right answer by `spoil(in, case, out)` for each vertex with half-spaces.
 template <class Spoil>
 Fault region_spoiled(const std::string& name, Spoil spoil) {
   return spoiled("truncate: " + name, &Contestant::truncate, [spoil](const TruncateIn& in, TruncateOut& out) {

@@ -1,4 +1,5 @@
-// Plants faults of rest_state, block and initial_guess that no form of their truths can express.
+// Plants faults of rest_state, block and initial_guess that are not wrong forms of the truth: they change the
+// contestant's input or its answer.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +18,7 @@ Fault rest_fault(const std::string& name, Spoil spoil) {
                  [spoil](const RestStateIn& in, RestStateOut& out) { spoil(*in.scene, out); });
 }
 
-/// Returns a fault that answers about the start instead of the rest shape.
+/// Returns a fault that computes rest data from the positions at the start instead of the rest positions.
 Fault start_taken_for_rest() {
   return {"rest_state: rest shape taken from the start", Stage::rest_state,
           [](Contestant& contestant, const Authority&) {
@@ -87,7 +88,7 @@ CompressedRows without_last(const CompressedRows& rows) {
   return shorter;
 }
 
-/// Returns a fault that answers about a complex which lacks the last neighbour of each row.
+/// Returns a fault that answers for a mesh whose lists `rows` (for example each vertex's edges) lack their last entry.
 Fault forgotten(const std::string& name, CompressedRows Topology::*rows) {
   return {name, Stage::block, [rows](Contestant& contestant, const Authority&) {
             contestant.block = [right = contestant.block, rows](const BlockIn& in) {
@@ -112,7 +113,7 @@ void close_edge_ends(const BlockIn& in, const BlockQuestion& question, std::uint
   if (along(x, a, b) == 0 || along(x, b, a) == 0) inside = 1;
 }
 
-/// Returns a fault that takes the first end of the edge for its closest point.
+/// Returns a fault that takes the edge's first end for the point of the edge that is closest to a vertex.
 Fault end_for_closest_point() {
   return {"block: first end taken for an edge's closest point", Stage::block,
           [](Contestant& contestant, const Authority&) {

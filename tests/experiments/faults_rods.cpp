@@ -1,4 +1,4 @@
-// Plants faults of rods: small shares, single entries, and errors of a whole step with frames.
+// Plants faults of rods: small relative errors, errors of single entries, and errors of a whole step with frames.
 #include <cmath>
 
 #include "compare/stages/step.hpp"
@@ -16,7 +16,7 @@ void conjugate(Quaternion& q) {
 
 double size(const std::array<double, 4>& q) { return std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]); }
 
-/// Returns the orientation that a neighbour prefers: q_f p̄ ahead, q_f p behind.
+/// Returns the orientation towards which a neighbour pulls: q_f p̄ if it is ahead, q_f p if it is behind.
 std::array<double, 4> asked_for(const RodNeighbour& f, bool is_ahead) {
   Quaternion p = f.rest;
   if (is_ahead) conjugate(p);
@@ -25,7 +25,7 @@ std::array<double, 4> asked_for(const RodNeighbour& f, bool is_ahead) {
           a[3] * b[2] + a[2] * b[3] + a[0] * b[1] - a[1] * b[0], a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
 }
 
-/// Sets the old q between the neighbours' preferred orientations as they are, so that no sign flips.
+/// Sets the old q between the orientations towards which the neighbours pull, so that no sign s is −1.
 void never_flipped(OrientationCase& c) {
   std::array<double, 4> between{};
   for (const bool is_ahead : {false, true}) {
@@ -39,7 +39,7 @@ void never_flipped(OrientationCase& c) {
   for (std::size_t k = 0; k < 4; ++k) c.orientation[k] = static_cast<float>(between[k] / length);
 }
 
-/// Multiplies q by s k + w, a turn of 0.01 degrees.
+/// Multiplies q by a rotation of 0.01 degrees about an axis.
 void turn_slightly(Quaternion& q) {
   const double s = std::sin(8.7e-5), w = std::cos(8.7e-5);
   const std::array<double, 4> a{q[0], q[1], q[2], q[3]};
@@ -53,7 +53,7 @@ Fault of_answer(const std::string& name, void (*spoil)(Quaternion&)) {
   });
 }
 
-/// Marks a fault that scenes with rods show.
+/// Marks a fault that only scenes with rods reveal.
 Fault of_rods(Fault fault) {
   fault.generator = "rods";
   return fault;

@@ -1,4 +1,4 @@
-// Plants faults of bound and truncate: a share of 1 %, a last bit, and answers that follow forms of truncate.
+// Plants faults of bound and truncate: a relative error of 1 %, an error in the last bit, and wrong forms of truncate.
 #include <cmath>
 #include <limits>
 

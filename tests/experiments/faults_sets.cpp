@@ -1,4 +1,4 @@
-// Plants faults of the two detections.
+// Plants faults of the two detections, detect_vertex_facet and detect_edge_edge.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -55,8 +55,8 @@ Face face_of(const Topology& topology, Index t, TriangleFeature feature) {
   return {FaceKind::triangle, t};
 }
 
-/// Lists every triangle's closest face within r without the test of the feasible region, so that k triangles around an
-/// edge seen from within give k contacts.
+/// Lists the closest face of every triangle within r without the block test. k triangles around an edge, seen from the
+/// concave side, then give k contacts.
 void without_feasible_region(const DetectIn& in, const Authority& authority, DetectVertexFacetOut& out) {
   const Topology& topology = *in.topology;
   for (Index v = 0; v < topology.vertex_count; ++v) {
@@ -80,7 +80,7 @@ void without_feasible_region(const DetectIn& in, const Authority& authority, Det
   }
 }
 
-/// Holds all pairs of edges e < f that have no vertex in common and are in no rigid group.
+/// All pairs of edges e < f that have no vertex in common and do not belong to one rigid group.
 struct EdgePairs {
   ClosestPointsIn question;
   std::vector<std::array<Index, 2>> asked;
@@ -100,7 +100,7 @@ EdgePairs edge_pairs(const DetectIn& in) {
   return pairs;
 }
 
-/// Applies a region rule that accepts all but pairs of end points.
+/// Accepts all pairs of edges within r except pairs of end points, without the block test.
 void all_but_end_points(const DetectIn& in, const Authority& authority, DetectEdgeEdgeOut& out) {
   const auto& edges = in.topology->edges;
   const auto [question, asked] = edge_pairs(in);
@@ -121,7 +121,7 @@ void all_but_end_points(const DetectIn& in, const Authority& authority, DetectEd
   }
 }
 
-/// Accepts nearly parallel edges wherever they are nearer than r, so that a flat sheet at rest pushes itself.
+/// Also accepts nearly parallel edges nearer than r without the block test, so that a flat sheet at rest repels itself.
 void nearly_parallel_untested(const DetectIn& in, const Authority& authority, DetectEdgeEdgeOut& out) {
   const auto [question, asked] = edge_pairs(in);
   const ClosestPointsOut answer = authority.closest_points(question).exact;
@@ -142,8 +142,8 @@ struct OverlapEnd {
   bool in_blocks = false;
 };
 
-/// Returns the ends of the overlap, computed in double. The arms along exactly parallel edges are perpendicular to
-/// their connection, so a rounding above 0 does not count.
+/// Returns the ends of the overlap, computed in double. Exactly parallel edges are perpendicular to their connection,
+/// so the block test allows a rounding error above 0.
 std::vector<OverlapEnd> ends_of_overlap(const DetectIn& in, const Edge& e, const Edge& f) {
   const auto at = [&](Index v) { return Vec3{in.positions[v].x, in.positions[v].y, in.positions[v].z}; };
   const auto in_block = [&](Index v, const Vec3& c) {
@@ -179,7 +179,7 @@ bool is_exactly_parallel(const DetectIn& in, const Edge& e, const Edge& f) {
 
 bool is_loose(const DetectIn& in, Index e) { return in.topology->edge_triangles[e].empty(); }
 
-/// Tests exactly parallel edges at one end of their overlap only.
+/// Tests the blocks of exactly parallel edges only at the first end of their overlap.
 void one_end_of_overlap(const DetectIn& in, const Authority&, DetectEdgeEdgeOut& out) {
   std::erase_if(out.contacts, [&](const EdgeEdgeContact& c) {
     if (c.first.kind != FaceKind::edge || (is_loose(in, c.first_edge) && is_loose(in, c.second_edge))) return false;
@@ -189,7 +189,8 @@ void one_end_of_overlap(const DetectIn& in, const Authority&, DetectEdgeEdgeOut&
   });
 }
 
-/// Applies the block test to loose edges, too: strands side by side with a negligible tilt lose nearly all contacts.
+/// Applies the block test to loose edges, too. Strands side by side with a negligible tilt then lose nearly all
+/// contacts.
 void strands_tested(const DetectIn& in, const Authority& authority, DetectEdgeEdgeOut& out) {
   std::erase_if(out.contacts, [&](const EdgeEdgeContact& c) {
     if (c.first.kind != FaceKind::edge || !is_loose(in, c.first_edge) || !is_loose(in, c.second_edge)) return false;
@@ -203,8 +204,8 @@ void strands_tested(const DetectIn& in, const Authority& authority, DetectEdgeEd
   });
 }
 
-/// Drops a contact of a vertex if the distance from it to a neighbour only just decreases, as a rejection in single
-/// precision with the wrong sign of its tolerance does.
+/// Drops a contact of a vertex v even if the distance increases from v to each of its neighbours, but only slightly. A
+/// block test in single precision whose tolerance has the wrong sign does this.
 void ends_passed_over(const DetectIn& in, const Authority&, DetectEdgeEdgeOut& out) {
   const auto at = [&](Index v) { return Vec3{in.positions[v].x, in.positions[v].y, in.positions[v].z}; };
   const auto is_passed = [&](const Face& own, const Edge& other) {
@@ -229,7 +230,7 @@ void fixed_capacity(const DetectIn&, const Authority&, DetectVertexFacetOut& out
   std::erase_if(out.contacts, [&](const VertexFacetContact& c) { return ++by_owner[c.owner] > 4; });
 }
 
-/// Loses an update: the minimum of one triangle or edge keeps its initial value.
+/// Imitates a lost update: the first minimum below r_q is reset to its initial value r_q.
 void lost_update(std::vector<float>& minima, float query_radius) {
   const auto it = std::find_if(minima.begin(), minima.end(), [&](float d) { return d < query_radius; });
   if (it != minima.end()) *it = query_radius;
@@ -245,7 +246,7 @@ void highest_owner(const DetectIn& in, const Authority&, DetectVertexFacetOut& o
   }
 }
 
-/// Returns a fault that answers the set of the previous call.
+/// Returns a change by which a call answers with the contacts of the call before.
 template <class Out>
 auto stale() {
   return [last = std::make_shared<Out>()](const DetectIn&, const Authority&, Out& out) {

@@ -1,4 +1,4 @@
-// Plants faults of the step: its parts are right, but their order or their inputs are wrong.
+// Plants faults of the step. The parts of the step are right, but their order or their inputs are wrong.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +17,7 @@ using reference::operator+, reference::operator-, reference::operator*;
 
 namespace {
 
-/// Returns a fault that makes the right step of a changed scene.
+/// Returns a fault that computes the right step of a scene changed by `change(scene)`.
 Fault asked_wrongly(const std::string& name, const std::function<void(Scene&)>& change) {
   return {"step: " + name, Stage::step, [change](Contestant& contestant, const Authority&) {
             contestant.step = [right = contestant.step, change](const StepIn& in) {
@@ -28,7 +28,7 @@ Fault asked_wrongly(const std::string& name, const std::function<void(Scene&)>& 
           }};
 }
 
-/// Returns a fault that spoils the right step.
+/// Returns a fault that changes the right step by `spoil(in, out)`.
 Fault spoiled(const std::string& name, const std::function<void(const StepIn&, StepOut&)>& spoil) {
   return {"step: " + name, Stage::step, [spoil](Contestant& contestant, const Authority&) {
             contestant.step = [right = contestant.step, spoil](const StepIn& in) {
@@ -39,13 +39,13 @@ Fault spoiled(const std::string& name, const std::function<void(const StepIn&, S
           }};
 }
 
-/// Marks a fault that too few cases of all generators together could show.
+/// Marks a fault that only cases of one generator reveal, so that the test uses more of them.
 Fault shown_by(const std::string& generator, Fault fault) {
   fault.generator = generator;
   return fault;
 }
 
-/// Uses max(1, ⌊γ_e K⌋) in place of ⌈γ_e K⌉, by a γ_e slightly above (⌊γ_e K⌋ − 1)/K.
+/// Lowers the threshold of cut vertices from ⌈γ_e K⌉ to max(1, ⌊γ_e K⌋) by setting γ_e slightly above (⌊γ_e K⌋ − 1)/K.
 void round_threshold_down(Scene& scene) {
   const std::vector<Index> groups = rigid_groups(scene);
   const auto moving = static_cast<double>(
@@ -56,7 +56,7 @@ void round_threshold_down(Scene& scene) {
 
 bool is_detection(const StepEvent& event) { return event.kind == StepEventKind::detection; }
 
-/// Leaves out detections between iterations, however many vertices are cut.
+/// Removes all detections between iterations.
 void detect_before_iterations_only(const StepIn&, StepOut& out) {
   const auto first_sweep = std::find_if(out.events.begin(), out.events.end(),
                                         [](const StepEvent& event) { return event.kind == StepEventKind::sweep; });
@@ -68,8 +68,8 @@ void keep_first_previous(const StepIn&, StepOut& out) {
     if (is_detection(event)) event.position = out.events.front().position;
 }
 
-/// Calls `change(guess, detection, v)` for each vertex v of a vertex–facet contact, from round `first` of the guess
-/// loop on.
+/// Calls `change(guess, detection, v)` for each vertex v of a vertex–facet contact in each round of the guess loop,
+/// from round `first` on.
 template <class Change>
 void change_rounds(StepOut& out, int first, Change change) {
   for (std::size_t i = 1, round = 0; i < out.events.size() && out.events[i].kind == StepEventKind::guess; i += 2)
@@ -85,7 +85,7 @@ void hold_from_second_round(const StepIn&, StepOut& out) {
   });
 }
 
-/// Lets contacts take nothing: vertices in contact move to y, truncated.
+/// Ignores contacts in the guess loop: vertices in contact move to their targets y, truncated.
 void fall_into_partners(const StepIn&, StepOut& out) {
   change_rounds(out, 0, [&](StepEvent& guess, const StepEvent& detection, std::size_t v) {
     const Vec3f &p = detection.position[v], &y = out.target[v];
@@ -94,7 +94,7 @@ void fall_into_partners(const StepIn&, StepOut& out) {
   });
 }
 
-/// Keeps vertices in contact in place in the first round, too.
+/// Keeps vertices in contact in place in the first round.
 void hold_in_first_round(const StepIn& in, StepOut& out) {
   const std::vector<VertexFacetContact>& contacts = out.events[0].vertex_facet.contacts;
   StepEvent& guess = out.events[1];
@@ -108,11 +108,11 @@ void hold_in_first_round(const StepIn& in, StepOut& out) {
 using Places = std::vector<reference::Triple<double>>;
 using GuessContacts = std::vector<reference::GuessContact>;
 
-/// A wrong rule for the move that contacts leave to vertex v. It may change the contacts and the targets y.
+/// A wrong rule for the move that contacts leave to vertex v: it changes the contacts or the targets y.
 using Wrong = std::function<void(GuessContacts&, const Places& previous, Places& target, std::size_t v)>;
 
-/// Returns a fault that applies another rule to the moves of the first round, with bounds=ball alone, so that only the
-/// rule is wrong. With `sign` −1 it takes the remaining way back, reversed.
+/// Returns a fault that applies the wrong rule to the moves of the first round, only with bounds=ball, so that nothing
+/// else is wrong. With `sign` −1 the remaining move is reversed.
 Fault held_wrongly(const std::string& name, const Wrong& wrong, double sign = 1) {
   return spoiled(name, [wrong, sign](const StepIn& in, StepOut& out) {
     const Settings& settings = in.scene->settings;
@@ -142,7 +142,7 @@ Fault held_wrongly(const std::string& name, const Wrong& wrong, double sign = 1)
   });
 }
 
-/// Returns a rule that gives every contact this friction.
+/// Returns a rule that sets the friction of every contact.
 Wrong friction_of(double friction) {
   return [friction](GuessContacts& contacts, const Places&, Places&, std::size_t) {
     for (reference::GuessContact& contact : contacts) contact.friction = friction;
@@ -155,7 +155,7 @@ void ignore_partners(GuessContacts&, const Places& previous, Places& target, std
   target[v] = own;
 }
 
-/// Reverses the way, without friction and with partners at rest, so that the way back loses what leaves the contacts.
+/// Reverses the move, without friction and with other vertices at rest. So contacts remove the part that leaves them.
 void take_leaving(GuessContacts& contacts, const Places& previous, Places& target, std::size_t v) {
   friction_of(0)(contacts, previous, target, v);
   ignore_partners(contacts, previous, target, v);
@@ -177,7 +177,7 @@ void slide_with_dat(const StepIn& in, StepOut& out) {
   }
 }
 
-/// Lets a vertex that half-spaces stop in an iteration continue beside its way, inside its region.
+/// Moves a vertex that half-spaces stop in an iteration sideways off its path, but keeps it inside its region.
 void stop_beside_the_way(const StepIn& in, StepOut& out) {
   if (in.scene->settings.bounds != Bounds::dat) return;
   const StepEvent* detection = nullptr;
@@ -201,7 +201,7 @@ void stop_beside_the_way(const StepIn& in, StepOut& out) {
   }
 }
 
-/// Divides the gaps by y − x in detections between iterations, too.
+/// Also uses y − x to divide the gaps in detections between iterations.
 void divide_by_prediction(const StepIn& in, StepOut& out) {
   const Settings& settings = in.scene->settings;
   if (settings.bounds != Bounds::dat) return;
@@ -217,7 +217,7 @@ void divide_by_prediction(const StepIn& in, StepOut& out) {
   }
 }
 
-/// Gives the first corner the colour of the last.
+/// Gives the first corner of each tetrahedron the colour of its last corner.
 void share_a_colour(const StepIn&, StepOut& out) {
   for (const RestTetrahedron& t : out.rest.tetrahedra) {
     Index& first = out.colour[static_cast<std::size_t>(t.corner[0])];
@@ -233,7 +233,7 @@ void bound_what_is_inside(const StepIn& in, StepOut& out) {
       if (!in.topology->on_surface(static_cast<Index>(v))) event.bound[v] = ball;
 }
 
-/// Finds contacts with volumes as these are at the start of the step.
+/// Detects contacts with volumes at the volumes' positions at the start of the step.
 void ask_volumes_of_before(const StepIn& in, StepOut& out) {
   const reference::SceneVolumes volumes(*in.scene, *in.topology);
   const std::vector<Vec3f> start = to_single(in.scene->mesh.positions);
@@ -247,20 +247,21 @@ void ask_volumes_of_before(const StepIn& in, StepOut& out) {
   }
 }
 
-/// Finds contacts with volumes at the inertial targets, in place of X_prev.
+/// Detects contacts with volumes at the inertial targets instead of X_prev.
 void ask_volumes_at_targets(const StepIn& in, StepOut& out) {
   const reference::SceneVolumes volumes(*in.scene, *in.topology);
   for (StepEvent& event : out.events)
     if (is_detection(event)) event.volumes = volumes.contacts(out.target);
 }
 
-/// Keeps the contacts with volumes of the first detection in all others.
+/// Repeats the first detection's contacts with volumes in all other detections.
 void keep_contacts_with_volumes(const StepIn&, StepOut& out) {
   for (StepEvent& event : out.events)
     if (is_detection(event)) event.volumes = out.events.front().volumes;
 }
 
-/// Leaves volumes at the start in the first detection, so that they move with the other vertices, in the guess loop.
+/// Keeps volumes at their start in the first detection, so that they move only in the guess loop, with the other
+/// vertices.
 void let_volumes_lag(const StepIn& in, StepOut& out) {
   const std::vector<Vec3f> start = to_single(in.scene->mesh.positions);
   const std::vector<bool> is_volume = volume_flags(*in.scene);
@@ -268,7 +269,7 @@ void let_volumes_lag(const StepIn& in, StepOut& out) {
     if (is_volume[v]) out.events.front().position[v] = start[v];
 }
 
-/// Removes the detection that follows an iteration which left a vertex inside.
+/// Removes the detection that follows an iteration if a vertex was left inside a volume.
 void ask_nothing_inside(const StepIn& in, StepOut& out) {
   const std::vector<VolumeContact>* contacts = nullptr;
   for (std::size_t i = 0; i + 1 < out.events.size(); ++i) {
@@ -281,17 +282,17 @@ void ask_nothing_inside(const StepIn& in, StepOut& out) {
   }
 }
 
-/// Returns a fault of the step that only volumes show.
+/// Returns a fault of the step that only scenes with volumes reveal.
 Fault about_volumes(const std::string& name, const std::function<void(const StepIn&, StepOut&)>& spoil) {
   return shown_by("volume", spoiled(name, spoil));
 }
 
-/// Returns a fault of the step that only free volumes show.
+/// Returns a fault of the step that only scenes with free volumes reveal.
 Fault about_free_volumes(const std::string& name, const std::function<void(const StepIn&, StepOut&)>& spoil) {
   return shown_by("free_volume", spoiled(name, spoil));
 }
 
-/// Keeps contacts of surfaces with volumes only.
+/// Removes the contacts of a volume's vertices with other volumes.
 void ask_from_surfaces_alone(const StepIn& in, StepOut& out) {
   const std::vector<bool> is_volume = volume_flags(*in.scene);
   for (StepEvent& event : out.events)
@@ -299,7 +300,7 @@ void ask_from_surfaces_alone(const StepIn& in, StepOut& out) {
                   [&](const VolumeContact& c) { return is_volume[static_cast<std::size_t>(c.point)]; });
 }
 
-/// Makes volumes surfaces to contact and bounds.
+/// Treats volumes as surfaces: they get surface contacts and bounds.
 void bound_volumes(Scene& scene) {
   for (Body& body : scene.bodies) body.contact = BodyContact::surface;
 }

@@ -1,5 +1,5 @@
-// Plants faults of the sweep: published solvers' mistakes in the order of reading and writing, and parts left out of
-// one vertex.
+// Plants faults of the sweep: mistakes of published solvers in the order of reading and writing, and missing terms of a
+// vertex.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,7 +19,7 @@ using namespace compare;
 
 namespace {
 
-/// Holds the data to which a changed question points.
+/// Holds a copy of the sweep's input that can be changed.
 struct SweepCopy {
   SweepIn in;
   Scene scene;
@@ -50,7 +50,7 @@ struct SweepCopy {
   SweepCopy& operator=(const SweepCopy&) = delete;
 };
 
-/// Returns a fault that answers a changed question correctly.
+/// Returns a fault that answers an input changed by `change(copy)`.
 Fault asked_wrongly(const std::string& name, const std::function<void(SweepCopy&)>& change) {
   return {"sweep: " + name, Stage::sweep, [change](Contestant& contestant, const Authority&) {
             contestant.sweep = [right = contestant.sweep, change](const SweepIn& in) {
@@ -61,7 +61,7 @@ Fault asked_wrongly(const std::string& name, const std::function<void(SweepCopy&
           }};
 }
 
-/// Returns a fault that sweeps correctly over changed stencils.
+/// Returns a fault that sweeps correctly, but over stencils changed by `change(stencils)`.
 Fault gathered_wrongly(const std::string& name, const std::function<void(reference::SweepStencils&)>& change) {
   return {"sweep: " + name, Stage::sweep, [change](Contestant& contestant, const Authority&) {
             contestant.sweep = [change](const SweepIn& in) {
@@ -72,7 +72,8 @@ Fault gathered_wrongly(const std::string& name, const std::function<void(referen
           }};
 }
 
-/// Orders vertices by colour, then number, so that each sees those before it inside its colour, too.
+/// Gives each vertex its own colour, ordered by colour and number. So a vertex also reads the new positions of earlier
+/// vertices of its colour.
 void order_within_colours(SweepCopy& copy) {
   std::vector<std::size_t> order(copy.colour.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -89,7 +90,7 @@ void forget_one_inertia(SweepCopy& copy) {
   copy.target[v] = copy.in.old[v];
 }
 
-/// Returns a fault that cuts positions after the iteration, as printed in Algorithm 3.
+/// Returns a fault that truncates positions after the iteration, as Algorithm 3 is printed.
 Fault truncated_late() {
   return {"sweep: truncation after the iteration", Stage::sweep, [](Contestant& contestant, const Authority&) {
             contestant.sweep = [right = contestant.sweep](const SweepIn& in) {
@@ -111,7 +112,7 @@ Fault truncated_late() {
           }};
 }
 
-/// Removes the block of contacts that are beyond r before the sweep.
+/// Removes contacts that are beyond r before the sweep. Beyond r they have no force, but their block is lost.
 void end_at_radius(SweepCopy& copy) {
   const reference::State x = reference::widened({copy.in.old.begin(), copy.in.old.end()});
   std::erase_if(copy.vertex_facet, [&](const VertexFacetContact& contact) {
@@ -124,7 +125,7 @@ void end_at_radius(SweepCopy& copy) {
   copy.in.vertex_facet = copy.vertex_facet;
 }
 
-/// Leaves forces of vertex–facet contacts out of all vertices but the contact's own.
+/// Applies the forces of vertex–facet contacts only to the contact's vertex, not to the facet's.
 void forget_facets(reference::SweepStencils& stencils) {
   for (auto& contacts : stencils.vertex_facet)
     std::erase_if(contacts, [](const auto& contact) { return contact.second > 0; });
@@ -136,38 +137,38 @@ void forget_last_triangle(reference::SweepStencils& stencils) {
   if (row != rows.rend()) row->pop_back();
 }
 
-/// Returns a fault of contacts with volumes, which the cases of their generator show.
+/// Returns a fault of contacts with volumes, which cases of the generator "volume" reveal.
 Fault about_volumes(const std::string& name, const std::function<void(SweepCopy&)>& change) {
   Fault fault = asked_wrongly(name, change);
   fault.generator = "volume";
   return fault;
 }
 
-/// Returns a fault of free volumes, which the cases of their generator show.
+/// Marks a fault of free volumes, which cases of the generator "free_volume" reveal.
 Fault about_free_volumes(Fault fault) {
   fault.generator = "free_volume";
   return fault;
 }
 
-/// Leaves out the reaction on the triangles' corners.
+/// Leaves out the reaction of contacts with volumes on the triangles' corners.
 void forget_corners(reference::SweepStencils& stencils) {
   for (auto& own : stencils.volumes) std::erase_if(own, [](const auto& element) { return element.second > 0; });
 }
 
-/// Takes each corner for the point.
+/// Computes the force of contacts with volumes on each corner as if it were the point.
 void confuse_roles(reference::SweepStencils& stencils) {
   for (auto& own : stencils.volumes)
     for (auto& [contact, role] : own) role = 0;
 }
 
-/// Puts vertices of volumes where they were at the start of the step.
+/// Sets the start positions of volumes' vertices to their old positions, so that the volumes seem not to have moved.
 void forget_motion_of_volumes(SweepCopy& copy) {
   const std::vector<bool> is_volume = volume_flags(copy.scene);
   for (std::size_t v = 0; v < is_volume.size(); ++v)
     if (is_volume[v]) copy.start[v] = copy.in.old[v];
 }
 
-/// Limits a vertex that touches a volume to half of the rest of r.
+/// Limits the bound of a vertex that touches a volume to 0.45 |r − depth|.
 void truncate_by_volumes(SweepCopy& copy) {
   const auto r = static_cast<float>(copy.scene.settings.contact_radius);
   for (const VolumeContact& contact : copy.volumes) {

@@ -28,10 +28,10 @@ double height(const VolumeForceCase& c) {
   return c.weights[0] * along(1) + c.weights[1] * along(2) + c.weights[2] * along(3);
 }
 
-/// Returns w of the case's vertex `own`.
+/// Returns the weight w of the case's vertex `own`.
 float weight(const VolumeForceCase& c) { return c.own == 0 ? 1 : c.weights[static_cast<std::size_t>(c.own) - 1]; }
 
-/// Moves x₀ along n, deeper by `step`, both now and at the start, so that its motion stays the same.
+/// Moves x₀ deeper along n by `step`, both now and at the start, so that its motion is unchanged.
 void lower(VolumeForceCase& c, double step) {
   for (auto* points : {&c.vertex, &c.start}) {
     Vec3f& x = (*points)[0];
@@ -45,7 +45,7 @@ void sort(VolumeDepthOut& out) {
                     [](const VolumeContact& c) { return std::tuple(c.point, c.inside, c.triangle, c.face); });
 }
 
-/// Returns a fault that changes the right contacts by `change(in, out)`.
+/// Returns a fault that changes the right contacts by `change(in, out)` and sorts them again.
 template <class Change>
 Fault depth_spoiled(const std::string& name, Change change) {
   return spoiled("volume_depth: " + name, &Contestant::volume_depth,
@@ -63,7 +63,7 @@ Fault each_spoiled(const std::string& name, Change change) {
   });
 }
 
-/// Returns a fault that leaves out contacts for which `is_lost(contact, in)` holds.
+/// Returns a fault that lacks the contacts for which `is_lost(contact, in)` holds.
 template <class Lost>
 Fault lost(const std::string& name, Lost is_lost) {
   return depth_spoiled(name, [is_lost](const VolumeDepthIn& in, VolumeDepthOut& out) {
@@ -85,7 +85,7 @@ std::pair<Vec3, double> plane_of(const VolumeDepthIn& in, Index triangle, const 
   return {{n.x / length, n.y / length, n.z / length}, (n.x * w.x + n.y * w.y + n.z * w.z) / length};
 }
 
-/// Moves the contact to the other side of the surface.
+/// Moves the contact from outside the surface to inside, or back.
 void turn_over(VolumeContact& c, float radius) {
   c.depth = 2 * radius - c.depth;
   c.direction = {-c.direction.x, -c.direction.y, -c.direction.z};
@@ -103,8 +103,8 @@ Vec3 minus(const Vec3& a, const Vec3& b, double factor) {
   return {a.x - factor * b.x, a.y - factor * b.y, a.z - factor * b.z};
 }
 
-/// Returns whether the way from the point to its contact meets an edge of a tetrahedron before its end, that is,
-/// whether the two lines come within 10⁻⁶ of the way's length.
+/// Returns whether the line from the point to its contact meets an edge of a tetrahedron before its end: the two lines
+/// come within 10⁻⁶ of the line's length.
 bool meets_edge(const VolumeContact& c, const VolumeDepthIn& in) {
   const Vec3f& x = in.points[static_cast<std::size_t>(c.point)];
   const Triangle& corners = in.topology->triangles[static_cast<std::size_t>(c.triangle)];
@@ -117,7 +117,7 @@ bool meets_edge(const VolumeContact& c, const VolumeDepthIn& in) {
       constexpr std::array<std::array<std::size_t, 2>, 6> edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
       const Vec3f& a = in.positions[static_cast<std::size_t>(t[edges[k][0]])];
       const Vec3 e = from_to(a, in.positions[static_cast<std::size_t>(t[edges[k][1]])]), u = from_to(a, x);
-      // Computes the parameters of the closest points of x + s way and a + r e.
+      // The closest points of both lines are x + s way and a + r e.
       const double ee = inner(e, e), ew = inner(e, way), ww = inner(way, way), det = ee * ww - ew * ew;
       if (!(det > 1e-6 * ee * ww)) continue;
       const double s = (ew * inner(u, e) - ee * inner(u, way)) / det, r = (inner(u, e) + s * ew) / ee;
@@ -282,7 +282,7 @@ std::vector<Fault> force_faults_of_volumes() {
             }),
       asked("friction with the wrong sign of the slip",
             [](VolumeForceCase& c) {
-              // The start is x + (x − xᵗ) in place of xᵗ.
+              // The fault uses x + (x − xᵗ) in place of xᵗ.
               for (std::size_t k = 0; k < 4; ++k) {
                 const Vec3f x = c.vertex[k], s = c.start[k];
                 c.start[k] = {2 * x.x - s.x, 2 * x.y - s.y, 2 * x.z - s.z};

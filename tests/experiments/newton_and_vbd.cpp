@@ -1,12 +1,15 @@
-// Compares Newton, VBD in double and VBD in single precision on the same step: procedural scenes press a free sheet
-// onto another one, free or fixed, with friction and damping.
+// Compares Newton's method, VBD in double and VBD in single precision on the same step. Procedural scenes press a free
+// sheet onto another one, free or fixed, with friction and damping.
 //
-// Let x* be the only solution of the step, f(x*) = 0, and let the Hessian between two states be at least m/(2h²). Each
-// solver then ends within 2 h²/m ‖f(x)‖ of x*, where f(x) is the force that it leaves. The test checks two conditions
-// for this. First, the Hessian without half of the inertia has a Cholesky factorisation. Second, no contact is at an
-// open boundary, where OGC's force jumps: the exact detection is not grey at either end, and both ends have the same
-// contacts (a VBD that alternates across a boundary has others). For all other steps the test compares energies and
-// residuals.
+// If the Hessian between two states is at least m/(2h²), the step has at most one solution x* with f(x*) = 0. Each
+// solver then ends within 2 h²/m ‖f(x)‖ of x*; f(x) is the force that it leaves. The test checks two conditions for
+// this:
+//
+// - The Hessian without half of the inertia has a Cholesky factorisation.
+// - No contact is at an open boundary of a block, where OGC's force jumps. The exact detection is not grey at either
+//   end, and both ends have the same contacts. A VBD that alternates across a boundary has different contacts.
+//
+// For all other steps the test compares energies and residuals.
 #include <cmath>
 #include <limits>
 #include <map>
@@ -25,7 +28,7 @@ using compare::Vec3f;
 
 namespace {
 
-/// Returns a pseudo-random number in [−1, 1) that depends on the scene and the use.
+/// Returns a pseudo-random number in [−1, 1) that depends on the scene and on `use`, the number of the draw.
 double draw(int scene, int use) {
   const double x = std::sin(12.9898 * (scene + 1) + 78.233 * (use + 1)) * 43758.5453;
   return 2 * (x - std::floor(x)) - 1;
@@ -68,7 +71,7 @@ std::vector<Vec3f> end_of_step(const compare::Contestant& contestant, const comp
   return simulation->snapshot().positions;
 }
 
-/// Holds the state in which a solver ended, with its residual and exact contacts.
+/// The state at which a solver ended, with its residual and exact contacts.
 struct End {
   std::vector<Vec3f> x;
   reference::Residual residual;
@@ -125,7 +128,8 @@ class Pair {
 
   double start_energy() const { return start_energy_; }  ///< energy at xᵗ [J]
 
-  /// Returns the bound of the distance of both ends: 2 h²/m Σ ‖f‖, plus the rounding of the stored positions.
+  /// Returns the largest possible distance of two ends: 2 h²/m Σ ‖f‖ over both, plus the rounding of the stored
+  /// positions.
   double farthest_apart(const End& a, const End& b) const {
     double lightest = std::numeric_limits<double>::infinity(), largest = 0;
     const auto free = static_cast<double>(potential_.free_count());
@@ -172,7 +176,7 @@ TEST_CASE(
     Pair pair(scene);
     const End newton = pair.end(end_of_step(reference::newton(), scene));
     CHECK(newton.residual.contacts > 10);
-    // Storing positions in single precision increases the residual from 10⁻⁹ to this much.
+    // Storing positions in single precision increases the residual from 10⁻⁹ up to this limit.
     CHECK(newton.residual.share < 1e-5);
     std::vector<End> settled;
     for (const compare::Contestant* vbd : {&single, &twice}) {
@@ -183,8 +187,8 @@ TEST_CASE(
         ++same[vbd->name];
         CHECK(other.residual.share < 1e-5);
         CHECK(largest_distance(newton, other) <= pair.farthest_apart(newton, other));
-        // The bound is loose. Measured distances in single precision are below 5 nm, a few roundings of coordinates of
-        // 3 cm.
+        // The distance limit above is large. Measured distances in single precision are below 5 nm, a few roundings of
+        // coordinates of 3 cm.
         CHECK(largest_distance(newton, other) <= 16 * compare::unit_roundoff * 0.03);
         settled.push_back(other);
       } else {

@@ -1,4 +1,4 @@
-// Runs the built program as a user does, in a separate folder.
+// Runs the built program through the shell, in a separate folder.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace ogc::tests {
 
-/// Makes a new folder and removes it at the end.
+/// A new folder, which the destructor removes.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -26,15 +26,15 @@ struct ProgramResult {
   std::string out, err;
 };
 
-/// Runs `ogc ARGUMENTS` through the shell. `before`: shell text in front of it, such as "ulimit -f 8; ".
+/// Runs `ogc ARGUMENTS` through the shell. `before` is shell text before the command, for example "ulimit -f 8; ".
 ProgramResult run_ogc(const std::string& arguments, const std::string& before = "");
 
 /// Returns whether `text` contains all of `parts`, in any order.
 bool contains(const std::string& text, std::initializer_list<std::string> parts);
 
-/// Two crossing triangles: edges of the second pass through the first.
+/// An OBJ mesh of two triangles. Edges of the second one pass through the first one.
 extern const char* const crossing_triangles_obj;
-/// Two parallel triangles, 1 mm apart.
+/// An OBJ mesh of two parallel triangles, 1 mm apart.
 extern const char* const parallel_triangles_obj;
 
 }  // namespace ogc::tests

@@ -47,7 +47,7 @@ std::filesystem::path TemporaryFolder::write(const std::string& name, const std:
 ProgramResult run_ogc(const std::string& arguments, const std::string& before) {
   const TemporaryFolder folder;
   const std::string out = (folder / "out").string(), err = (folder / "err").string();
-  // If tests run from a bundle, the environment names the program.
+  // If the tests run from a bundle, an environment variable has the path of the program.
   const char* elsewhere = std::getenv("OGC_PROGRAM");
   const std::string program = elsewhere == nullptr ? OGC_PROGRAM : elsewhere;
   const std::string command = "{ " + before + "'" + program + "' " + arguments + "; } > '" + out + "' 2> '" + err + "'";

@@ -1,4 +1,5 @@
-// Tests shrinking with planted faults: the shrunk cases have two primitives.
+// Tests how the judge shrinks failing cases, with planted faults: at least three quarters of the shrunk cases must have
+// at most two primitives.
 #include <algorithm>
 
 #include "compare/judge/engine/judge.hpp"
@@ -28,7 +29,7 @@ TEST_CASE("failing cases of planted faults in the detections shrink to two primi
                                           {.tries = 1000, .seconds = 2});
     INFO(fault.name << ": " << primitive_count(small));
     const auto again = judge_cases({&small, 1}, wrong, authority);
-    // a stale answer depends on the previous question
+    // A stale answer depends on the previous case, so a case alone does not reveal this fault.
     if (fault.name.find("stale") == std::string::npos) CHECK(again[0].tally.mismatched > 0);
     counts.push_back(primitive_count(small));
   }

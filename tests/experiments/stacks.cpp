@@ -1,4 +1,4 @@
-// Tests stacks of identical sheets with the settings of `ogc suggest`: they come to rest and stay there.
+// Tests stacks of identical sheets with the settings of `ogc suggest`: they must come to rest and stay at rest.
 #include <algorithm>
 #include <cmath>
 
@@ -14,11 +14,11 @@ using namespace ogc::tests;
 namespace {
 
 constexpr double edge = 0.02, gap = 0.004;  ///< [m]
-/// Number of steps until a stack is at rest, and of steps that are checked afterwards.
+/// Number of steps in which a stack comes to rest, and number of steps that are checked afterwards.
 constexpr std::size_t settling = 80, resting = 100;
 
-/// Returns `count` sheets of n × n vertices, the lowest at y = 0. A fixed pattern shifts each sheet in its plane by up
-/// to `shift` [m].
+/// Returns `count` sheets of n × n vertices above each other, the lowest at y = 0. A fixed pattern shifts each sheet
+/// horizontally by up to `shift` [m].
 compare::Mesh stack(int count, compare::Index n, double shift) {
   compare::Scene scene;
   for (int k = 0; k < count; ++k) {
@@ -47,7 +47,7 @@ TEST_CASE("stacks of 3, 10 and 50 identical sheets, aligned or shifted, rest wit
       for (std::size_t i = settling; i < rows.size(); ++i) {
         INFO("step " << rows[i].step);
         CHECK(rows[i].vertices_cut == 0);
-        // Nothing moves far enough for a second detection, and no gap closes.
+        // Nothing moves far enough to cause a second detection, and no gap closes.
         CHECK(rows[i].discrete_detections == 1);
         CHECK(rows[i].smallest_distance > gap / 4);
       }

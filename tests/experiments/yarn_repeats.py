@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Yarn scenes at smoke from jittered starts: every run comes to its end, keeps its bounds, and no thread meets a thread
-in any step (compare/meetings.md). Usage: yarn_repeats.py OGC [REPEATS] [--out FILE]. By default there are 20 repeats of
-17 s on one core; the test makes two. FILE gets a row for each run. Python's standard library suffices.
+"""Runs yarn scenes at scale smoke from jittered starts. Every run must end normally and keep its bounds, and no two
+threads may meet in any step (compare/meetings.md). Usage: yarn_repeats.py OGC [REPEATS] [--out FILE]. By default there
+are 20 repeats of 17 s on one core; the test makes two. FILE gets a row for each run. Python's standard library
+suffices.
 """
 
 import argparse

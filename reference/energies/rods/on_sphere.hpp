@@ -1,5 +1,5 @@
-// The energy −½ qᵀ M q − b·q on the unit sphere of ℝ⁴ over any number type. Newton's method on the sphere finds a
-// minimiser from a start, without the eigenvectors of M and without the equation of its multiplier.
+// Minimises the energy −½ qᵀ M q − b·q over the unit sphere of ℝ⁴, for any number type. Newton's method on the sphere
+// finds a minimiser from a start. It uses neither the eigenvectors of M nor the equation of the Lagrange multiplier.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace ogc::reference::on_sphere {
 
-/// Binary128 with 113 bits; its exponents never overflow here.
+/// A 128-bit number with a mantissa of 113 bits; its exponents never overflow here.
 __extension__ using Many = __float128;
 
 inline double root(double x) { return std::sqrt(x); }
@@ -120,7 +120,7 @@ struct OnSphere {
   }
 };
 
-/// Returns the solution of (A + shift I) x = y by Cholesky's method; empty if that matrix is not positive definite.
+/// Returns the solution x of (A + shift I) x = y by Cholesky's method; empty if A + shift I is not positive definite.
 template <class T>
 std::optional<Triple<T>> solve(const Square<T>& a, const T& shift, const Triple<T>& y) {
   std::array<Triple<T>, 3> lower;
@@ -143,8 +143,8 @@ std::optional<Triple<T>> solve(const Square<T>& a, const T& shift, const Triple<
   return x;
 }
 
-/// Minimises from q on, until the slope is below `enough` · `unit` or the energy stops falling. If the second
-/// derivative is not positive definite, a shift makes it so.
+/// Returns the minimiser that Newton's method finds from q. It stops if the slope is below `enough` · `unit` or the
+/// energy stops falling. If the second derivative is not positive definite, a multiple of the identity is added.
 template <class T>
 Four<T> minimised(const Problem<T>& problem, Four<T> q, const T& unit, double enough) {
   q = scaled(T(T(1.0) / size_of(q)), q);
@@ -155,7 +155,7 @@ Four<T> minimised(const Problem<T>& problem, Four<T> q, const T& unit, double en
     T shift(0.0);
     auto turn = solve(at.bend, shift, at.slope);
     while (!turn) {
-      // The smallest possible start, because curvatures have very different sizes.
+      // The shift begins very small, because curvatures have very different sizes.
       shift = shift > 0.0 ? T(T(16.0) * shift) : T(T(0x1p-120) * unit);
       turn = solve(at.bend, shift, at.slope);
     }
@@ -165,7 +165,7 @@ Four<T> minimised(const Problem<T>& problem, Four<T> q, const T& unit, double en
           q, Four<T>{T(0.0) - share * (*turn)[0], T(0.0) - share * (*turn)[1], T(0.0) - share * (*turn)[2], T(1.0)});
       there = scaled(T(T(1.0) / size_of(there)), there);
       const T found = problem.energy(there);
-      // Near the minimum rounding of the energy hides the effect of a step; full steps are right there.
+      // Near the minimum, rounding hides whether a step lowers the energy; full steps are right there.
       const bool is_small = length_of(*turn) < T(1e-4) && shift == 0.0;
       if (found < energy || (is_small && share == 1.0)) q = there, energy = found, lower = true;
     }

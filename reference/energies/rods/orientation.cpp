@@ -1,7 +1,7 @@
-// Computes the truth about an orientation from the energy alone: Newton's method on the unit sphere finds the
-// minimisers, without the eigenvectors of M and without the equation of its multiplier. A function of this kind has at
-// most one local minimiser that is not global (Martínez 1994), so a handful of starts, in double, finds the basin. The
-// last steps use 113 bits, which resolve b even if M is 10²⁰ times as large.
+// Computes the minimising orientation of a segment from the energy alone, by Newton's method on the unit sphere. It
+// uses neither the eigenvectors of M nor the equation of the Lagrange multiplier. A function of this kind has at most
+// one local minimiser that is not global (Martínez 1994), so a few starts in double find the global one. The last steps
+// use 113 bits, which resolve b even if M is 10²⁰ times as large.
 #include "reference/energies/rods/orientation.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ Triple<T> difference(const compare::Vec3f& a, const compare::Vec3f& b) {
   return {T(a.x) - T(b.x), T(a.y) - T(b.y), T(a.z) - T(b.z)};
 }
 
-/// Returns the least of the minimisers from many starts.
+/// Returns the minimiser of least energy among those found from several starts.
 Four<Many> least(const Problem<Many>& problem, const Four<Many>& old, const Many& unit) {
   const Problem<double> rough = problem.as<double>();
   std::vector<Four<double>> starts;
@@ -47,8 +47,8 @@ Four<Many> least(const Problem<Many>& problem, const Four<Many>& old, const Many
     }
   std::optional<Four<Many>> best;
   Many lowest = 0;
-  // If nearly a whole circle of quaternions is equally good, ends lie all around it; the lowest ends lead to the
-  // minimiser.
+  // If nearly a whole circle of quaternions has the same energy, the ends lie all around it. The four lowest ends are
+  // enough to find the minimiser.
   std::ranges::sort(ends, {}, [&](const Four<double>& q) { return rough.energy(q); });
   ends.resize(std::min<std::size_t>(ends.size(), 4));
   for (const Four<double>& end : ends) {
@@ -59,17 +59,17 @@ Four<Many> least(const Problem<Many>& problem, const Four<Many>& old, const Many
   return *best;
 }
 
-/// The orientation towards which a neighbour pulls, by its rest shape or by damping.
+/// An orientation towards which a neighbour pulls the segment, by the rest shape or by damping.
 struct Asked {
   Four<Many> orientation;  ///< t
   Many weight;             ///< w, or k w [N m]
-  Many agreement;          ///< t·q of the old q
+  Many agreement;          ///< t·q with the old q
 };
 
-/// A case in exact numbers: 113 bits hold products of at most five single-precision numbers except for their last bits.
+/// A case in 113-bit numbers, which hold products of up to five single-precision numbers up to their last bits.
 struct Question {
   Four<Many> old;
-  Problem<Many> problem;  ///< without b
+  Problem<Many> problem;  ///< vector b is not yet set
   std::vector<Asked> asked;
   double pull_size = 0, direction_size = 1;  ///< Σ w (1 + k) [N m], 1 + k ‖Dᵗ‖/l
 
@@ -102,7 +102,7 @@ struct Question {
   }
 };
 
-/// Returns ‖H⁻¹ (columns)‖, Euclidean; infinite if H is not positive definite.
+/// Returns the Euclidean norm of the matrix H⁻¹ (columns), H = `bend`; infinite if H is not positive definite.
 double reaction(const Square<Many>& bend, const std::vector<Triple<Many>>& columns) {
   Many squared(0.0);
   for (const Triple<Many>& column : columns) {
@@ -118,7 +118,8 @@ Triple<Many> along(const std::array<Four<Many>, 3>& basis, const Four<Many>& v) 
   return {inner(basis[0], v), inner(basis[1], v), inner(basis[2], v)};
 }
 
-/// Returns Σ ‖∂q/∂y‖ ‖y‖ at the minimiser q. `pull_size`: size of b, or of the vector that replaces it.
+/// Returns Σ ‖∂q/∂y‖ ‖y‖ over the given numbers y, at the minimiser q. `pull_size` is the size of b, or of the vector
+/// that replaces b.
 double condition(const Question& question, const Problem<Many>& problem, const Four<Many>& q, double pull_size) {
   const auto basis_at = tangents(q);
   const Square<Many> bend = OnSphere<Many>(problem, q).bend;
@@ -137,7 +138,7 @@ double condition(const Question& question, const Problem<Many>& problem, const F
   return std::max(1.0, std::isnan(all) ? std::numeric_limits<double>::infinity() : all);
 }
 
-/// Returns whether the tolerance exceeds a quarter of a radian. The first order is meaningless then, and any
+/// Returns whether the tolerance exceeds a quarter of a radian. First-order errors are meaningless then, so any
 /// orientation is accepted.
 bool is_open(double scale) { return !(scale * compare::orientation_tolerance * compare::unit_roundoff <= 0.25); }
 
@@ -156,7 +157,7 @@ compare::OrientationAnswer answer(const Question& question, const Four<Many>& ve
   Four<Many> q = question.old;
   result.scale = 1;
   if (pull > 0.0 || sigma > 0.0) {
-    // Without neighbours many q are equally good; a faint pull towards the old q selects the nearest one.
+    // Without neighbours many q have the least energy. A faint pull towards the old q selects the nearest of them.
     double pull_size = question.pull_size;
     if (!(pull > 0.0)) {
       problem.vector = scaled(Many(Many(0x1p-60) * sigma), question.old);

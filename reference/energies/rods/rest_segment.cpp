@@ -1,5 +1,5 @@
-// Computes directions from exact differences, and everything else in extended precision, 2⁻⁶⁴. A rod of 10⁵ segments
-// loses at most 17 of these bits, so single precision is not affected.
+// Computes directions from exact differences, and everything else in extended precision (2⁻⁶⁴). A rod of 10⁵ segments
+// loses at most 17 of these bits, so the results are right in single precision.
 #include <cmath>
 #include <limits>
 
@@ -24,7 +24,7 @@ Frame normalised(const Frame& q) {
   return unit;
 }
 
-/// A rotation between two directions, and the factor by which it magnifies their errors.
+/// The smallest rotation from one direction to another. `factor` is how much it magnifies the directions' errors.
 struct Turn {
   Frame rotation;
   double factor;  ///< 1/cos(θ/2)
@@ -103,7 +103,8 @@ class Rods {
     }
   }
 
-  /// Passes the frame of segment `e` on through its end `end`, from segment to segment, until a segment has a frame.
+  /// Computes frames of the segments that follow segment `e` beyond its end `end`, one after the other, until a segment
+  /// already has a frame.
   void follow(std::size_t e, std::size_t end) {
     while (segment(e).neighbour[end] >= 0) {
       const auto next = static_cast<std::size_t>(segment(e).neighbour[end]);

@@ -11,7 +11,7 @@ FourOf<Input> given(Inputs& inputs, const compare::Quaternion& q) {
   return {inputs.number(q[0]), inputs.number(q[1]), inputs.number(q[2]), inputs.number(q[3])};
 }
 
-/// A segment; its end `own` is the variable.
+/// A segment in Input numbers. The position of its end `own` is the variable.
 struct Segment {
   Inputs inputs;
   FourOf<Input> q, start;
@@ -39,8 +39,8 @@ struct Segment {
       strain[axis] = (Input(1.0) / length) * apart[axis] - ByOwnTwice<Input>(director[axis]);
     return stretch_energy(strain, stretch, length);
   }
-  /// Returns the energy of the change of R(q)ᵀ D/l. The contract defines it by the vector D/l − R(q) R(qᵗ)ᵀ Dᵗ/l, which
-  /// has the same norm for unit quaternions only.
+  /// Returns the damping energy, from the change of the strain R(q)ᵀ D/l. The contract defines the energy by D/l − R(q)
+  /// R(qᵗ)ᵀ Dᵗ/l. Both vectors have the same norm only if the quaternions are unit.
   ByOwnTwice<Input> viscous() const {
     const Triple<Input> held = rotated(q, rotated(conjugate(start), before));
     Triple<ByOwnTwice<Input>> change;

@@ -36,8 +36,8 @@ T inner(const FourOf<T>& a, const FourOf<T>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
 
-/// Returns R(q) v by the formula of compare/stages/rod.hpp. For q of another length than 1, other polynomials would
-/// give another vector.
+/// Returns R(q) v by the polynomials of compare/stages/rod.hpp. Other polynomials give the same vector only for unit
+/// quaternions.
 template <class T>
 Triple<T> rotated(const FourOf<T>& q, const Triple<T>& v) {
   const Triple<T> u{q[0], q[1], q[2]}, once = cross(u, v), twice = once + once;
@@ -50,8 +50,8 @@ Triple<T> own_axis() {
   return {T(0.0), T(0.0), T(1.0)};
 }
 
-/// Returns k_s l/2 ‖Γ − Γ'‖². `change` is Γ − Γ': D/l − R(q) e₃ relative to rest, R(q)ᵀ D/l − R(qᵗ)ᵀ Dᵗ/l relative to
-/// the start of the step.
+/// Returns k_s l/2 ‖Γ − Γ'‖². `change` is Γ − Γ'. It is D/l − R(q) e₃ relative to the rest shape, or R(q)ᵀ D/l − R(qᵗ)ᵀ
+/// Dᵗ/l relative to the start of the step.
 template <class T, class Number>
 T stretch_energy(const Triple<T>& change, const Number& stretch, const Number& length) {
   return (Number(0.5) * stretch * length) * dot(change, change);

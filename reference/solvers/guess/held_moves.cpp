@@ -76,21 +76,23 @@ std::vector<Move> HeldMoves::round(std::span<const GuessContact> contacts, const
 
 namespace {
 
-/// Roundings from the inputs to the move that one contact leaves, 65: the normal 36, as in the stage contact_force;
-/// another vertex's move (2), its product with the weight and the sum of three (3); opening and closing, products of
-/// vectors (3 each), their difference and quotient (2), its product with the normal and the sum (2); relative move (2),
-/// its normal part (4) and the difference (1), the length (4), the limit (2), quotients (2), product and difference
-/// (2).
+/// Roundings from the inputs to the move that one contact leaves. Their sum is 65:
+/// - the normal: 36, as in the stage contact_force
+/// - another vertex's move: 2; its product with the weight and the sum over three vertices: 3
+/// - opening and closing: 3 each (scalar products); their difference and the quotient: 2
+/// - the product with the normal and the sum: 2
+/// - the relative move: 2; its normal part: 4; the difference: 1; the length: 4
+/// - the limit of friction: 2; quotients: 2; product and difference: 2
 constexpr double roundings = 65, unit = roundings * compare::unit_roundoff;
 
-/// A move, and the accepted error of an answer [m].
+/// A move and its accepted error [m].
 struct Doubted {
   Move move{};
   double error = 0;
   bool is_grey = false;
 };
 
-/// A contact with all its ways of meeting, and its vertices' expected moves.
+/// A contact: all accepted places of its contact points (`ways`), and the moves that its vertices are expected to make.
 struct Asked {
   std::vector<Meeting> ways;
   std::array<Doubted, 4> expected{};
@@ -98,7 +100,7 @@ struct Asked {
   double friction = 0;
 };
 
-/// The numbers of one contact, and their errors.
+/// The quantities of one contact that determine the move, and their errors.
 struct Measured {
   Hold hold;
   double taken = 0, sliding = 0, normal = 0;  ///< errors of q, s/w, n
@@ -110,8 +112,8 @@ InputMove as_input(Inputs& inputs, const Move& move, double size) {
   return {inputs.number(move[0], size), inputs.number(move[1], size), inputs.number(move[2], size)};
 }
 
-/// Returns the numbers of a contact for its vertex at `own`, whose weight must not be 0. The caller adds the move's own
-/// error.
+/// Returns the quantities of a contact for its vertex at place `own`, whose weight must not be 0. Their errors do not
+/// include the error of `move`.
 Measured measure(Meeting meeting, const Asked& asked, std::size_t own, const Move& move) {
   Inputs& inputs = meeting.inputs;
   const InputMove apart = meeting.separation(), normal = Input(1.0) / meeting.distance * apart,
@@ -128,7 +130,7 @@ Measured measure(Meeting meeting, const Asked& asked, std::size_t own, const Mov
   const InputMove relative = wanted + Input(1.0) / weight * others, slide = relative - dot(normal, relative) * normal;
   const Input closing = dot(normal, wanted), opening = dot(normal, others) / weight;
   const auto plain_of = [](const InputMove& a) { return Move{a[0].value, a[1].value, a[2].value}; };
-  // Partners that certainly approach make no room, for any error.
+  // Other vertices that certainly approach leave no opening, so the opening has no error.
   const double room = dot(plain_of(normal), plain_of(others)) / share,
                room_error = unit * inputs.condition({&opening, 1}) + others_error / share;
   Measured result;
@@ -150,8 +152,8 @@ Matrix product(const Matrix& a, const Matrix& b) {
   return c;
 }
 
-/// Returns a bound of the largest singular value: the root of the product of the largest row sum and the largest column
-/// sum of moduli.
+/// Returns an upper limit of the largest singular value: the root of the product of the largest row sum and the largest
+/// column sum of moduli.
 double norm(const Matrix& a) {
   double row = 0, column = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -163,7 +165,8 @@ double norm(const Matrix& a) {
 
 double distance(const Matrix& a, const Matrix& b) { return norm(Matrix{a[0] - b[0], a[1] - b[1], a[2] - b[2]}); }
 
-/// The result of a contact: the new move, the factor of the old move's error, and an additional error [m].
+/// What a contact leaves of a move: the new move, the derivative of the new move by the old move, and an additional
+/// error [m].
 struct Passed {
   Move move{};
   Matrix slope = identity;
@@ -171,7 +174,7 @@ struct Passed {
   bool is_grey = false;
 };
 
-/// Returns ∂m'/∂m of a contact that certainly takes, for a vertex that certainly slips.
+/// Returns ∂m'/∂m if the contact certainly removes a part of the move m and the vertex certainly slips.
 Matrix slipping(const Hold& hold, double taken, const Move& slide) {
   const double length = norm(slide), mu = hold.friction, share = mu * taken / length;
   const Move &n = hold.normal, along = (1 / length) * slide;
@@ -185,9 +188,9 @@ Matrix slipping(const Hold& hold, double taken, const Move& slide) {
   return slope;
 }
 
-/// Passes a move with an error through a contact whose numbers are known to first order. Taking q and sticking do not
-/// increase the move's error. Friction limited to μ q changes by μ times the change of q. If it is open whether the
-/// contact takes, or whether the vertex slips, the error grows by the largest factor of all cases.
+/// Applies a contact to a move with an error. To first order, the removal of q and sticking do not increase the move's
+/// error; the friction limit μ q changes by μ times the change of q. If rounding decides whether the contact removes
+/// anything, or whether the vertex slips, the error grows by the largest factor of all cases.
 Passed passed(const Measured& at, const Move& move, double error) {
   const Hold& hold = at.hold;
   const double taken = hold.taken(move), mu = hold.friction, doubt = at.taken + error,
@@ -212,19 +215,20 @@ Passed passed(const Measured& at, const Move& move, double error) {
   return result;
 }
 
-/// Passes a move through a contact in one way of meeting.
+/// Applies a contact to a move, for one accepted place of the contact points.
 Passed passed(const Meeting& meeting, const Asked& asked, std::size_t own, const Move& move, double error) {
   const double apart = meeting.distance.value, weight = meeting.weight[own].value;
   const bool ends = meeting.may_end(), acts = meeting.acts();
   if (!(apart > 0) || weight == 0 || (!acts && !ends)) return {.move = move};
   Measured at = measure(meeting, asked, own, move);
-  // Weight and distance are divisors: if one has the relative error `doubt`, first-order errors grow by the factor 1/(1
-  // − doubt).
+  // Weight and distance are divisors. If one of them has the relative error `doubt`, first-order errors grow by the
+  // factor 1/(1 − doubt).
   const double doubt = std::max(unit * meeting.inputs.condition({&meeting.weight[own], 1}) / std::abs(weight),
                                 roundings / compare::contact_grey * meeting.doubt / apart);
   for (double* number : {&at.taken, &at.sliding, &at.normal}) *number /= 1 - std::min(doubt, 0.5);
   Passed result = passed(at, move, error);
-  // q is at most the length of the move, and friction takes μ q.
+  // The contact changes the move by at most its length times 1 + μ, because q is at most the length and friction at
+  // most μ q.
   if (meeting.needle || doubt > 0.5)
     result = {result.move, {}, error + 2 * (1 + at.hold.friction) * (norm(move) + error), true};
   if (!ends) return result;
@@ -245,7 +249,8 @@ Passed passed(const Asked& asked, std::size_t own, const Move& move, double erro
   return result;
 }
 
-/// Passes a move through all contacts of its vertex. Later contacts transform the errors of earlier ones.
+/// Applies all contacts of a vertex to its move, one after the other. Each contact also transforms the errors that
+/// earlier contacts caused.
 class Carried {
  public:
   Carried(const Move& move, double error) : at_{move, error, false}, sources_{{identity, error}} {}
@@ -269,7 +274,7 @@ class Carried {
   std::vector<Source> sources_;
 };
 
-/// Whether a contact acts, certainly or possibly; its distance has an error.
+/// Whether a prescribed vertex has a contact that acts, certainly or possibly within rounding.
 struct Touch {
   bool is_certain = true, is_possible = false;
 };
@@ -284,7 +289,7 @@ Touch touch_of(const std::vector<Meeting>& ways) {
   return touch;
 }
 
-/// Returns the contact as a question for the stage contact_force. Its energy does not matter: 1 N/m, no mollifier.
+/// Returns the contact as a case of the stage contact_force. The energy is not used: stiffness 1 N/m, no mollifier.
 compare::ContactForceCase question_of(const GuessContact& contact, const std::vector<Vec3f>& positions, double radius) {
   compare::ContactForceCase question;
   question.sides = contact.sides;
@@ -329,7 +334,7 @@ std::vector<compare::HeldMove> HeldMoves::judged_round(std::span<const GuessCont
     const Doubted& move = carried.at();
     taken_[v] = move.move - wanted;
     taken_error_[v] = rows[v].empty() ? 0 : move.error + compare::unit_roundoff * norm(taken_[v]);
-    // A doubt that hardly moves the answer is not grey: `accepted` covers it.
+    // If the error is at most 1/16 of the intended move, the vertex is not grey; the accepted error covers it.
     const bool is_grey = move.is_grey && move.error > norm(wanted) / 16;
     result[v] = {{move.move[0], move.move[1], move.move[2]}, move.error, !rows[v].empty(), is_grey};
     if (touches[v].is_possible) result[v] = {{}, 0, 1, !touches[v].is_certain};

@@ -1,6 +1,6 @@
 // Computes the part of each move that contacts leave in a round of the guess loop (method.md §5.2, What contacts leave
-// of a move). For whole runs it computes in double; for the judge it adds the accepted error of a single-precision
-// answer.
+// of a move). Whole runs compute in double. For the judge, the accepted error of a single-precision answer is computed,
+// too.
 #pragma once
 
 #include <array>
@@ -14,32 +14,33 @@
 
 namespace ogc::reference {
 
-/// A contact, seen from one of its vertices.
+/// A contact as one of its vertices sees it.
 struct Hold {
   double weight = 0;        ///< weight of the vertex, not 0
   Triple<double> normal{};  ///< n
   Triple<double> others{};  ///< o = Σ w_u m_u over the other vertices [m]
   double friction = 0;      ///< μ
-  /// Returns q [m]; the contact takes nothing if it is not positive.
+  /// Returns q, the part of the move that the contact removes along its normal [m]; if it is not positive, the contact
+  /// removes nothing.
   double taken(const Triple<double>& move) const;
-  /// Returns s/w, the slip of the vertex relative to its partner [m].
+  /// Returns s/w, the slip of the vertex relative to the other side [m].
   Triple<double> slide(const Triple<double>& move) const;
 };
-/// Returns the move that the contact leaves [m].
+/// Returns what the contact leaves of the move [m].
 Triple<double> held_by(const Hold& contact, const Triple<double>& move);
 
-/// A contact that may hold vertices.
+/// A contact that may stop vertices in the guess loop.
 struct GuessContact {
   compare::ContactSides sides = compare::ContactSides::point_point;
   std::array<compare::Index, 4> vertex{-1, -1, -1, -1};  ///< in the order of the stage contact_force
   double friction = 0;                                   ///< μ
 };
 
-/// Applies the contacts to the moves of one step's guess loop.
+/// Applies contacts to the moves of one step's guess loop, round by round.
 class HeldMoves {
  public:
-  /// `groups`, by vertex: −1 for free vertices, which contacts hold; above 0 for prescribed vertices, which stay or
-  /// move. r in metres.
+  /// `groups`, by vertex: −1 if free (contacts reduce its move), above 0 if prescribed (a contact may keep it in
+  /// place). The contact radius is in metres.
   HeldMoves(std::vector<compare::Index> groups, double contact_radius)
       : groups_(std::move(groups)),
         radius_(contact_radius),
@@ -47,11 +48,12 @@ class HeldMoves {
         taken_(groups_.size()),
         taken_error_(groups_.size(), 0) {}
 
-  /// Computes a round about `previous` with the contacts found there. Returns the position of each vertex without
-  /// truncation [m]: its target to the bit if no contact takes anything, `previous` if a prescribed vertex stays.
+  /// Computes a round at the positions `previous` with the contacts found there. Returns the position of each vertex
+  /// before truncation [m]. A free vertex whose move no contact reduces gets exactly its target. A prescribed vertex
+  /// that a contact keeps in place gets its position in `previous`.
   std::vector<Triple<double>> round(std::span<const GuessContact> contacts, const std::vector<Triple<double>>& previous,
                                     const std::vector<Triple<double>>& target);
-  /// Computes the same round with accepted errors, for the judge.
+  /// Computes a round with accepted errors, for the judge.
   std::vector<compare::HeldMove> judged_round(std::span<const GuessContact> contacts,
                                               const std::vector<compare::Vec3f>& previous,
                                               const std::vector<compare::Vec3f>& target);
@@ -66,7 +68,7 @@ class HeldMoves {
   double radius_;
   bool is_first_ = true;  ///< whether no round has taken place
   std::vector<bool> stays_;
-  std::vector<Triple<double>> taken_;  ///< t by vertex [m]
+  std::vector<Triple<double>> taken_;  ///< t of each vertex (what contacts removed in the previous round) [m]
   std::vector<double> taken_error_;    ///< accepted error of another implementation's t [m]
 };
 

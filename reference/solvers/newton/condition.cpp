@@ -10,12 +10,12 @@ namespace ogc::reference {
 namespace {
 
 constexpr int most_iterations = 500;
-/// ‖A z − θ z‖ ≤ tolerance θ implies an eigenvalue within tolerance θ of the Ritz value θ. The tolerance is small, so
-/// that the iteration separates the largest eigenvalue from its neighbours.
+/// Relative tolerance of an eigenvalue. ‖A z − θ z‖ ≤ tolerance θ implies an eigenvalue within tolerance θ of the Ritz
+/// value θ. It is small, so that the iteration separates the largest eigenvalue from its neighbours.
 constexpr double tolerance = 0x1p-20;
 
-/// Returns numbers in [−1, 1) without a pattern, the same in every run: a start orthogonal to the largest eigenvector
-/// would never find it.
+/// Returns a start vector with pseudorandom entries in [−1, 1), the same in every run. From a start orthogonal to the
+/// largest eigenvector the iteration would never find it.
 Eigen::VectorXd start(Eigen::Index size) {
   std::mt19937 engine;
   Eigen::VectorXd x(size);
@@ -48,7 +48,7 @@ double largest_eigenvalue(Eigen::Index size, Apply apply) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Converts an operation on std::vector to one on Eigen's vectors.
+/// Converts a function of std::vector to one of Eigen's vectors.
 template <class Operation>
 auto through(Operation operation) {
   return [operation](const Eigen::VectorXd& x) -> Eigen::VectorXd {

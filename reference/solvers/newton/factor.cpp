@@ -1,6 +1,7 @@
-// CHOLMOD copies the entries of each small supernode with four OpenMP threads on every machine, and BLAS may add one
-// thread for each core. They spin while they wait: on two busy cores the factorisation of 14,700 rows took 2.4 times as
-// long as with one thread. So OpenMP is limited to one thread here, and so is BLAS unless OPENBLAS_NUM_THREADS is set.
+// CHOLMOD copies the entries of each small supernode with four OpenMP threads on every machine, and BLAS may start one
+// thread for each core. Waiting threads occupy their cores: on two busy cores the factorisation of 14,700 rows took 2.4
+// times as long as with one thread. So this file limits OpenMP to one thread, and BLAS unless OPENBLAS_NUM_THREADS is
+// set.
 #include "reference/solvers/newton/factor.hpp"
 
 #include <cstdlib>
@@ -9,7 +10,7 @@
 
 #include "compare/problem/error.hpp"
 
-// Defined if CHOLMOD was built with OpenMP, and if BLAS is OpenBLAS.
+// Weak symbols: the first is defined only if CHOLMOD was built with OpenMP, the second only if BLAS is OpenBLAS.
 extern "C" {
 [[gnu::weak]] void omp_set_max_active_levels(int levels);
 [[gnu::weak]] void openblas_set_num_threads(int threads);

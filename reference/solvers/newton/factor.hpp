@@ -1,5 +1,5 @@
-// A supernodal Cholesky factorisation that keeps its symbolic part while the pattern stays. Only the source of this
-// header uses CHOLMOD.
+// A supernodal Cholesky factorisation that reuses its symbolic part until the pattern changes. Only the source of this
+// header includes CHOLMOD.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ class Factor {
   Factor(const Factor&) = delete;
   Factor& operator=(const Factor&) = delete;
 
-  /// Orders the pattern for little fill. Throws compare::ResourceError if memory runs out.
+  /// Analyses the pattern and finds an order with little fill. Throws compare::ResourceError if memory runs out.
   void analyze(const BlockMatrix& matrix);
   /// Factorises; returns false if the matrix is not positive definite (or holds a not-a-number). Throws like `analyze`.
   bool factorize(const BlockMatrix& matrix);

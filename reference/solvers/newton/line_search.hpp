@@ -5,7 +5,7 @@
 
 namespace ogc::reference {
 
-/// The result of a line search; `share` is 0 if nothing was accepted.
+/// The result of a line search; `share` is the accepted share of the direction, 0 if no share was accepted.
 struct Accepted {
   State x;
   double share = 0;
@@ -15,8 +15,9 @@ struct Accepted {
 /// Returns the change of the energy that rounding of the terms' values can cause [J].
 double value_noise(const PotentialTerms& terms);
 
-/// Returns the first of `share`, half of it, a quarter … of `delta` that lowers the energy. `before`: the terms at x. A
-/// full step may raise the energy by at most `noise` [J], because rounding hides decreases close to the minimum.
+/// Tries the shares `share`, `share`/2, `share`/4, … of `delta` and returns the first that lowers the energy. `before`
+/// holds the terms at x. A full step may raise the energy by up to `noise` [J], because rounding hides decreases close
+/// to the minimum.
 Accepted backtracked(const Potential& potential, const State& x, const State& delta, double share,
                      const PotentialTerms& before, double noise);
 

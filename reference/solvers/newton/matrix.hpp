@@ -1,6 +1,7 @@
-// The sparse system matrix of Newton's method: the lower triangle of a symmetric matrix of 3×3 blocks, with one row of
-// blocks for each free vertex, in CHOLMOD's compressed columns. The pattern is kept while it holds all blocks that the
-// stencils need. One thread sums each value in the order of the stencils, so the number of threads changes no bit.
+// The sparse system matrix of Newton's method: a symmetric matrix of 3×3 blocks with one row of blocks for each free
+// vertex. Its lower triangle is stored by columns in CHOLMOD's compressed format. The pattern is kept as long as it
+// contains all blocks that the stencils need. One thread sums each value in the order of the stencils, so the bits do
+// not depend on the number of threads.
 #pragma once
 
 #include <cstdint>
@@ -17,21 +18,23 @@ using StencilVertices = std::array<compare::Index, 4>;
 /// The matrix of the free vertices, lower triangle, by columns.
 class BlockMatrix {
  public:
-  /// Makes a row of blocks for each free vertex.
+  /// Finds the blocks of these stencils; returns whether the pattern changed. The first `steady` stencils must be the
+  /// same in every call with the same `steady`, so that their blocks are found only once.
   explicit BlockMatrix(const std::vector<Mobility>& mobility);
 
-  /// Finds the blocks of these stencils; returns whether the pattern changed. The first `steady` stencils must be the
-  /// same in every call with this value of `steady`.
+  /// Discards the pattern, so that the next stencils get a minimal one. A kept pattern may have more blocks than
+  /// needed, and the pattern determines the order of elimination. If it were kept, the last bits of a step would depend
+  /// on earlier steps, and a resumed run would differ from an uninterrupted one.
   bool set_stencils(std::span<const StencilVertices> stencils, std::size_t steady = 0);
   /// Forgets the pattern, so that the next stencils get a minimal one. A kept pattern may hold more blocks than needed,
   /// and it decides the order of elimination. The last bits of a step would then depend on earlier steps, and a
   /// continued run would differ from an uninterrupted one.
   void forget_pattern() { blocks_.clear(); }
-  /// Sums the stencils' Hessians, and the vertices' terms of the diagonal (m/h²) [N/m].
+  /// Sums the stencils' Hessians and adds `diagonal`, the terms m/h² of the vertices [N/m].
   void assemble(std::span<const double> diagonal, std::span<const StencilDerivatives> stencils);
 
-  /// Adds `value` ≥ 0 to the diagonal of the block row `row`, until the next assemble. A positive definite matrix stays
-  /// so.
+  /// Adds `value` ≥ 0 to the diagonal of the block row `row`; the next call of `assemble` removes it. The matrix stays
+  /// positive definite.
   void add_to_diagonal(std::size_t row, double value);
 
   /// Returns the number of scalar rows, three for each free vertex.
@@ -45,12 +48,12 @@ class BlockMatrix {
   const std::vector<double>& values() const { return values_; }
   /// Returns the vertex of each row of blocks.
   const std::vector<std::size_t>& free_vertices() const { return free_; }
-  /// Returns A x; x and the result are ordered like the rows.
+  /// Returns A x. x and the result have one entry for each scalar row.
   std::vector<double> times(const std::vector<double>& x) const;
 
  private:
-  /// A block of a stencil's Hessian at places `row` and `column` of the stencil, and the matrix block to which it is
-  /// added.
+  /// One block of a stencil's Hessian, at places `row` and `column` of the stencil, and the number of the matrix block
+  /// to which it is added.
   struct Share {
     std::uint64_t block = 0;  ///< column · 2³² + row
     std::uint32_t stencil = 0;

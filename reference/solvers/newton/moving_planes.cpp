@@ -7,11 +7,12 @@
 namespace ogc::reference {
 namespace {
 
-/// Most sweeps over pairs that come too near (see `truncated`).
+/// Limit of the sweeps that move apart pairs whose sides would come too near (see `truncated`).
 constexpr int most_sweeps = 64;
-/// Rounds in which vertices are scaled one by one, before all get the same scale.
+/// Rounds that scale vertices one by one; after them all vertices get the same scale.
 constexpr int most_scalings = 16;
-/// Share of its room that a pair gets back when it is moved apart; it makes the sweeps end.
+/// Sides that come too near are moved apart to the least separation plus this share of (gap − least separation).
+/// Without the addition the sweeps might not end.
 constexpr double given_back = 0x1p-6;
 /// Rounding of a difference of two sums of three products in double: each operation rounds by 2⁻⁵³ of its result.
 constexpr double height_noise = 0x1p-49;
@@ -20,7 +21,8 @@ double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
 double largest(const Triple<double>& a) { return std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])}); }
 Triple<double> wide(const compare::Vec3f& p) { return {p.x, p.y, p.z}; }
 
-/// Returns how far rounding to single precision moves a point with coordinates below `size` [m], as in FeasibleRegions.
+/// Returns how far rounding to single precision moves a point with coordinates up to `size` [m] (as in
+/// FeasibleRegions).
 double rounding_of(double size) { return std::sqrt(3.0) * ((0x1p-24 + 0x1p-50) * size + 0x1p-149); }
 
 }  // namespace
@@ -52,7 +54,8 @@ MovingPlanes::MovingPlanes(const std::vector<NearPair>& pairs, const std::vector
       pair.vertices[k] = static_cast<std::size_t>(near.vertices[k]);
       size = std::max(size, largest(centre_[pair.vertices[k]]) + radius_[pair.vertices[k]]);
     }
-    // n is a unit vector up to 2⁻²²; on each side, both x and its stored value may have this error.
+    // Error of the separation: n is a unit vector up to 2⁻²²; x and its stored value may both have a rounding error, on
+    // each side of the pair.
     const double noise = 2 * (1 + 0x1p-20) * rounding_of(size) + 3 * height_noise * size;
     pair.gap = separation(pair, [&](std::size_t v) { return centre_[v]; });
     pair.least = (1 - 2 * relaxation) * pair.gap + noise;
@@ -76,7 +79,8 @@ void MovingPlanes::enter(State& x) const {
     if (stays(v)) x[v] = centre_[v];
 }
 
-/// Solves ‖a + s b‖ = R for the ball of Eq. 27: with ‖a‖ ≤ R it has one root s ≥ 0.
+/// Returns the largest share of `step` that stays in the vertex's ball (Eq. 27): the root s ≥ 0 of ‖a + s b‖ = R, which
+/// is unique for ‖a‖ ≤ R.
 double MovingPlanes::share_in_ball(std::size_t vertex, const Triple<double>& x, const Triple<double>& step) const {
   const Triple<double> away = x - centre_[vertex];
   if (!(length(away + step) > radius_[vertex])) return 1;
@@ -85,7 +89,7 @@ double MovingPlanes::share_in_ball(std::size_t vertex, const Triple<double>& x, 
   return std::clamp((std::sqrt(ab * ab + bb * room) - ab) / bb * (1 - 0x1p-40), 0.0, 1.0);
 }
 
-/// Returns the pairs whose sides would come too near if both moved straight towards each other by twice their steps.
+/// Returns the pairs whose sides would come too near if they moved straight towards each other by twice their steps.
 std::vector<std::uint32_t> MovingPlanes::endangered(const State& x, const State& step) const {
   std::vector<double> reach(x.size());
   for (std::size_t v = 0; v < x.size(); ++v) reach[v] = length(step[v]);
@@ -129,7 +133,7 @@ bool MovingPlanes::shares(const State& x, const State& step, std::vector<double>
   for (const Pair& pair : pairs_) {
     const double after = separation(pair, [&](std::size_t v) { return x[v] + step[v]; });
     if (after >= pair.least) continue;
-    // The separation is concave along the way, so it is at least the linear interpolation between both ends.
+    // The separation is a concave function of the share, so it is at least the linear interpolation between both ends.
     const double before = separation(pair, [&](std::size_t v) { return x[v]; }),
                  left = std::max(0.0, (before - pair.least) / (before - after)) * (1 - 0x1p-40);
     for (const std::size_t v : pair.vertices) share[v] = std::min(share[v], left);

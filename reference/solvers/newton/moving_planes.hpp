@@ -1,20 +1,20 @@
-// Limits Newton's step of the free vertices between two detections, pair by pair. A fixed ball or half-space stops two
-// near vertices even if they travel together; a plane that travels with them does not. At X_prev a pair (p, q) within
-// r_q has a unit vector n, from closest point to closest point, and the gap
+// Limits Newton's step of the free vertices between two detections, pair by pair (method.md §7.6). A fixed ball or
+// half-space stops two near vertices even if both move in the same direction; a plane that moves with the pair does
+// not. At X_prev a pair (p, q) within r_q has a unit vector n, from closest point to closest point, and the gap
 //
 //   g = min over q of n·X_prev − max over p of n·X_prev.
 //
-// A state is inside if for every pair
+// A state is inside if no vertex has moved by more than γ_p r_q, and if for every pair
 //
 //   min over q of n·x − max over p of n·x ≥ (1 − 2γ_p) g                                                          (*)
 //
-// and no vertex has moved by more than γ_p r_q, so that pairs farther apart than r_q cannot meet. The left side of (*)
-// is the minimum of linear functions of all positions, so the set of inside states is convex. On the straight way
-// between two inside states, or from X_prev to one, a plane with the normal n always separates the hulls of p and q.
-// Two balls of radius γ_p d keep (*), too; (*) is Eq. 21 for relative motion, and restricts only approach.
+// The first condition keeps pairs apart that are farther than r_q at X_prev. The left side of (*) is a minimum of
+// linear functions of all positions, so the set of inside states is convex. On the straight path from X_prev or an
+// inside state to an inside state, a plane with the normal n always separates the hulls of p and q. (*) is weaker than
+// Eq. 21: two balls of radius γ_p d keep (*), too, but (*) restricts only approach.
 //
-// Positions are doubles within a step, but X_prev and stored positions are rounded. So (*) is tested with additional
-// room for rounding. If the gap is too small for that room, the pair's vertices stay at X_prev.
+// Positions are doubles within a step, but X_prev and stored positions are rounded. So the right side of (*) is
+// enlarged by the rounding error. If the gap is too small for that, the pair's vertices stay at X_prev.
 #pragma once
 
 #include <cstdint>
@@ -29,21 +29,21 @@ namespace ogc::reference {
 class MovingPlanes {
  public:
   MovingPlanes() = default;
-  /// Takes all pairs within r_q [m] at X_prev, and the mobility of the vertices; `relaxation` is γ_p.
+  /// Takes all pairs within r_q [m] at X_prev, and the mobility of the vertices. `relaxation` is γ_p.
   MovingPlanes(const std::vector<NearPair>& pairs, const std::vector<compare::Vec3f>& previous,
                const std::vector<Mobility>& mobility, double query_radius, double relaxation);
 
-  /// Moves vertices that must stay to X_prev; x is X_prev up to rounding.
+  /// Moves vertices that must stay at X_prev there. x must be X_prev up to rounding.
   void enter(State& x) const;
-  /// Returns a step of the free vertices near `step` [m] that stays inside; x must be inside. Cuts the step to the
-  /// balls. Then moves the sides of pairs that would come too near apart, in sweeps. Scales the step of the vertices
-  /// for which sweeps are not enough.
+  /// Returns a step of the free vertices near `step` [m] that stays inside; x must be inside. First cuts the step to
+  /// the balls. Then moves the sides of pairs that would come too near apart, in sweeps. Finally scales the steps of
+  /// vertices whose pairs are still too near.
   State truncated(const State& x, State step) const;
-  /// Returns the largest share in [0, 1] of `step` that surely stays inside.
+  /// Returns a share in [0, 1] for which x + share · step is certainly inside, the largest except for rounding.
   double share_inside(const State& x, const State& step) const;
-  /// Returns the same if only `vertex` moves.
+  /// Returns such a share if only `vertex` moves, by `step`.
   double share_inside(const State& x, std::size_t vertex, const Triple<double>& step) const;
-  /// Checks whether stored positions keep every pair apart, exactly.
+  /// Checks exactly whether stored positions keep every pair apart.
   bool kept_by(const std::vector<compare::Vec3f>& stored) const;
 
  private:
@@ -51,8 +51,8 @@ class MovingPlanes {
     std::array<std::size_t, 4> vertices{};
     std::size_t second_from = 1;
     Triple<double> normal;
-    double least = 0;  ///< least allowed gap [m]
-    double gap = 0;    ///< [m]
+    double least = 0;  ///< least allowed separation [m]
+    double gap = 0;    ///< g of the head of this file [m]
   };
   /// Returns min over q of n·x − max over p of n·x; `at` maps a vertex to x.
   template <class At>
@@ -60,7 +60,8 @@ class MovingPlanes {
   double share_in_ball(std::size_t vertex, const Triple<double>& x, const Triple<double>& step) const;
   std::vector<std::uint32_t> endangered(const State& x, const State& step) const;
   bool move_apart(const Pair& pair, const State& x, State& step) const;
-  /// Sets for each vertex the smallest share that its ball and its pairs allow; returns whether all shares are 1.
+  /// Computes for each vertex the largest share of its step that its ball and its pairs allow. Returns whether all
+  /// shares are 1.
   bool shares(const State& x, const State& step, std::vector<double>& share) const;
 
   bool stays(std::size_t vertex) const { return mobility_[vertex] == Mobility::fixed || radius_[vertex] == 0; }
@@ -68,7 +69,7 @@ class MovingPlanes {
 
   State centre_;
   double ball_ = 0;             ///< γ_p r_q [m]
-  std::vector<double> radius_;  ///< of the ball about X_prev, minus rounding; 0 if the vertex stays [m]
+  std::vector<double> radius_;  ///< radius of the ball about X_prev, reduced by rounding; 0 if the vertex stays [m]
   std::vector<Mobility> mobility_;
   std::vector<Pair> pairs_;
   std::vector<std::uint32_t> first_of_, of_vertex_;  ///< pairs of each vertex

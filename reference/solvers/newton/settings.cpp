@@ -1,4 +1,4 @@
-// Limits of settings are exact in single precision, so that rounding cannot take a setting out of its range.
+// Limits of settings are exact in single precision, so that a setting stays in its range when it is rounded.
 #include "reference/solvers/newton/settings.hpp"
 
 #include <array>

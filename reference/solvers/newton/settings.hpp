@@ -1,4 +1,4 @@
-// Settings of Newton's method beside the problem's own; IPC shares newton_friction_solves and newton_projection.
+// Settings that only Newton's method has. IPC shares two of them, newton_friction_solves and newton_projection.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@ namespace ogc::reference {
 
 /// Selects what limits Newton's step between two detections.
 enum class Truncation {
-  vertex,  ///< a region for each vertex, by `bounds`
-  pair     ///< near pairs have planes that travel with them (moving_planes.hpp)
+  vertex,  ///< a region for each vertex, as the setting `bounds` selects
+  pair     ///< a plane for each near pair, which moves with the pair (moving_planes.hpp)
 };
-/// Returns whether planes travel with near pairs.
+/// Returns whether a plane moves with each near pair, in place of a fixed region for each vertex.
 constexpr bool moves_planes(Truncation truncation) {
   switch (truncation) {
     case Truncation::vertex: return false;
@@ -22,12 +22,14 @@ constexpr bool moves_planes(Truncation truncation) {
   return false;
 }
 
-/// Newton's settings. The table of settings has their ranges and defaults.
+/// Settings of Newton's method; the table of settings has their ranges and defaults.
 struct NewtonSettings {
   std::int64_t iterations;  ///< most iterations of a step
-  double tolerance;         ///< residual (Eq. 29) at which a step has converged; 0: all iterations run
-  double step_tolerance;  ///< a step has also converged if Newton's direction moves every vertex slower than this [m/s]
-  std::int64_t friction_solves;  ///< solves of a step; each lags friction to the previous solve
+  double tolerance;         ///< residual (Eq. 29) at which a step has converged; if 0, all iterations run
+  /// a step has also converged if Newton's direction δ moves every vertex by less than this times h [m/s]
+  double step_tolerance;
+  /// number of solves in a step; each takes lagged friction from the result of the solve before
+  std::int64_t friction_solves;
   HessianProjection projection;  ///< projection of each stencil's Hessian
   Truncation truncation;
 };

@@ -12,16 +12,19 @@ namespace {
 
 using compare::Vec3f;
 
-/// A scaled step is preferred if it lowers the energy this many times as much as δ' (head of solver.hpp).
+/// Factor between the energy decreases: the scaled step is taken if it lowers the energy by this many times the
+/// decrease of δ' (head of solver.hpp).
 constexpr double far_more = 2;
-/// Number of judgements after which a converged solve ends although the contacts at its result are not better (head of
-/// solver.hpp).
+/// A judgement evaluates the residual of a converged solve with newly detected contacts. After this many judgements
+/// without success the solve ends above the tolerance (head of solver.hpp).
 constexpr int most_judgements = 4;
-/// Largest ‖δ_v‖/‖δ'_v‖ that is used; beyond it a vertex practically does not move.
+/// Largest ratio ‖δ_v‖/‖δ'_v‖ for the stiffness of springs on cut vertices. Beyond it a vertex practically does not
+/// move.
 constexpr double most_pinned = 1e6;
-/// Each round costs a factorisation; from the third round on they rarely lower the energy more.
+/// Limit of the rounds that stiffen these springs. Each round costs a factorisation; from the third round on they
+/// rarely lower the energy more.
 constexpr int most_pin_rounds = 6;
-/// A line search that accepts a smaller share has stalled, at its balls or at a kink of its contacts.
+/// If the line search accepts a smaller share, it has stalled at its balls or at a kink of its contacts.
 constexpr double least_share = 1e-3;
 
 double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
@@ -55,13 +58,13 @@ StepResult NewtonSolver::step(const std::vector<Vec3f>& start, const std::vector
   pattern_stale_ = true;
   guess(GuessEnd::contact);
   if (!moves_planes(newton_.truncation)) return finish(status_of(solve()));
-  detect_next_ = true;  // the guess loop has only balls
+  detect_next_ = true;  // the contacts of the guess loop come with balls, not planes
   const std::uint32_t status = status_of(solve());
   return finish(end_between_planes(status));
 }
 
-/// Checks that the stored positions keep the planes of the last detection; then detects there again, for the reported
-/// bounds.
+/// Checks that the stored positions keep the planes of the last detection. Then detects contacts there, because a step
+/// also reports bounds.
 std::uint32_t NewtonSolver::end_between_planes(std::uint32_t status) {
   if (status == compare::step_not_finite) return status;
   if (!planes_.kept_by(rounded(x_))) return compare::step_bound_violated;
@@ -117,8 +120,9 @@ NewtonSolver::Outcome NewtonSolver::solve() {
   }
 }
 
-/// Each round runs an iteration, or detects because the residual is small enough. Such detections never follow each
-/// other, except while prescribed vertices approach their targets slowly. The limit ends both.
+/// Runs rounds until the solve ends. A round is an iteration, or a detection because the residual is small enough. Two
+/// such detections follow each other only while prescribed vertices approach their targets slowly. The limit of rounds
+/// ends both.
 NewtonSolver::Outcome NewtonSolver::solve_once() {
   for (std::int64_t round = 0; round <= 2 * newton_.iterations + 1; ++round)
     if (const std::optional<Outcome> outcome = iterate()) return *outcome;
@@ -131,8 +135,9 @@ double NewtonSolver::mean_force() const {
   return potential_.free_count() > 0 ? sum / static_cast<double>(potential_.free_count()) : 0;
 }
 
-/// Compares torques with those after the guess and with their rounding error, which decides for a freely falling
-/// straight rod.
+/// Returns whether the sum of the torques on the rods' segments is small: at most newton_tolerance times the sum in the
+/// first iteration, or at most its own rounding error. The rounding error is needed for a freely falling straight rod,
+/// whose torque is 0.
 bool NewtonSolver::has_small_torque() {
   double sum = 0;
   for (std::size_t i = x_.size(); i < derivatives_.gradient.size(); ++i) sum += length(derivatives_.gradient[i]);
@@ -167,8 +172,8 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::iterate() {
   return advance(prescribed_cut);
 }
 
-/// Returns whether most_judgements solves have converged, but not for the contacts at their result. Rounds that halve
-/// the force do not count.
+/// Counts a judgement of a converged solve with newly detected contacts; returns whether there were most_judgements. A
+/// judgement whose force is at most half of the least force so far does not count.
 bool NewtonSolver::judged_in_vain(double force) {
   if (judgements_ == 0 || force > 0.5 * least_judged_) ++judgements_;
   least_judged_ = std::min(least_judged_, force);
@@ -266,8 +271,9 @@ void NewtonSolver::truncate(Direction& direction) const {
   }
 }
 
-/// Adds springs to the matrix that hold each cut vertex at its position, and factorises the matrix. A vertex with only
-/// inertia then moves to the limit of its ball, and so do sheets that travel together.
+/// Adds springs to the matrix that hold cut vertices at their positions; factorises the matrix and returns whether that
+/// succeeded. With these springs, a vertex with only inertia moves exactly to the limit of its ball, and so do sheets
+/// that move together.
 bool NewtonSolver::pin(const Direction& direction, std::vector<double>& pins) {
   const std::vector<std::size_t>& free = matrix_.free_vertices();
   const std::vector<double> inertias = potential_.inertias();
@@ -283,8 +289,8 @@ bool NewtonSolver::pin(const Direction& direction, std::vector<double>& pins) {
   return timed(factorization, [&] { return factor_.factorize(matrix_); });
 }
 
-/// Searches along δ' of the system with pins. If vertices are cut again, stiffens their pins, as long as that lowers
-/// the energy more.
+/// Searches along the truncated direction of the matrix with springs on cut vertices. As long as vertices are cut again
+/// and the energy falls more, stiffens the springs and repeats.
 Accepted NewtonSolver::pinned(Direction direction, const PotentialTerms& before, double noise) {
   Accepted best;
   std::vector<double> pins(derivatives_.gradient.size(), 0);
@@ -340,8 +346,8 @@ double NewtonSolver::room_for(const State& delta) const {
   return room;
 }
 
-/// Searches along δ'. If δ' was cut, also searches along δ scaled to fit all balls, and takes it if the energy falls
-/// far more.
+/// Searches along δ'. If δ was cut, also searches along δ scaled to fit all balls. Takes the scaled direction if its
+/// decrease of the energy is `far_more` times as large.
 Accepted NewtonSolver::searched(const Direction& direction, const PotentialTerms& before, double noise) const {
   Accepted best = backtracked(potential_, unknowns(), direction.truncated, 1, before, noise);
   if (direction.cut > 0) {

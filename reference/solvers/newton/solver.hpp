@@ -1,57 +1,58 @@
-// Newton-OGC: Algorithm 3 with Newton's method for its solve. A step is
+// Newton-OGC: Algorithm 3 with Newton's method for its solve (method.md §7.6). A step is
 //
-//   detect at xᵗ ── guess loop (Eq. 28, method.md §5) ── friction lagged ── detect ──┐
-//        ┌───────────────────────────────────────────────────────────────────────────┘
-//        ▼
-//     prescribed vertices to their targets, truncated ── gradient, Hessian ── residual ≤ tolerance? ──┐
-//        ▲                                                                                            ▼
-//        │                                                 backtrack (method.md §7.6) ── truncate δ ── solve
-//        └── detect again when vertices were cut, or to judge the residual ──┘
+//   detect at xᵗ ── guess loop (Eq. 28, method.md §5.2) ── lag friction ── detect ── (A)
+//
+//   (A) move prescribed vertices to their targets, truncated
+//       gradient and Hessian; if the residual is at most the tolerance: judge it with newly detected contacts, or end
+//       solve for δ ── truncate δ to δ' ── backtrack along δ'
+//       detect if a vertex was cut ── repeat from (A)
 //
 // Choices that the paper leaves open:
 //
-// The guess loop ends at the first contact, and a step that begins with contacts begins at xᵗ. The loop moves vertices
-// one by one: vertices in contact would stay while others cross several balls, and the mesh would be crumpled, with
-// distances so small that no ball lets it unfold. Newton's steps cross as many balls, but move all vertices together.
-// Friction of the first solve is lagged to xᵗ, where contact forces are those of a converged step. Contacts are
-// detected again after a guess: the reference residual f* of Eq. 29 needs them, and the solve begins with full balls. A
-// solve to a tolerance detects again as soon as one vertex was cut, as method.md §6 requires of all runs to
-// convergence: a vertex at the limit of its ball would keep the residual up forever. Without a tolerance only γ_e
-// decides. The solve never waits for prescribed vertices: if bounds keep one from its target, the vertex lags, as in
-// the fast path.
+// - The guess loop ends at the first contact, and a step that begins with contacts begins at xᵗ. The loop moves
+//   vertices one by one: vertices in contact would stay while others cross several balls. The mesh would be crumpled,
+//   with distances so small that no ball lets it unfold. Newton's steps cross as many balls, but move all vertices
+//   together.
+// - Friction of the first solve is lagged to xᵗ, where contact forces are those of a converged step.
+// - Contacts are detected again after the guess: the force f* of Eq. 29 needs them, and the solve begins with full
+//   balls.
+// - A solve to a tolerance detects again as soon as one vertex was cut (method.md §6). A vertex at the limit of its
+//   ball would otherwise keep the residual up forever. Without a tolerance only γ_e decides.
+// - The solve does not wait for prescribed vertices. If bounds keep such a vertex from its target, it lags.
 //
-// If balls cut δ there are three directions. Each is backtracked (method.md §7.6), and the one that lowers the energy
-// most is taken:
-//   δ'      δ, cut vertex by vertex. In a crumpled cloth δ' bends whatever lies between a cut vertex and an uncut one.
-//           A share of 2⁻⁸ that lowers the energy in its seventh digit would then pass for progress;
+// If balls cut δ, up to three directions are backtracked. The one that lowers the energy most is taken:
+//
+//   δ'      δ, cut vertex by vertex. In a crumpled cloth δ' bends the mesh between cut and uncut vertices. A share of
+//           2⁻⁸ that lowers the energy in its seventh digit would then count as progress.
 //   scaled  δ, scaled to fit all balls. It must lower the energy twice as much as δ', because δ' moves most vertices
-//           far and makes room for all. Without this factor sheets that fly together or are nearly closed lose the full
-//           steps that tests/reference/solvers/newton/solver.cpp requires;
-//   pinned  δ of a system with springs on cut vertices. If two near vertices travel together, truncation also shrinks
-//           the difference of their steps. The springs hold cut vertices at their positions, with the stiffness
-//           (‖δ_v‖/‖δ'_v‖ − 1)(m_v/h² + earlier stiffness). The system is solved and truncated again, so that free
-//           vertices react to the held ones. A vertex with only inertia then moves exactly to the limit of its ball.
-//           Rounds are repeated while they lower the energy more. If all vertices were cut, `scaled` does the same.
-// A line search that takes less than 10⁻³ of a step triggers a detection, for new balls.
+//           far and so makes new balls larger. Without this factor, sheets that fly together or are nearly closed lose
+//           the full steps that tests/reference/solvers/newton/solver.cpp requires.
+//   pinned  the truncated solution with springs on cut vertices, of stiffness (‖δ_v‖/‖δ'_v‖ − 1)(m_v/h² + earlier
+//           stiffness). If two near vertices move together, truncation also shrinks the difference of their steps. With
+//           the springs, free vertices react to the held ones, and a vertex with only inertia moves exactly to the
+//           limit of its ball. Rounds are repeated while they lower the energy more. If all vertices were cut, `scaled`
+//           does the same.
 //
-// Balls and half-spaces do not move. Vertices that travel together, or along each other, therefore need one detection
-// for each gap width of their way. With `newton_truncation=pair`, planes that travel with near pairs separate them
-// (moving_planes.hpp), and δ' is δ with these pairs moved apart. The guess loop keeps its balls; a step ends with a
-// detection at the stored positions.
+// If the line search accepts less than 10⁻³ of a step, contacts are detected for new balls.
 //
-// Stencils are projected if the matrix is not positive definite without projection, and after a step that was cut,
-// because far from the solution the matrix is rarely definite. With projection in every iteration, a step of a crumpled
-// cloth ends in a long linear tail: the projection keeps curvature that other stencils cancel.
+// Balls and half-spaces do not move. So vertices that move together, or along each other, need one detection for each
+// gap width of their path. With `newton_truncation=pair`, planes that move with near pairs separate them
+// (moving_planes.hpp), and δ' is δ with the sides of these pairs moved apart. The guess loop still uses balls; a step
+// ends with a detection at the stored positions.
+//
+// Stencils are projected if the matrix is not positive definite without projection, and after an iteration that was
+// cut, because far from the solution the matrix is rarely definite. If every iteration projected, a step of a crumpled
+// cloth would end in many iterations of linear convergence: the projection keeps curvature that other stencils cancel.
 //
 // NewtonSteps::whole leaves all of this out: each iteration detects, solves and takes the whole step, even if the
 // energy rises or surfaces intersect. A step ends at the tolerance or with its last iteration. This is the usual solve
 // of a penalty method, a baseline.
 //
 // OGC's force jumps if a contact point leaves its block for a block that is not in contact (Fig. 22). So there may be
-// no state whose force vanishes with the contacts detected at it. Solves then alternate between two sets of contacts,
-// each converged with its own set, or stop at a kink of one set (nearly parallel crossing strands jump between pairs of
-// closest points). After a few such rounds that do not halve the residual the step ends above the tolerance, and
-// steps.csv shows the residual with the contacts at its end.
+// no state whose force vanishes with the contacts detected there. Solves then alternate between two sets of contacts,
+// or stop at a kink of one set (nearly parallel crossing strands jump between pairs of closest points). After a few
+// such rounds that do not halve the residual, the step ends above the tolerance. steps.csv has the residual with the
+// contacts at the step's end.
 #pragma once
 
 #include <functional>
@@ -74,7 +75,7 @@ enum class NewtonSteps {
 /// Newton-OGC (method.md §7.6).
 class NewtonSolver : public StepSolver, private ContactStep {
  public:
-  /// The scene must be rounded and valid; scene and topology must outlive this.
+  /// Takes a rounded and valid scene; scene and topology must outlive the solver.
   NewtonSolver(const compare::Scene& scene, const compare::Topology& topology,
                const compare::SimulationOptions& options, NewtonSteps steps = NewtonSteps::searched);
 
@@ -84,8 +85,8 @@ class NewtonSolver : public StepSolver, private ContactStep {
   std::vector<compare::Quaternion> orientations() const override;
   std::vector<std::string> stage_names() const override;
 
-  /// Called for each accepted step of the line search with the energy before it, the change of the energy, and the
-  /// rounding noise [J]. Contacts and friction are the same before and after.
+  /// Called for each accepted step of the line search, with the energy before the step, the change of the energy, and
+  /// the rounding noise of energies [J]. Contacts and friction are constant during the step.
   std::function<void(double before, double change, double noise)> on_accepted;
 
  private:
@@ -99,9 +100,9 @@ class NewtonSolver : public StepSolver, private ContactStep {
   };
   enum class Outcome { converged, iteration_limit, indefinite, no_decrease, not_finite };
   struct Direction {
-    State delta;         ///< of all vertices [m], then of all segments [1]; 0 if not free
+    State delta;         ///< δ of all vertices [m], then ω of all segments [1]; 0 if not free
     State truncated;     ///< δ'
-    double largest = 0;  ///< ‖δ‖_∞ [m]
+    double largest = 0;  ///< largest ‖δ_v‖ of vertices and l ‖ω‖ of segments [m]
     std::size_t cut = 0;
   };
 
@@ -120,7 +121,7 @@ class NewtonSolver : public StepSolver, private ContactStep {
   /// Factorises the matrix; uses projected stencils if the matrix is not positive definite without them.
   bool factorized_definite();
   bool factorized();
-  /// Fills the condition numbers of the present factorised matrix, and of its parts without friction and without
+  /// Fills the condition numbers of the factorised matrix: the whole, without friction, and without friction and
   /// contact.
   void measure_condition(compare::IterationMetrics& row);
   void detect_with_planes();
@@ -129,11 +130,11 @@ class NewtonSolver : public StepSolver, private ContactStep {
   std::uint32_t end_between_planes(std::uint32_t status);
   Direction direction_of();
   void truncate(Direction& direction) const;
-  /// Returns the largest share of δ, scaled as a whole, that stays inside.
+  /// Returns the largest share of δ that stays inside the regions or planes, the same for all vertices.
   double room_for(const State& delta) const;
   bool pin(const Direction& direction, std::vector<double>& pins);
   Accepted pinned(Direction direction, const PotentialTerms& before, double noise);
-  /// Moves along the best direction; returns the accepted share of the direction, or 0.
+  /// Moves x along the best direction; returns the accepted share of the direction, or 0.
   double accepted_share(const Direction& direction);
   /// Takes the whole direction; returns 1.
   double whole_step(const Direction& direction);
@@ -146,9 +147,9 @@ class NewtonSolver : public StepSolver, private ContactStep {
   BlockMatrix matrix_;
   Factor factor_;
   PotentialDerivatives derivatives_;  ///< of the last iteration
-  /// whether a detection judges a solve that converged with the contacts before: the next one, the present one
+  /// whether the next, or the present, detection judges a solve that converged with earlier contacts
   bool judge_next_ = false, judging_ = false;
-  HessianProjection projection_ = HessianProjection::none;  ///< of derivatives_
+  HessianProjection projection_ = HessianProjection::none;  ///< projection with which derivatives_ were computed
   int judgements_ = 0;                                      ///< number of judgements that did not halve the force
   double least_judged_ = 0;                                 ///< least force of all judgements [N]
   double reference_torque_ = -1;  ///< Σ ‖∂E/∂ω‖ after the guess [N m]; negative if not yet known

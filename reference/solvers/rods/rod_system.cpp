@@ -28,7 +28,8 @@ Frame unit(const Frame& q) { return on_sphere::scaled(1 / std::sqrt(inner(q, q))
 
 double norm(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
 
-/// Returns q̄_e q_f for the neighbour ahead, q̄_f q_e for the one behind; the rest value of this product is p°.
+/// Returns p = q̄_e q_f for the neighbour f ahead of segment e, p = q̄_f q_e for the neighbour behind. The rest value
+/// of p is p°.
 Frame relative(const Frame& own, const Frame& other, std::size_t end) {
   return end == 1 ? product(conjugate(own), other) : product(conjugate(other), own);
 }
@@ -38,7 +39,7 @@ Frame relative(const Frame& own, const Frame& other, std::size_t end) {
 Frame turned_along(const Triple<double>& from, const Triple<double>& to, const Frame& q) {
   const double a = norm(from), b = norm(to);
   if (!(a > 0 && b > 0)) return q;
-  // The product of `first` and the half-way vector between both directions is the rotation.
+  // The rotation is the quaternion product of `first` and the unit vector half-way between both directions.
   const Triple<double> first = (1 / a) * from, middle = first + (1 / b) * to;
   const double size = norm(middle);
   if (!(size > 0x1p-40)) return product(q, Frame{1, 0, 0, 0});
@@ -179,15 +180,15 @@ on_sphere::Problem<double> RodSystem::problem(std::size_t e, const Positions& x)
 
 namespace {
 
-/// Returns the minimiser of a segment without neighbours. Every q with its director along D is one; returns the nearest
-/// to `old`.
+/// Returns the minimiser of a segment without neighbours that is nearest to `old`. Every q whose director is along D is
+/// a minimiser.
 Frame without_neighbours(const on_sphere::Problem<double>& problem, const Frame& old, double sigma) {
   const Frame upper = on_sphere::sum(on_sphere::scaled(sigma, old), problem.turned(old));
   return inner(upper, upper) > 1e-20 * sigma * sigma ? unit(upper) : old;
 }
 
-/// Returns the minimiser to which descent from `old` converges. If it is not the global one, returns the least of the
-/// minimisers from several starts.
+/// Returns the minimiser that descent from `old` reaches, if it is the global one; otherwise the lowest minimiser from
+/// several starts.
 Frame least(const on_sphere::Problem<double>& problem, const Frame& old, double sigma, double pull) {
   constexpr double enough = 1e-14;
   const double size = sigma + pull;
@@ -202,7 +203,7 @@ Frame least(const on_sphere::Problem<double>& problem, const Frame& old, double 
   return best;
 }
 
-/// Returns q ∝ (μ + M) b with μ = σ + ‖b‖, as printed in Hsu et al. 2025.
+/// Returns the solution as printed in Hsu et al. 2025: q ∝ (μ + M) b with μ = σ + ‖b‖.
 Frame as_published(const on_sphere::Problem<double>& problem, double sigma, double pull) {
   return unit(on_sphere::sum(on_sphere::scaled(sigma + pull, problem.vector), problem.turned(problem.vector)));
 }
@@ -227,8 +228,8 @@ void RodSystem::sweep(const Positions& x) {
 
 namespace {
 
-/// Returns k_s l/2 (‖D/l − R(q) e₃‖² + k ‖D/l − R(q) R(qᵗ)ᵀ Dᵗ/l‖²). The rotation R(q) keeps the length of the strain's
-/// change.
+/// Returns k_s l/2 (‖D/l − R(q) e₃‖² + k ‖D/l − R(q) R(qᵗ)ᵀ Dᵗ/l‖²). The second term is the change of the strain R(q)ᵀ
+/// D/l, rotated by R(q), which keeps its length.
 template <class T>
 T segment_energy(const RodTerm& term, const Triple<T>& apart, const FourOf<T>& q, double damping) {
   const auto about = [&](const Triple<double>& own) {
@@ -247,7 +248,7 @@ FourOf<T> constant(const Frame& q) {
   return {T(q[0]), T(q[1]), T(q[2]), T(q[3])};
 }
 
-/// Returns w/2 ‖p − s p°‖² of unit quaternions, with the sign s = ±1 that makes it smaller.
+/// Returns w/2 ‖p − s p°‖² of unit quaternions; s = ±1 is the sign that makes it smaller.
 template <class T>
 T joint_energy(const FourOf<T>& own, const FourOf<T>& other, std::size_t end, double weight, const Frame& rest) {
   const FourOf<T> p = end == 1 ? product(conjugate(own), other) : product(conjugate(other), own);
@@ -261,7 +262,7 @@ T joint_energy(const FourOf<T>& own, const FourOf<T>& other, std::size_t end, do
   return 0.5 * weight * sum;
 }
 
-/// Returns q exp(ω/2) to second order, of unit length.
+/// Returns the unit quaternion that equals q exp(ω/2) to second order.
 template <class T>
 FourOf<T> turned_by(const Frame& q, const Triple<T>& omega) {
   using std::sqrt;
@@ -272,7 +273,7 @@ FourOf<T> turned_by(const Frame& q, const Triple<T>& omega) {
 
 using Six = Second<6, double>;
 
-/// Returns the variables `first` to `first` + 2 of six, with the value 0.
+/// Returns three variables with the value 0, the inputs `first` to `first` + 2 of six.
 Triple<Six> variables(std::size_t first) {
   Triple<Six> x;
   for (std::size_t axis = 0; axis < 3; ++axis) {

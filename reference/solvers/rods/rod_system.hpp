@@ -1,5 +1,5 @@
-// The rods of a scene in double, for whole runs: quaternions of all segments, their start in a step, their sweep, their
-// forces on vertices, energies and residual (compare/rods.md).
+// The rods of a scene in double, for whole runs (compare/rods.md): the quaternions of all segments, their start in a
+// step, their sweep, forces on vertices, energies and residual.
 #pragma once
 
 #include <span>
@@ -26,39 +26,39 @@ struct RodTerm {
   compare::Index held = -1;                         ///< the segment's entry of compare::segment_groups
 };
 
-/// Returns colours of the free segments, −1 for others. A segment gets the lowest colour that no lower-numbered
-/// neighbour has.
+/// Returns a colour for each free segment, −1 for others: the lowest colour that no lower-numbered neighbour has.
 std::vector<compare::Index> segment_colours_of(const compare::RestStateOut& rest,
                                                const std::vector<compare::Index>& held);
 
-/// Returns the orientations at the scene's start: the scene's own, or those of the rest shape, turned into each
-/// segment's starting direction.
+/// Returns the orientations at the scene's start: those that the scene gives, otherwise the orientations of the rest
+/// shape, each rotated so that its director is along the segment at the start.
 std::vector<compare::Quaternion> start_orientations(const compare::Scene& scene, const compare::RestStateOut& rest);
 
 /// Returns q after the smallest rotation from one direction to another. Opposite directions give half a turn about the
-/// first axis of q; a zero direction leaves q unchanged.
+/// first axis of q. If a direction is zero, returns q.
 FourOf<double> turned_along(const Triple<double>& from, const Triple<double>& to, const FourOf<double>& q);
 
 /// The rods of one scene, step after step.
 class RodSystem {
  public:
-  /// The scene must be rounded and outlive this.
+  /// Takes a rounded scene, which must outlive this object.
   RodSystem(const compare::Scene& scene, const compare::RestStateOut& rest);
 
   bool is_used() const { return !terms_.empty(); }  ///< whether the scene has rods
-  /// Sets qᵗ of the next step; an empty span selects the orientations of the scene's start. Throws
+  /// Sets qᵗ of the next step; an empty span selects the orientations at the scene's start. Throws
   /// std::invalid_argument if the number of segments differs.
   void set_start(std::span<const compare::Quaternion> orientations);
-  /// Sets q of another solver's state; an empty span keeps q. Throws std::invalid_argument if the number of segments
-  /// differs.
+  /// Sets q, for a state of another solver; an empty span keeps q. Throws std::invalid_argument if the number of
+  /// segments differs.
   void put(std::span<const compare::Quaternion> orientations);
-  /// Returns q, rounded.
+  /// Returns q, rounded to single precision.
   std::vector<compare::Quaternion> orientations() const;
 
   /// Begins a step at xᵗ with q = qᵗ; damping is relative to this state.
   void begin_step(const std::vector<Triple<double>>& start, std::int64_t number);
-  /// Sets q after the guess loop: turns qᵗ like the segment from xᵗ to x, or like its prescribed motion. Fixed segments
-  /// keep qᵗ; free ones keep it with rod_start=kept.
+  /// Sets q after the guess loop by rotating qᵗ. A free segment rotates as its direction does from xᵗ to x, or not at
+  /// all with rod_start=kept. A prescribed segment rotates as its motion says, or else as its direction does. A fixed
+  /// segment keeps qᵗ.
   void turn(const std::vector<Triple<double>>& x);
   /// Moves each free segment to its minimiser, colour by colour.
   void sweep(const std::vector<Triple<double>>& x);
@@ -69,8 +69,9 @@ class RodSystem {
   void add_force(compare::Index e, std::size_t end, const std::array<Triple<double>, 2>& ends,
                  VertexSystemOf<double>& sum) const;
 
-  // Stencils of Newton's method: segments, then joints. The three unknowns ω of segment e have the number `vertex_count
-  // + e`, after the vertices. The quaternion is q exp(ω/2) if the positions include ω, otherwise q.
+  // Stencils of Newton's method: first the segments, then the joints. Each segment e has three unknowns ω, as number
+  // `vertex_count + e` after the vertices; its quaternion is q exp(ω/2). If the positions do not include ω, the
+  // quaternion is q.
   std::size_t size() const { return terms_.size() + joints_.size(); }
   std::array<compare::Index, 4> vertices(std::size_t stencil) const;
   /// Returns how many of the stencil's first unknowns are vertices: two for a segment, none for a joint.
@@ -80,7 +81,7 @@ class RodSystem {
   /// Returns the derivatives at ω = 0.
   StencilDerivatives derivatives(std::size_t stencil, const std::vector<Triple<double>>& x,
                                  HessianProjection projection) const;
-  /// Writes the derivatives into the places from `to` on. Calls `finished` with the number of each stencil, on the
+  /// Writes the derivatives of all stencils to to[0], to[1], … Calls `finished` with the number of each stencil, on the
   /// thread that computed it.
   template <class Finished>
   void differentiate(const std::vector<Triple<double>>& x, HessianProjection projection, StencilDerivatives* to,
@@ -93,9 +94,9 @@ class RodSystem {
   double length(std::size_t segment) const { return terms_[segment].length; }  ///< l [m]
   std::size_t segments() const { return terms_.size(); }
   bool is_free(std::size_t segment) const { return terms_[segment].held == -1; }
-  /// Returns the diagonal term of ω, which makes a matrix with a free twist definite; far below k_s l [N m].
+  /// Returns the diagonal term of ω [N m]. It makes a matrix with a free twist definite and is far below k_s l.
   double regularisation(std::size_t segment) const { return 1e-8 * terms_[segment].stretch * terms_[segment].length; }
-  /// Sets q ← q exp(ω/2); x has ω after the positions.
+  /// Sets q ← q exp(ω/2). x has the ω of all segments after the positions.
   void turn_by(const std::vector<Triple<double>>& x);
 
   double elastic_energy(const std::vector<Triple<double>>& x) const;  ///< without damping [J]

@@ -13,7 +13,7 @@ namespace {
 using compare::Face;
 using compare::Index;
 
-/// The contact of a pair of primitives within r, and the pair's distance.
+/// The contact of a vertex and a triangle within r, and the distance between both.
 struct FoundFacet {
   compare::VertexFacetContact contact;
   Index triangle = -1;
@@ -35,7 +35,7 @@ class Collector {
   const std::vector<FoundEdges>& edges() const { return edges_; }
 
  private:
-  // Threads share the work, so the caller sorts the results.
+  // Threads call this in any order, so the caller sorts the results.
   void add(const FacetPair& pair) {
     const float distance = distance_below(pair.gap());
     if (!(distance < in_.contact_radius)) return;
@@ -60,7 +60,7 @@ class Collector {
   std::vector<FoundEdges> edges_;
 };
 
-/// Returns for each vertex and other body the nearest contact.
+/// Returns for each pair of a vertex and another body the nearest contact.
 std::vector<compare::VertexFacetContact> nearest_of_bodies(const compare::DetectIn& in,
                                                            const std::vector<FoundFacet>& facets,
                                                            std::span<const Index> body) {

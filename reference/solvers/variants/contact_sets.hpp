@@ -17,12 +17,13 @@ struct ListedContacts {
 };
 
 /// Returns the contacts nearer than in.contact_radius; does not read in.query_radius. `body`: by vertex. Throws
-/// std::logic_error for the method's own set.
+/// std::logic_error for ContactSet::ogc.
 ///
-/// ContactSet::pairs: for each non-adjacent vertex and triangle, and for each two non-adjacent edges, their closest
-/// faces. A face that is closest in several pairs is listed several times, so that its force is a multiple; blocks are
-/// not tested. ContactSet::distance: for each vertex the closest face of each other body; the lowest-numbered triangle
-/// decides ties. Edges have no contacts.
+/// - pairs: for each non-adjacent vertex and triangle, and for each two non-adjacent edges, their closest faces.
+///   Blocks are not tested. A face that is closest in several pairs is listed several times, so that its force is a
+///   multiple.
+/// - distance: for each vertex the closest face of each other body. If several triangles are equally close, the
+///   lowest-numbered one is used. Edges have no contacts.
 ListedContacts contact_variant(ContactSet set, const compare::DetectIn& in, std::span<const compare::Index> body);
 
 }  // namespace ogc::reference

@@ -1,5 +1,5 @@
-// Choices by which an ablation changes the reference's solvers. They are not part of the method; reference_vbd with the
-// defaults is the method.
+// Settings with which ablations change the reference's solvers. They are not part of the method; with their defaults
+// reference_vbd is the method.
 #pragma once
 
 #include "compare/problem/settings.hpp"
@@ -8,9 +8,10 @@ namespace ogc::reference {
 
 /// Selects the contacts that a detection lists (contact_sets.hpp).
 enum class ContactSet {
-  ogc,      ///< each closest face whose block holds the other side, once (Alg. 1 and 2)
-  pairs,    ///< one for each pair of primitives within r, as in IPC, regardless of blocks
-  distance  ///< the closest point of each other body, for each vertex: the gradient of an unsigned distance field
+  ogc,    ///< each closest face whose block contains the other side, once (Alg. 1 and 2)
+  pairs,  ///< the closest faces of each pair of primitives within r, as in IPC; blocks are not tested
+  /// for each vertex the closest point of each other body, as with the gradient of an unsigned distance field
+  distance
 };
 /// Selects the vertices that are updated together (colouring.hpp).
 enum class Colouring {
@@ -20,12 +21,12 @@ enum class Colouring {
   vertex,   ///< one vertex at a time
   together  ///< all vertices at once (Jacobi)
 };
-/// Selects a contact's term of a vertex's block.
+/// Selects the factor of a contact's stiffness in a vertex's block; w is the vertex's weight in the contact points.
 enum class ContactBlocks {
-  majorised,  ///< w| Σ |w_u| over the contact's vertices that are updated together
+  majorised,  ///< |w| Σ |w_u|; the sum is over the contact's vertices that are updated together
   own         ///< w²
 };
-/// Returns whether a vertex's block includes the other vertices that are updated with it.
+/// Returns whether a contact's term in a vertex's block includes the other vertices that are updated together with it.
 constexpr bool majorises(ContactBlocks blocks) {
   switch (blocks) {
     case ContactBlocks::majorised: return true;
@@ -33,12 +34,12 @@ constexpr bool majorises(ContactBlocks blocks) {
   }
   return true;
 }
-/// Selects when a position is cut to its bound.
+/// Selects when positions are truncated to their bounds.
 enum class CutAfter {
-  update,    ///< at once, so that later updates read the cut position
+  update,    ///< after each update, so that later updates read the truncated position
   iteration  ///< all vertices together, after the iteration
 };
-/// Returns whether each update cuts its vertex.
+/// Returns whether each update truncates its vertex.
 constexpr bool cuts_updates(CutAfter cut) {
   switch (cut) {
     case CutAfter::update: return true;
@@ -47,7 +48,7 @@ constexpr bool cuts_updates(CutAfter cut) {
   return true;
 }
 
-/// Values of the settings reference_contact_set, reference_vbd_colours, reference_vbd_contact_blocks and
+/// The values of reference_contact_set, reference_vbd_colours, reference_vbd_contact_blocks and
 /// reference_vbd_cut_after.
 struct Variants {
   ContactSet contact_set = ContactSet::ogc;                 ///< for all solvers of the reference

@@ -1,5 +1,5 @@
-// Damages a worker's messages in many ways. The judge's side must obtain an answer of the right shape or report that
-// there is none.
+// Damages a plug-in worker's messages in many ways. The judge's side must get an answer of the right shape or report
+// that there is no answer.
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -25,7 +25,7 @@ std::array<Channel, 2> socket_ends() {
   return {Channel(ends[0]), Channel(ends[1])};
 }
 
-/// Returns blocks with their heads, as a worker sends them.
+/// Returns the blocks, each behind its head, as a worker sends them.
 Stream stream_of(const std::vector<Stream>& blocks) {
   Stream stream;
   for (const Stream& block : blocks) {
@@ -42,7 +42,7 @@ Stream block_of(const Item& item) {
   return {bytes.begin(), bytes.end()};
 }
 
-/// Applies `read` to a stream, after which the socket is closed. Throws NothingCame if the stream ends too early.
+/// Applies `read` to a stream from a socket that is closed behind it. Throws NothingCame if the stream ends too early.
 template <class Read>
 auto read_stream(const Stream& stream, Read read) {
   std::array<Channel, 2> ends = socket_ends();
@@ -61,7 +61,7 @@ struct Question {
   ListSizes counts;
 };
 
-/// Returns a question about the step of a small scene, whose answer has lists of all kinds.
+/// Returns a question about the step of a small scene. Its answer has lists of all kinds.
 Question step_question() {
   QuestionSizes sizes;
   sizes.vertices = 7, sizes.edges = 12, sizes.triangles = 6, sizes.hinges = 5, sizes.bodies = 2, sizes.tetrahedra = 3;
@@ -89,7 +89,7 @@ WorkerAnswer read_answer_of(const Question& question, const Stream& stream) {
   return read_stream(stream, [&](const NextBlock& next) { return read_answer(next, *question.stage, question.sizes); });
 }
 
-/// Returns whether the counts are possible and the lengths follow from them and the question.
+/// Returns whether the counts are possible for the question, and whether the lengths of the outputs follow from them.
 bool fits(const WorkerAnswer& answer, const Question& question) {
   if (answer.result.status > CallResult::Status::broken || !(answer.result.seconds >= 0)) return false;
   if (answer.result.status != CallResult::Status::answered) return answer.outputs.empty();
@@ -108,7 +108,7 @@ using Generator = std::mt19937;
 
 std::size_t below(std::size_t count, Generator& random) { return random() % std::max<std::size_t>(1, count); }
 
-/// Replaces eight bytes at a multiple of four by a number that is extreme for lengths and counts.
+/// Replaces eight bytes, at a multiple of four, by an extreme length or count.
 void put_number(Stream& stream, Generator& random) {
   const std::array<std::uint64_t, 8> numbers{0,
                                              1,
@@ -170,7 +170,7 @@ TEST_CASE("20,000 damaged answers: each is one of the right shape, or is refused
       }
     }
   }
-  // Damage inside an output passes here; the judge checks outputs.
+  // Damage inside an output is not detected here; the judge checks outputs.
   for (const std::size_t count : ends) CHECK(count > 1000);
 }
 
@@ -225,7 +225,7 @@ TEST_CASE("a side that has ended is noticed where others hold its socket, after 
   CHECK(ends[0].receive(block, {}, patience) == Transfer::whole);
   CHECK(block == last);
   CHECK(ends[0].receive(block, {}, patience) == Transfer::end);
-  // A socket holds fewer bytes, and nothing reads them.
+  // The message is larger than a socket's buffer, and nothing reads it.
   CHECK(ends[0].send(Stream(64u << 20), patience) == Transfer::end);
   CHECK(ends[0].send(Stream(64u << 20), {.seconds = 0.01}) == Transfer::timeout);
 }

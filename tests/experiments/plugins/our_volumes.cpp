@@ -1,5 +1,5 @@
-// Offers our kernels of volumes through the C interface. Right answers prove that the structures suffice; the
-// environment variable OGC_BROKEN makes the answers wrong.
+// Offers the fast path's volume kernels as a plug-in. Right answers prove that the structures of the C interface
+// contain all that is needed. The environment variable OGC_BROKEN makes the answers wrong.
 #include <algorithm>
 
 #include "compare/stages/volume_depth.hpp"

@@ -1,6 +1,6 @@
-// Offers our kernels through the C interface, for the stages about whole scenes and about planes. Right answers prove
-// that the structures suffice; the environment variable OGC_BROKEN makes the answers wrong. The step consists of
-// detection, truncation and sweeps.
+// Offers the fast path's kernels as a plug-in, for the stages about whole scenes and about planes. Right answers prove
+// that the structures of the C interface contain all that is needed. The environment variable OGC_BROKEN makes the
+// answers wrong. The step consists of detection, truncation and sweeps.
 #include <unistd.h>
 
 #include <algorithm>
@@ -73,7 +73,7 @@ std::vector<std::array<Index, 2>> pairs_of_rows(const ogc_rows& partners, Index 
   return pairs;
 }
 
-/// Makes the scene. Motions have only their vertices; targets give their positions.
+/// Returns the scene. Motions have vertices but no movement, because the input has target positions.
 Scene scene_of(const ogc_scene& in) {
   Scene scene;
   const ogc_topology& t = in.topology;
@@ -162,7 +162,7 @@ RestStateOut rest_of(const ogc_sweep_in& in) {
   return rest;
 }
 
-/// Returns a colouring: vertices of a stencil have different colours.
+/// Returns a colouring in which the vertices of each stencil have different colours.
 std::vector<Index> colours(const RestStateOut& rest, const std::vector<Spring>& springs,
                            const std::vector<Index>& groups) {
   std::vector<std::vector<Index>> others(groups.size());
@@ -275,7 +275,7 @@ class Step {
     events.push_back(detected_);
   }
 
-  /// Returns the last detection's contacts at each vertex, as the guess kernel takes them.
+  /// Returns the last detection's contacts for each vertex, in the form that the guess kernel reads.
   std::vector<std::vector<fast::ContactIncidence>> incidences() const {
     std::vector<std::vector<fast::ContactIncidence>> rows(count_);
     const std::vector<Index> body = body_of_vertex(scene_);
@@ -318,7 +318,7 @@ class Step {
     return rows;
   }
 
-  /// Returns the position to which contacts let each vertex move.
+  /// Returns the positions before truncation: what contacts leave of each vertex's move.
   std::vector<Vec3f> proposals() {
     const std::vector<std::vector<fast::ContactIncidence>> rows = incidences();
     const std::vector<fast::Vec> position = vectors(x_), wanted = vectors(target), before = taken_;
@@ -372,7 +372,7 @@ class Step {
   StepEvent detected_;
 };
 
-/// Writes the events or, if a list is too short, only their counts.
+/// Writes the step's events. If a list of the caller is too short, writes only the counts.
 class Trace {
  public:
   explicit Trace(ogc_step_out& out) : out_(out) {}

@@ -1,4 +1,4 @@
-// Declares what our kernels behind the C interface share: the contestant that answers, and the fault that the
+// Declarations of the plug-in that offers the fast path's kernels: the contestant that answers, and the fault that the
 // environment variable OGC_BROKEN names.
 #pragma once
 

@@ -1,5 +1,5 @@
-// Judges plug-ins that break. Each failure is reported correctly, the judge continues or ends cleanly, and standard
-// output contains only results.
+// Judges plug-ins with failures. Each failure must be reported correctly, the judge must continue or end cleanly, and
+// standard output must contain only results.
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -17,13 +17,13 @@ namespace {
 
 const std::string broken = OGC_TEST_PLUGINS "/libplugin_broken.so";
 
-/// Returns the folder in which the broken plug-in runs and below which failing cases are saved.
+/// Returns the folder in which the broken plug-in runs. Failing cases are saved below it.
 const TemporaryFolder& broken_folder() {
   static const TemporaryFolder folder;
   return folder;
 }
 
-/// Runs `ogc compare` with the broken plug-in; `how` names its fault.
+/// Runs `ogc compare` with the broken plug-in; `how` is the value of OGC_BROKEN, which names the fault.
 ProgramResult compare_broken(const std::string& how, const std::string& arguments) {
   const std::string folder = (broken_folder() / "").string();
   return run_ogc(
@@ -31,7 +31,7 @@ ProgramResult compare_broken(const std::string& how, const std::string& argument
       "cd '" + folder + "' && export ASAN_OPTIONS=handle_segv=0:handle_abort=0 OGC_BROKEN='" + how + "' && ");
 }
 
-/// Runs `ogc compare` with our kernels behind the C interface. `how`: value of OGC_BROKEN.
+/// Runs `ogc compare` with the plug-in of the fast path's kernels; `how` is the value of OGC_BROKEN.
 ProgramResult compare_ours(const std::string& how, const std::string& arguments, const std::string& name = "ours") {
   static const TemporaryFolder scratch;
   return run_ogc("compare " + arguments + " --plugin " OGC_TEST_PLUGINS "/libplugin_" + name + ".so",
@@ -53,7 +53,7 @@ bool has_ended(const std::filesystem::path& file) {
   return false;
 }
 
-/// The plug-in breaks at a case with d = r, but not at a case with d < r.
+/// Two cases of the plug-in `broken`: it fails at the case with d = r, and answers the case with d < r.
 const std::string breaking = "--problem 'stage=activation gen=ladder.radius seed=1 index=1'",
                   harmless = "--problem 'stage=activation gen=ladder.radius seed=1 index=0'";
 

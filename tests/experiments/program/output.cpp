@@ -4,7 +4,8 @@
 
 using namespace ogc;
 
-// 64-bit FNV-1a of no bytes is the offset basis; of twelve zero bytes it is the basis times prime^12 modulo 2^64.
+// The 64-bit FNV-1a hash of no bytes is the offset basis. The hash of twelve zero bytes is the basis times prime¹²
+// modulo 2⁶⁴.
 TEST_CASE("the state's hash is FNV-1a of the positions' bits", "[unit]") {
   CHECK(experiments::state_hash({}) == "cbf29ce484222325");
   std::uint64_t expected = 0xcbf29ce484222325;

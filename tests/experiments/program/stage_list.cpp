@@ -1,4 +1,5 @@
-// Compares the list of stages with the tree and with compare/README.md, and tests the determinism that it declares.
+// Compares the list of stages with the folders and with compare/README.md. Tests that stages are deterministic as the
+// list declares.
 #include "experiments/program/stage_list.hpp"
 #include "compare/stages/bound.hpp"
 
@@ -22,7 +23,7 @@ const std::filesystem::path tree = OGC_SOURCE_DIR;
 
 std::string read(const std::string& file) { return read_bytes(tree / file); }
 
-/// Returns whether these folders contain a file with this stem.
+/// Returns whether one of these folders contains a file with this name, without its extension.
 bool has_stem(std::initializer_list<const char*> folders, const std::string& stem) {
   for (const char* folder : folders)
     for (const auto& entry : std::filesystem::directory_iterator(tree / folder))
@@ -42,7 +43,8 @@ TEST_CASE("every stage has a contract, a reference, and a CPU and a CUDA impleme
     CHECK(std::filesystem::exists(tree / "compare/stages" / (name + ".hpp")));
     CHECK(std::filesystem::exists(tree / std::string(info.reference)));
     const bool is_ours = can_judge(stage, host, authority);
-    // tests/experiments/plugins/build_plugins.sh judges each example.
+    // The fast path does not implement ccd and barrier, but has an example plug-in for each.
+    // tests/experiments/plugins/build_plugins.sh judges the examples.
     CHECK(is_ours != (stage == Stage::ccd || stage == Stage::barrier));
     if (!is_ours) CHECK(has_stem({"experiments/plugins/examples"}, name));
     CHECK((!is_ours || has_stem({"fast/kernels", "fast/kernels/models", "fast/stages"}, name) ||
@@ -50,7 +52,7 @@ TEST_CASE("every stage has a contract, a reference, and a CPU and a CUDA impleme
     if (fast::backend_info(fast::Backend::cuda).usable)
       CHECK(can_judge(stage, fast::contestant(fast::Backend::cuda), authority) == is_ours);
   }
-  // Both backends instantiate the same probes, so CUDA has every stage that the CPU has.
+  // Both backends instantiate the same contestant, so CUDA has every stage that the CPU has.
   for (const char* file : {"fast/cpu/instantiate.cpp", "fast/cuda/instantiate.cu"})
     CHECK(read(file).find("= probe_contestant(\"") != std::string::npos);
 }
@@ -76,7 +78,8 @@ TEST_CASE("the table of stages in compare/README.md is the one that ogc compare 
   CHECK(printed.out == table);
 }
 
-// Each form's contestant and each planted fault are caught by tests (tests/experiments/diagnose.cpp, compare.cpp).
+// Other tests check that the judge catches each wrong form and each planted fault (tests/experiments/diagnose.cpp,
+// compare.cpp).
 TEST_CASE("every stage can be wrong in at least three ways that the judge is shown to catch", "[unit]") {
   std::map<Stage, std::size_t> by_stage;
   for (const tests::Fault& fault : tests::faults()) ++by_stage[fault.stage];
@@ -143,7 +146,7 @@ TEST_CASE("at least half of a stage's cases lie within 1024 ulp of a decision bo
   for (const Stage stage : all_stages) {
     if (!stage_info(stage).has_boundary) continue;
     JudgeOptions options;
-    // With this many cases, the sizes of meshes and batches hardly change the generators' shares.
+    // With this many cases, the shares of the generators hardly depend on sizes of meshes and batches.
     options.cases = is_mesh_stage(stage) ? 30000 : 5000;
     const StageReport report = judge_stage(stage, exact, authority, options);
     INFO(stage_name(stage));

@@ -1,4 +1,4 @@
-// Tests the dress of Fig. 13: 14 panels that touch only at their stitches, and a body that walks. Tests the published
+// Tests the dress of Fig. 13: 14 panels that touch only at their stitches, and a walking body. Also tests the published
 // data set if it is available.
 #include "experiments/scenes/dress.hpp"
 
@@ -76,8 +76,8 @@ TEST_CASE("dress has the paper's numbers, and the stand-in about the data set's 
     CHECK(body.material.friction == 0.5);
     CHECK(body.material.density > 0);
   }
-  // Plane-stress constants computed manually from E·t = 76 kPa · 0.328 mm = 24.93 N/m and ν = 0.071; the area density
-  // is 543.29 · 0.328e-3 kg/m².
+  // The plane-stress constants were computed by hand from E·t = 76 kPa · 0.328 mm = 24.93 N/m and ν = 0.071. The area
+  // density is 543.29 · 0.328e-3 kg/m².
   const Material& cloth = scene.bodies[0].material;
   CHECK(cloth.lame_mu == Approx(11.638).epsilon(1e-4));
   CHECK(cloth.lame_lambda == Approx(1.7790).epsilon(1e-4));
@@ -152,13 +152,14 @@ TEST_CASE(
   REQUIRE(scene.springs.size() == 2);
   CHECK(scene.springs[0] == Spring{3, 0, 1000});
   CHECK(scene.springs[1] == Spring{4, 1, 1000});
-  // A stitch names an edge, so that both ends of the edge are partners of the vertex. Vertices stitched to one vertex
-  // are partners of each other only if they lie there together.
+  // A stitch connects a vertex to an edge, so both ends of the edge are partners of the vertex. Two vertices stitched
+  // to the same vertex are partners only if they are at the same place.
   const Exclusions left_out = exclusions(scene);
   for (const Index v : {3, 4})
     CHECK(std::ranges::equal(left_out.partners[static_cast<std::size_t>(v)], std::array{0, 1}));
   CHECK(stitched_start(scene).others == 0);
-  // The shells lie 0.75 m above the body of the start.
+  // The body's frames in the data set begin 0.75 m above the body of the draped start. So the motion is moved down by
+  // 0.75 m.
   const PrescribedMotion& motion = scene.motions[0];
   CHECK(prescribed_targets(scene, motion, 0)[0] == Vec3f{0, -1, 0});
   CHECK(prescribed_targets(scene, motion, 0.08)[2] == Vec3f{0, -0.75f, 1});
@@ -169,7 +170,8 @@ TEST_CASE(
 TEST_CASE("where seams of data meet, vertices stitched to the same one are no contacts, neighbours in a panel are",
           "[unit]") {
   SmallData files;
-  // A corner of a third panel lies 1 mm from a corner of the second. Both are stitched to the same vertex.
+  // A third panel is added. One corner is 1 mm from a corner of the second panel, and both corners are stitched to the
+  // same vertex.
   files.stage = replaced(files.stage, "g panel0", "v 0 0 0\nv 0 1 0\nv -1 0 0\nvt 9 0\nvt 9 1\nvt 8 0\ng panel0");
   files.stage += "g panel2\nf 7/7 8/8 9/9\nstitch 6 0 1 0\n";
   files.drape = replaced(files.drape, "v 0 -1 0\n", "v 0 0.001 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\n");
@@ -272,7 +274,8 @@ TEST_CASE("ogc says which file of data=DIR is missing, and that other scenes hav
   CHECK(run_ogc("scenes dress --write y --set iterations=3").status == 2);
 }
 
-// OGC_DRESS_DATA is the folder with Codimensional IPC's files, which are not part of this repository.
+// The environment variable OGC_DRESS_DATA is the folder with the files of Codimensional IPC, which are not part of this
+// repository.
 TEST_CASE("the data set as published: counts, intersections at the start, speed", "[unit]") {
   const char* folder = std::getenv("OGC_DRESS_DATA");
   if (!folder) {
@@ -290,10 +293,10 @@ TEST_CASE("the data set as published: counts, intersections at the start, speed"
   CHECK(scene.settings.steps == 968);
   CHECK(largest_gap(scene) < 2.3e-4);
   const StitchedStart start = stitched_start(scene);
-  // The files' decimals give 528 intersections; rounding to single precision adds three.
+  // The decimal numbers of the files give 528 intersections; rounding to single precision adds three.
   CHECK(start.between_partners == 531);
   CHECK(start.others == 0);
-  // The body alone has 499. It is one rigid group and has no contact with itself.
+  // The body has 499 intersections with itself. It is one rigid group, so it has no contacts with itself.
   Scene body = scene;
   CHECK(audit(build_topology(body), body.mesh.positions).count == 531 + 499);
   CHECK(largest_step(scene) / scene.settings.time_step == Approx(2.068).epsilon(1e-3));

@@ -1,4 +1,4 @@
-// Tests the stack of Fig. 10: the paper's sizes, and why its start has no intersections.
+// Tests the stack of Fig. 10: the paper's sizes, and a start without intersections.
 #include "experiments/scenes/fifty_layers.hpp"
 
 #include <algorithm>
@@ -67,8 +67,8 @@ TEST_CASE("fifty_layers: layers lie 1.05 r apart from 0.30 m on, each shifted by
       CHECK(std::abs(shift) < 6 * 3e-3);
     }
   }
-  // For 100 draws, the mean must be within three standard errors, and the standard deviation within about three of its
-  // own.
+  // For 100 draws, the mean must be within three of its standard errors, and the standard deviation within about three
+  // of its standard errors.
   CHECK(std::abs(sum / 100) < 3 * 3e-3 / 10);
   CHECK(std::sqrt(squares / 100) == Approx(3e-3).epsilon(0.22));
   FiftyLayersSizes other = sizes;

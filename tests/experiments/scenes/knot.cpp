@@ -18,7 +18,7 @@ double length(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y -
 const Vec3& start(const Scene& scene, Index vertex) { return scene.mesh.positions[static_cast<std::size_t>(vertex)]; }
 const Vec3& rest(const Scene& scene, Index vertex) { return scene.rest_positions[static_cast<std::size_t>(vertex)]; }
 
-/// Returns the largest stretch along the strip.
+/// Returns the largest stretch between neighbours along the strip, start length over rest length.
 double largest_stretch(const Scene& scene, const KnotSizes& sizes) {
   double largest = 0;
   for (Index v = 0; v + sizes.columns < sizes.rows * sizes.columns; ++v)
@@ -44,7 +44,7 @@ TEST_CASE("knot has the paper's numbers", "[unit]") {
   CHECK(scene.gravity == Vec3{});
   CHECK(rest(scene, 47999).x == Approx(9.613));
   CHECK(rest(scene, 47999).z == Approx(0.045));
-  // The ends of the control polygon are 1.2 m apart along x.
+  // The first and the last control point of the curve are 1.2 m apart along x.
   CHECK(length(start(scene, 0), {-0.9, -0.4, 0.035}) < 1e-6);
   CHECK(length(start(scene, 47980), {0.3, -0.3, 0}) < 1e-6);
 }
@@ -58,7 +58,7 @@ TEST_CASE(
   const double first = length(start(scene, 0), start(scene, sizes.columns));
   for (Index i = 0; i < sizes.rows; ++i) {
     const Index v = i * sizes.columns;
-    // Rows are chords of equal arcs.
+    // Rows are at equal arc lengths, so chords between them are nearly equal.
     if (i > 0) CHECK(length(start(scene, v - sizes.columns), start(scene, v)) == Approx(first).epsilon(0.02));
     for (Index j = 1; j < sizes.columns; ++j)
       CHECK(length(start(scene, v + j - 1), start(scene, v + j)) == Approx(0.005).margin(2e-6));

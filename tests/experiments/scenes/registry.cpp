@@ -1,4 +1,5 @@
-// Tests every registered scene at every scale: it is valid, in single precision, and in the paper's contact regime.
+// Tests every registered scene at every scale. It must be valid, in single precision, and have the paper's ratio of
+// contact radius and edge length.
 #include "experiments/scenes/registry.hpp"
 
 #include <algorithm>
@@ -59,7 +60,7 @@ TEST_CASE("every scene is valid at every scale, named as registered, and already
   }
 }
 
-// Larger scenes take seconds each; `ogc run` itself audits them at the start.
+// Larger scenes take seconds each. They are audited when `ogc run` starts them.
 TEST_CASE("no scene starts with an intersection but between stitched primitives", "[unit]") {
   constexpr std::size_t largest = 100'000;
   for (const SceneInfo& info : scenes()) {
@@ -83,9 +84,9 @@ TEST_CASE("scales shrink vertices and steps, and keep the radius in units of the
     CHECK(small.settings.steps <= paper.settings.steps);
     const double regime = paper.settings.contact_radius / shortest_edge(paper);
     for (const Scene& scene : {smoke, small}) {
-      // Positions up to 0.5 m are rounded to single precision (layers reach slightly farther, strips are narrower).
-      // Edges are longer than 7 mm (2 mm across a strip of 4.5 cm), for yarn 1 mm. Each of two lengths has an error of
-      // half an ulp at each end.
+      // Error of the ratio: positions up to 0.5 m are rounded to single precision (layers are slightly larger, strips
+      // are smaller). Edges are longer than 7 mm (2 mm across a strip of 4.5 cm; 1 mm for yarn). Each of two lengths
+      // has an error of half a unit in the last place at each end.
       const double edge = scene.mesh.triangles.empty() ? 0.001 : 0.007;
       CHECK(scene.settings.contact_radius / shortest_edge(scene) == Approx(regime).epsilon(4 * 0x1p-25 / edge));
     }
@@ -103,7 +104,7 @@ TEST_CASE("yarn scenes have the paper's numbers: one rod, neighbours of a smooth
     REQUIRE(scene.bodies[0].material.rod);
     CHECK(scene.bodies[0].material.rod->density == static_cast<double>(1e-3f));
     REQUIRE(scene.motions.size() == 2);
-    // Both edges are held by all vertices within 10 mm, which include the live loops of the last row.
+    // Both motions hold all vertices within 10 mm of the edges, which include the open loops of the last row.
     CHECK(scene.motions[0].vertices.size() > 33 * 12);
   }
   CHECK(make_scene("yarn_stretch", Scale::paper).settings.steps == 16'250);
@@ -151,12 +152,13 @@ TEST_CASE("twist turns its two end columns against each other, a relative turn i
     CHECK(motion.vertices.size() == 100);
     for (const Index v : motion.vertices) CHECK(std::abs(scene.mesh.positions[static_cast<std::size_t>(v)].x) == 0.5);
   }
-  // After 2 s each column has rotated by a quarter turn: z = −0.5 moves to y = ±0.5, on the two sides of the sheet.
+  // After 2 s both columns have rotated by a quarter turn in opposite directions. z = −0.5 has moved to y = 0.5 in one
+  // and to y = −0.5 in the other.
   const Vec3f left = at_vertex(scene, scene.motions[0], 0, 2), right = at_vertex(scene, scene.motions[1], 0, 2);
   CHECK(left.y == Approx(0.5));
   CHECK(right.y == Approx(-0.5));
   CHECK(left.x == -0.5f);
-  // After 4 s both have rotated by a half turn, to the same place but one relative turn apart.
+  // After 4 s both have rotated by half a turn, in opposite directions, to the same place.
   CHECK(at_vertex(scene, scene.motions[0], 0, 4).z == Approx(0.5));
   CHECK(at_vertex(scene, scene.motions[1], 0, 4).z == Approx(0.5));
 }

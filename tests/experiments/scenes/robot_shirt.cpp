@@ -1,5 +1,5 @@
 // Tests the T-shirt of Fig. 14: the paper's counts, a start that touches itself only at the stitched shoulders, and
-// grippers that bounds can follow.
+// grippers that move slowly enough for the bounds.
 #include "experiments/scenes/robot_shirt.hpp"
 
 #include <algorithm>
@@ -16,7 +16,8 @@ using namespace ogc::tests;
 
 namespace {
 
-/// Returns the gap between the lower jaw's upper side and the upper jaw's lower side at time `t` [m].
+/// Returns the gap between both jaws of a gripper at time `t` [m]: from the lower jaw's upper side to the upper jaw's
+/// lower side.
 double opening(const Scene& scene, const PrescribedMotion& motion, double t) {
   const std::vector<Vec3f> jaws = prescribed_targets(scene, motion, t);
   const auto half = static_cast<std::ptrdiff_t>(jaws.size() / 2);
@@ -52,8 +53,8 @@ TEST_CASE("robot_shirt: a tube with sleeves, whose shoulders are stitched", "[un
     const Topology topology = build_topology(
         shirt.vertex_count, {scene.mesh.triangles.data(), static_cast<std::size_t>(shirt.triangle_count)});
     CHECK(topology.non_manifold_edges.empty());
-    // The shirt is a sphere with four holes: the hem, the two sleeve ends, and the neck, which the open shoulders join
-    // to the sleeves' tops.
+    // Topologically the shirt is a sphere with four holes: the hem, both sleeve ends, and the neck. The open shoulders
+    // connect the neck to the tops of the sleeves.
     const auto euler = static_cast<int>(shirt.vertex_count) - static_cast<int>(topology.edges.size()) +
                        static_cast<int>(shirt.triangle_count);
     CHECK(euler == 2 - 4);
@@ -72,7 +73,7 @@ TEST_CASE("robot_shirt: jaws move less than bounds allow in one detection, and c
     const Scene scene = make_scene("robot_shirt", scale);
     const Settings& s = scene.settings;
     CHECK(largest_step(scene) < s.bounds_relaxation * s.detection_radius_cap * s.contact_radius);
-    // Open jaws withdraw at 0.47 m/s. At 0.85 r a step lower jaws stayed behind (experiments/scenes/robot_shirt.hpp).
+    // Open jaws withdraw at 0.47 m/s. At 0.85 r a step, lower jaws lagged behind (experiments/scenes/robot_shirt.hpp).
     CHECK(largest_step(scene) < 0.4 * s.contact_radius);
     for (const PrescribedMotion& motion : scene.motions) {
       CHECK(opening(scene, motion, 0) > 0.03);
@@ -89,8 +90,8 @@ TEST_CASE("robot_shirt: jaws move less than bounds allow in one detection, and c
 }
 
 TEST_CASE("robot_shirt: nothing but stitched shoulders is nearer than the contact radius at the start", "[unit]") {
-  // Stitched pairs are moved apart to 1.05 r, the distance of front and back. They then neither count nor hide other
-  // pairs.
+  // Stitched pairs are moved apart to 1.05 r, the distance between front and back. They then do not determine the
+  // smallest distance, and do not hide other pairs.
   Scene scene = make_scene("robot_shirt", Scale::small);
   const double r = scene.settings.contact_radius;
   for (const Spring& s : scene.springs) {

@@ -162,7 +162,8 @@ TEST_CASE("a capsule is a closed surface that looks outwards, with every vertex 
     const Vec3 off = difference(v, {from.x + share * axis.x, from.y + share * axis.y, from.z + share * axis.z});
     CHECK(std::sqrt(dot(off, off)) == Approx(0.125).margin(2e-6));
   }
-  // 3 % below the round capsule: a polygon of 32 corners around, eight rings to each pole.
+  // The volume is up to 3 % below that of a round capsule, because the mesh has 32 corners around and eight rings to
+  // each pole.
   CHECK(volume_of(mesh) == Approx(std::numbers::pi * 0.125 * 0.125 * (length + 4.0 / 3 * 0.125)).epsilon(0.03));
   CHECK(validate(capsule({3, 1, 1}, 0.125, from, to)).empty());
 }

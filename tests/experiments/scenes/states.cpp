@@ -1,5 +1,5 @@
-// Tests that states of runs are legal: frames of each scene give every stage questions that its contract allows, and
-// contestant and reference agree.
+// Tests cases from states of runs: frames of each scene give every stage only cases that its contract allows, and
+// contestant and reference agree about them.
 #include "compare/judge/cases/states.hpp"
 
 #include "compare/judge/cases/generators.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint64_t frames = 6;
 
-/// Returns whether the stage has cases from these states. Cases of rest_state do not come from frames.
+/// Returns whether these states give cases of the stage. Cases of rest_state do not come from frames.
 bool is_asked(Stage stage, const States& states) { return stage != Stage::rest_state && states.missing(stage).empty(); }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Measures starts and motions of stitched scenes for their tests.
+// Measures starts and motions of stitched scenes, for their tests.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ inline double distance_of(const compare::Vec3& a, const compare::Vec3& b) {
   return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
-/// Returns the largest distance between a spring's vertex and its point [m].
+/// Returns the largest distance at the start between a spring's vertex and the point to which it is stitched [m].
 inline double largest_gap(const compare::Scene& scene) {
   double largest = 0;
   for (const compare::Spring& s : scene.springs) {
@@ -29,8 +29,8 @@ inline double largest_gap(const compare::Scene& scene) {
   return largest;
 }
 
-/// Counts intersections at the start outside rigid groups, as the oracle finds them: between stitched or excluded
-/// partners, and all others.
+/// The number of intersections at the start, without those inside a rigid group: between partners (stitched or excluded
+/// pairs), and all others.
 struct StitchedStart {
   std::size_t between_partners = 0, others = 0;
 };

@@ -26,7 +26,7 @@ std::vector<std::string> lines_of(const std::filesystem::path& path) {
   return lines;
 }
 
-/// Runs a grid of cloth_on_sphere at scale smoke.
+/// Runs `ogc ablate` for cloth_on_sphere at scale smoke; `options` define the grid.
 ProgramResult whole_grid(const std::string& options, const std::filesystem::path& out) {
   const ProgramResult result = run_ogc("ablate cloth_on_sphere --scale smoke " + options + " --out " + out.string());
   INFO(result.err);
@@ -139,7 +139,8 @@ TEST_CASE("a repeated ablation that signals cut off ends with the runs of one th
   INFO(result.err);
   REQUIRE(result.status == 0);
   for (const std::string& run : repeated_runs) check_same_run(whole / run, cut / run);
-  // The grid is interrupted when only this run's first folder exists. A folder with a foreign file must not be removed.
+  // Imitates an interruption: only the folder of one run exists, without results. A folder that contains a foreign file
+  // must not be removed.
   std::filesystem::remove_all(cut / repeated_runs[1]);
   std::filesystem::create_directories(cut / repeated_runs[1] / "frames");
   REQUIRE(run_ogc(repeated + cut.string()).status == 0);
@@ -198,7 +199,7 @@ TEST_CASE("tasks of an array job make the runs of an ablation, and the command t
   CHECK_THAT(script, Contains("--array=0-3\n") && Contains("'" + out.string() + "'") && Contains(" --residual ") &&
                          Contains("--repeat '2'"));
   CHECK(!std::filesystem::exists(out / "ablation.csv"));
-  // Imitates a cluster that runs one task after the other; srun here only runs its command.
+  // Imitates a cluster that runs the tasks one after the other. The script `srun` only runs its command.
   const std::string array = "for i in 3 1 0 2; do SLURM_ARRAY_TASK_ID=$i PATH=\"" + (folder / "bin").string() +
                             ":$PATH\" bash \"" + (out / "slurm_array.sh").string() + "\" 2>/dev/null || exit 1; done; ";
   std::filesystem::create_directories(folder / "bin");

@@ -1,4 +1,5 @@
-// Tests two triangles in one plane that share an edge and overlap: audits find them, and no run starts from them.
+// Tests two triangles in one plane that share an edge and overlap. Audits must report them, and a run must refuse to
+// start from them.
 #include "compare/files/bytes.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/program.hpp"

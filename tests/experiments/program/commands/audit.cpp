@@ -7,7 +7,8 @@
 using namespace ogc;
 using namespace ogc::tests;
 
-// The edges from vertex 3 (below) to 4 and 5 (above) cross the plane z = 0 inside triangle 0. OBJ counts from 1.
+// The edges from vertex 3 (below) to 4 and 5 (above) cross the plane z = 0 inside triangle 0. OBJ numbers vertices from
+// 1.
 TEST_CASE("ogc audit of crossing triangles exits 1 and lists the pairs", "[unit]") {
   const TemporaryFolder folder;
   const std::string mesh = folder.write("crossing.obj", crossing_triangles_obj).string();
@@ -32,8 +33,8 @@ TEST_CASE("ogc audit of separate triangles exits 0", "[unit]") {
   CHECK(nlohmann::json::parse(result.out).at("clean") == true);
 }
 
-// In two equal right triangles 1 mm apart, every vertex is 1 mm from the other triangle, and every edge 1 mm from the
-// equal edge. The primitives with the lowest numbers are named.
+// In two equal right triangles 1 mm apart, every vertex is 1 mm from the other triangle, and every edge is 1 mm from
+// the equal edge. The lowest-numbered primitives must be named.
 TEST_CASE("ogc audit gives the smallest distances with their primitives, in words and as JSON", "[unit]") {
   const TemporaryFolder folder;
   const std::string mesh = folder.write("parallel.obj", parallel_triangles_obj).string();
@@ -78,7 +79,7 @@ TEST_CASE("ogc audit refuses what is neither a mesh nor a run with exit status 2
 
 namespace {
 
-/// Returns the names of the states that intersect.
+/// Returns the file names of the states that have intersections.
 std::vector<std::string> intersecting(const nlohmann::json& verdict) {
   std::vector<std::string> names;
   for (const nlohmann::json& state : verdict.at("states"))
@@ -86,7 +87,7 @@ std::vector<std::string> intersecting(const nlohmann::json& verdict) {
   return names;
 }
 
-/// Writes frames 0 to 11 to a folder. Frames 10 and 11 intersect.
+/// Writes the meshes frame_0 to frame_11. Only 10 and 11 have intersections.
 void write_frames(const TemporaryFolder& folder) {
   for (int k = 0; k < 12; ++k)
     folder.write("frame_" + std::to_string(k) + ".obj", k < 10 ? parallel_triangles_obj : crossing_triangles_obj);
@@ -174,7 +175,7 @@ TEST_CASE("an audit of curves says that states say nothing about them, not that 
   CHECK(nlohmann::json::parse(run_ogc("audit --json " + mixed).out).at("clean") == true);
 }
 
-// The mesh of the intersections contains both triangles and both piercing edges.
+// The mesh of the intersections must contain both triangles and both edges that pass through a triangle.
 TEST_CASE("the option --show writes what intersects as a mesh that can be audited itself", "[unit]") {
   const TemporaryFolder folder;
   write_frames(folder);
@@ -194,7 +195,7 @@ TEST_CASE("the option --show writes what intersects as a mesh that can be audite
 TEST_CASE("a run of an intersecting start says where, and --show writes it", "[unit]") {
   const TemporaryFolder folder;
   REQUIRE(run_ogc("scenes cloth_on_sphere --scale smoke --write " + (folder / "scene").string()).status == 0);
-  // The cloth becomes a second sphere that touches the first one everywhere.
+  // The cloth is replaced by a second sphere, which touches the first one everywhere.
   std::filesystem::copy_file(folder / "scene/cloth_on_sphere_sphere.ply", folder / "scene/cloth_on_sphere_cloth.ply",
                              std::filesystem::copy_options::overwrite_existing);
   const std::string scene = (folder / "scene/cloth_on_sphere.json").string(),

@@ -204,7 +204,7 @@ def check_vtp(folder):
 
 
 def two_tetrahedra(points):
-    """Of eight points, as they stand."""
+    """Returns a VTK grid of two tetrahedra: the first four and the last four of eight points."""
     data, corners = vtkUnstructuredGrid(), vtkPoints()
     corners.SetData(numpy_to_vtk(points, deep=True))
     data.SetPoints(corners)

@@ -1,5 +1,5 @@
-// Tests bad numbers and paths: the message is short and names them, the exit status is 2, and there is no crash,
-// internal error or hang.
+// Tests bad numbers and paths. The message must be short and name the number or path, and the exit status must be 2. A
+// crash, an internal error or a hang is a failure.
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -31,7 +31,7 @@ void check_refused(const std::string& arguments, std::initializer_list<std::stri
   CHECK(result.err.size() <= longest_message);
 }
 
-/// Returns the options of a command that take numbers, as its help lists them.
+/// Returns the options of a command that take numbers, read from its help.
 std::set<std::string> numeric_options(const std::string& command) {
   const std::string help = run_ogc(command + " --help").out;
   const std::regex option("\n *(--[a-z-]+) (?:INT|UINT|FLOAT)\\b");
@@ -85,7 +85,7 @@ TEST_CASE("a number that an option can't take is refused by the option's name, t
   check_refused("run --solver " + std::string(5000, 'x'), {"--solver", "xxxx…"});
 }
 
-// Options are read from the help, so that the test covers new ones.
+// The options are read from the help, so that new options are tested, too.
 TEST_CASE("no numeric option of any command takes what is no number, or none of this world", "[property]") {
   std::size_t asked = 0;
   const std::set<std::string> all = commands();

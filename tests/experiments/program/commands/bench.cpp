@@ -13,7 +13,7 @@ namespace {
 
 using Verdict = BenchChange::Verdict;
 
-/// Writes a file with one benchmark and one time [ms] for each process.
+/// Writes a results file of one benchmark, with one process for each time [ms].
 std::filesystem::path results_file(const TemporaryFolder& folder, const std::string& name,
                                    const std::vector<double>& times, const std::string& device = "d") {
   Json json{{"context", {{"device_cpu", device}, {"num_cpus", 2}}}, {"benchmarks", Json::array()}};

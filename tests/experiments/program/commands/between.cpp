@@ -1,5 +1,5 @@
-// Tests `ogc audit` on the ways between frames: it reports that it did not check them or, with --between, what meets on
-// them.
+// Tests what `ogc audit` reports about the motion between frames: without --between, that it was not checked; with
+// --between, the primitives that meet during the motion.
 #include <nlohmann/json.hpp>
 
 #include "compare/files/bytes.hpp"
@@ -11,13 +11,13 @@ using namespace ogc::tests;
 
 namespace {
 
-/// Returns a mesh of two triangles, one at this height above the other at height 0.
+/// Returns a mesh of two horizontal triangles, one at height 0 and one at the given height.
 std::string two_triangles(const std::string& height) {
   return "v 0 0 0\nv 4 0 0\nv 0 0 4\nv 0.5 " + height + " 0.5\nv 2 " + height + " 0.5\nv 0.5 " + height +
          " 2\nf 1 2 3\nf 4 5 6\n";
 }
 
-/// Writes frames in which the upper triangle has these heights.
+/// Writes one frame for each height of the upper triangle.
 std::string frames(const TemporaryFolder& folder, const std::vector<std::string>& heights) {
   std::string files;
   for (std::size_t i = 0; i < heights.size(); ++i) {
@@ -30,8 +30,8 @@ std::string frames(const TemporaryFolder& folder, const std::vector<std::string>
 
 }  // namespace
 
-// From 1 to −1 the upper triangle is at 0 half way. Its three vertices meet the lower triangle there, and no edges
-// meet.
+// Between the heights 1 and −1, the upper triangle passes height 0 half way. Its three vertices meet the lower triangle
+// there; no edges meet.
 TEST_CASE("two sheets that change places between two frames meet, where the straight ways are asked", "[unit]") {
   const TemporaryFolder folder;
   const std::string files = frames(folder, {"2", "1", "-1"});

@@ -18,8 +18,8 @@ nlohmann::json contacts(const TemporaryFolder& folder, const std::string& engine
 
 }  // namespace
 
-// In two equal right triangles 1 mm apart, each corner is above a corner of the other triangle (3 pairs from either
-// side) and near nothing else.
+// In two equal right triangles 1 mm apart, each corner is above a corner of the other triangle: three pairs from either
+// side. Nothing else is near it.
 TEST_CASE("ogc contacts finds the corners of parallel triangles, with distances and bounds", "[unit]") {
   const TemporaryFolder folder;
   const nlohmann::json json = contacts(folder, "exact");
@@ -49,8 +49,8 @@ TEST_CASE("ogc contacts lists its sets by primitive, with margins, layers and ki
   CHECK(sets.at("vertices_near_facet") == nlohmann::json{{3, 4, 5}, {0, 1, 2}});
   for (const auto& contact : json.at("vertex_facet")) {
     CHECK(contact.at("penetration").get<double>() == Approx(0.009));
-    // The margins are those of the sphere and of the planes across the corner's two edges; the vertex lies on these
-    // planes.
+    // There is one margin for the sphere, and one for the plane across each of the corner's two edges. The vertex lies
+    // on both planes.
     CHECK(contact.at("margins").size() == 3);
     CHECK(contact.at("margins").at(1).at("sign") == 0);
     CHECK(contact.at("margins").at(1).at("closed") == true);
@@ -86,7 +86,7 @@ TEST_CASE(
   for (const char* name : {"d_min_vertex_squared", "d_min_edge_squared", "d_min_triangle_squared"}) {
     for (const auto& square : json.at(name)) CHECK(square == "9/16");
   }
-  // γ_p = 0.45 is 7549747/2²⁴ in single precision, and 9 · 7549747² has no factor 2.
+  // In single precision γ_p = 0.45 is 7549747/2²⁴. The fraction cannot be reduced, because 9 · 7549747² is odd.
   for (const auto& square : json.at("bound_squared")) CHECK(square == "512988117876081/4503599627370496");
   CHECK(run_ogc("contacts " + mesh + " --squares").status == 2);
   CHECK(run_ogc("contacts " + mesh + " --json --squares --engine cpu").status == 2);
@@ -96,7 +96,7 @@ TEST_CASE("ogc contacts says how many predicates intervals decided", "[unit]") {
   const TemporaryFolder folder;
   const nlohmann::json json = contacts(folder, "exact");
   const auto& filters = json.at("filters");
-  // Each corner is tested against the other triangle, each edge against three edges.
+  // Each of six corners is tested against the other triangle, each edge against three edges.
   CHECK(filters.at("distance_below").at("calls") >= 6);
   for (const auto& [predicate, count] : filters.items())
     CHECK(count.at("undecided").get<int>() <= count.at("calls").get<int>());

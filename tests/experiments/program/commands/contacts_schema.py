@@ -18,7 +18,6 @@ except ImportError as error:
 
 # Two sheets that cross above each other, a third triangle on one edge, and a thread: all kinds of contacts, and all
 # kinds of edges except those of closed surfaces.
-# and of contact.
 MESH = """
 v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.1\nv 0.5 0.4 -0.6
 v 0.1 0.2 0.05\nv 1.1 0.3 0.06\nv 0.3 1.2 0.04

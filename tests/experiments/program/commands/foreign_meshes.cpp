@@ -1,5 +1,5 @@
-// Tests meshes of other programs: they are loaded, each change to them is reported, and `ogc audit` and `ogc contacts`
-// accept them.
+// Tests meshes from other programs: they can be loaded, each change that loading makes is reported, and `ogc audit` and
+// `ogc contacts` accept them.
 #include <nlohmann/json.hpp>
 
 #include <set>

@@ -17,7 +17,7 @@ using namespace ogc::tests;
 
 namespace {
 
-/// Returns two free triangles, each a body. They intersect or are 1 mm apart.
+/// Returns two free bodies of one triangle each. They intersect if `crossing`; otherwise they are 1 mm apart.
 compare::Scene two_triangles(bool crossing) {
   compare::Scene scene;
   scene.name = "two_triangles";
@@ -71,7 +71,7 @@ TEST_CASE("the smoke runs of all scenes keep the guarantee and leave a readable 
     CHECK(last.step == reader.scene().settings.steps);
     CHECK(experiments::state_hash(last.positions) == json.at("final_hash"));
     CHECK(reader.frame(0).positions == compare::to_single(reader.scene().mesh.positions));
-    // A scene about contact must have contacts; turning_rod is about frames of rods instead.
+    // A registered scene must have contacts, except turning_rod, which is about frames of rods.
     CHECK((name == "turning_rod" || std::ranges::any_of(compare::read_steps(folder / "run").rows, [](const auto& row) {
              return row.vertex_facet_contacts + row.edge_edge_contacts + row.volume_contacts > 0;
            })));
@@ -232,7 +232,7 @@ TEST_CASE("IPC runs a scene into the same kind of folder, without an intersectio
     CHECK(row.discrete_detections >= row.iterations);
   }
   CHECK(table.rows.back().vertex_facet_contacts > 0);
-  // The run starts from a stored state, like the timed windows of long runs.
+  // The run starts from a stored state, as timed parts of long runs do.
   const ProgramResult window = run_ogc("run cloth_on_sphere --scale smoke --solver ipc --steps 13 --from-state " + run +
                                        "/frames/frame_000012.h5 --out " + run + "_window");
   INFO(window.err);
@@ -247,7 +247,8 @@ TEST_CASE("rows an iteration end where the step ends, in scenes with prescribed 
       "/frames/frame_000030.h5 --out " + out);
   const compare::StepTable table = compare::read_steps(out);
   REQUIRE(table.rows.size() == 1);
-  // The residual is comparable only without contacts, because the end of the step could have others.
+  // The residuals of both files are comparable only without contacts, because new contacts may be found at the step's
+  // end.
   REQUIRE(table.rows[0].vertex_facet_contacts + table.rows[0].edge_edge_contacts == 0);
   std::ifstream file(folder / "run" / "iterations.csv");
   std::string line, last;
@@ -310,7 +311,8 @@ TEST_CASE("a run says where its time went, in its summary and in run.json", "[un
     CHECK(seconds.at(part) > 0);
     sum += seconds.at(part).get<double>();
   }
-  // The parts are times of one thread. They do not overlap, except for the wait for the disk before the first step.
+  // The parts are times of one thread, so they do not overlap. Only the wait for the disk before the first step is
+  // counted twice.
   CHECK(sum - seconds.at("start").get<double>() < seconds.at("whole"));
   double rows = 0;
   for (const compare::StepMetrics& row : compare::read_steps(folder / "run").rows) rows += row.wall_ms / 1000;
@@ -371,7 +373,7 @@ TEST_CASE("without a usable device --backend cuda exits 3 and says why", "[unit]
   CHECK(!std::filesystem::exists(folder / "run"));
 }
 
-// A limit on the size of files (blocks of 512 bytes) imitates a full disk.
+// A limit of the file size (in blocks of 512 bytes) imitates a full disk.
 TEST_CASE("a run whose disk is full exits 3 and names the file", "[unit]") {
   const TemporaryFolder folder;
   const ProgramResult result = run_ogc(

@@ -1,4 +1,4 @@
-// Tests users' solids: an MSH file alone, and in a scene with cloth.
+// Tests solids that users provide: an MSH file alone, and an MSH file in a scene with cloth.
 #include <algorithm>
 #include <string>
 
@@ -32,7 +32,7 @@ Finished run(const TemporaryFolder& folder, const std::string& words) {
   return {result, reader.scene(), reader.frame(reader.frame_count() - 1)};
 }
 
-/// Returns the lowest and the highest y of a body's vertices at the end [m].
+/// Returns the lowest and the highest y of a body's vertices at the end of the run [m].
 std::pair<float, float> lowest_and_highest(const Finished& run, const compare::Body& body) {
   const auto first = run.last.positions.begin() + body.first_vertex;
   const auto [low, high] = std::minmax_element(first, first + body.vertex_count,
@@ -53,7 +53,7 @@ TEST_CASE("an MSH alone falls on a ground as a solid, of the material that is se
   CHECK(solid.tetrahedron_count == 162);
   CHECK(solid.material.solid_mu == Approx(5e4 / 2.5));
   CHECK(solid.material.solid_lambda == Approx(5e4 * 0.25 / (1.25 * 0.5)));
-  // Its own weight hardly changes its height: 500 Pa at its foot is 1 % of Young's modulus.
+  // The solid's weight causes 500 Pa at its foot, 1 % of Young's modulus, so its height hardly changes.
   const auto [low, high] = lowest_and_highest(end, solid);
   CHECK(low > 0.1f);
   CHECK(low < 0.1 + 2 * end.scene.settings.contact_radius);
@@ -84,7 +84,7 @@ TEST_CASE("a solid falls on a cloth that is held by its corners and is carried b
   CHECK(block_low > cloth_low);
   CHECK(block_low < cloth_high);
   CHECK(block_high > cloth_high);
-  // Free fall for 0.8 s is 3.1 m.
+  // In free fall the block would sink by 3.1 m in 0.8 s.
   CHECK(block_low > -0.2f);
 }
 

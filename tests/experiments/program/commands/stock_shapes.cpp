@@ -18,7 +18,8 @@ using compare::shortest;
 using compare::Vec3;
 using std::numbers::pi;
 
-/// Returns a grid of quads over (u, v) in [0, 1]²; `closes_u` and `closes_v` join its opposite sides.
+/// Returns a grid of quads; `place` maps (u, v) in [0, 1]² to a position. `closes_u` and `closes_v` join opposite
+/// sides.
 StockShape net(const std::string& name, Index rows, Index columns, bool closes_u, bool closes_v,
                const std::function<Vec3(double, double)>& place) {
   StockShape shape{name, {}, {}};
@@ -42,7 +43,7 @@ std::vector<Index> ring(Index first, Index count, bool turned) {
   return face;
 }
 
-/// Returns a closed bar whose two ends are one polygon each, with quads between them.
+/// Returns a closed bar: quads along its sides, and one polygon at each end.
 StockShape bar(const std::string& name, Index count, const std::function<double(Index)>& radius) {
   StockShape shape = net(name, 2, count, false, true, [&](double u, double v) {
     const double r = radius(static_cast<Index>(std::lround(v * count))), angle = 2 * pi * v;
@@ -78,7 +79,7 @@ StockShape sphere(Index rings, Index count) {
   return shape;
 }
 
-/// Returns a cube that was rotated by 90° about two axes, so that its coordinates contain dust.
+/// Returns a cube after two rotations by 90°, which leave tiny coordinates instead of zeros.
 StockShape box() {
   StockShape shape{"box", {}, {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}}};
   const double c = std::cos(pi / 2), s = std::sin(pi / 2);
@@ -96,7 +97,7 @@ StockShape moebius() {
     return Vec3{(1 + across * std::cos(turn / 2)) * std::cos(turn), (1 + across * std::cos(turn / 2)) * std::sin(turn),
                 across * std::sin(turn / 2)};
   });
-  // After its half twist the strip's end meets its beginning upside down.
+  // The strip is twisted by half a turn, so its end is joined upside down to its beginning.
   for (std::size_t f = shape.faces.size() - 3; f < shape.faces.size(); ++f) {
     for (Index& v : shape.faces[f]) v = v < 4 ? 3 - v : v;
   }

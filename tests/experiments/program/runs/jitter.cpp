@@ -1,4 +1,5 @@
-// Tests random offsets of a start: their size, the vertices that they move, and their bits.
+// Tests random offsets of a run's start (--jitter): their size, which vertices they move, and that their bits are
+// reproducible.
 #include "experiments/program/runs/jitter.hpp"
 
 #include <cmath>
@@ -54,7 +55,7 @@ TEST_CASE("jitter moves free vertices alone, each coordinate by up to so much, a
   const std::vector<compare::Index> groups = rigid_groups(scene);
   const float largest = GENERATE(1e-6f, 1e-4f);
   const std::vector<Vec3f> moved = jittered(scene, {.largest = largest, .seed = 3});
-  // Storing rounds coordinates below 1 m by at most half a spacing.
+  // Storing a coordinate below 1 m in single precision adds at most half a unit in the last place, 2⁻²⁵ m.
   const double room = static_cast<double>(largest) + 0x1p-25;
   double lowest = 0, highest = 0, sum = 0;
   std::size_t count = 0;
@@ -74,12 +75,13 @@ TEST_CASE("jitter moves free vertices alone, each coordinate by up to so much, a
   REQUIRE(count > 300);
   CHECK(lowest < -0.95 * static_cast<double>(largest));
   CHECK(highest > 0.95 * static_cast<double>(largest));
-  // The mean of `count` uniform offsets has the standard deviation largest/√(3 count); the limit is five of these.
+  // The mean of `count` uniform offsets has the standard deviation largest/√(3 count); the limit is five standard
+  // deviations.
   CHECK(std::abs(sum) < 5 * static_cast<double>(largest) * std::sqrt(static_cast<double>(count) / 3));
 }
 
-// The numbers were computed by integer arithmetic in Python, from the hash of random.hpp. A machine with other numbers
-// would have other runs for the same seed.
+// The expected numbers were computed by integer arithmetic in Python, from the hash of random.hpp. If a machine
+// computed other numbers, runs with the same seed would differ there.
 TEST_CASE("an offset depends on seed, vertex and coordinate alone, to the bit", "[unit]") {
   compare::Scene scene = twist();
   const experiments::Jitter jitter{.largest = 0x1p-10, .seed = 7};
@@ -156,7 +158,8 @@ TEST_CASE("jitter that a start can't have is refused by name, with the reason, b
   refused(scene + "--seed 3", {"--seed", "--jitter"});
   refused(scene + "--jitter 1e-6 --seed -1", {"--seed", "-1"});
   refused(scene + "--jitter 1e-6 --seed 1.5", {"--seed", "1.5"});
-  // The sheets are closer than the jitter. Only the audit of the start finds that they intersect.
+  // The sheets are closer to each other than the offsets are long. Only the audit of the moved start finds the
+  // intersection.
   const std::string mesh = folder
                                .write("near.obj",
                                       "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.2 1e-5\nv 0.6 0.2 1e-5\nv 0.2 0.6 1e-5\n"

@@ -1,4 +1,5 @@
-// Tests the ledger of real runs: it changes no bit, its parts add up, and it agrees with steps.csv and the frames.
+// Tests the ledger of real runs: writing it changes no bit of the run, its parts add up, and it agrees with steps.csv
+// and the frames.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -57,8 +58,8 @@ TEST_CASE("the option --ledger changes no bit, and without it steps.csv has the 
   CHECK(manifest.find("\"ledger\"") == std::string::npos);
 }
 
-// Energies are sums of some ten thousand terms in double precision; their rounding is below 10⁻¹¹ of their size. The
-// next step's momenta come from velocities that are rounded to 2⁻²⁴ of each coordinate.
+// Energies are sums of about ten thousand terms in double precision; their rounding is below 10⁻¹¹ of their size. The
+// momenta of the next step come from velocities that are rounded to 2⁻²⁴ of each coordinate.
 TEST_CASE("the parts of a step add up to the start of the next, and to the energies and vertices of its end",
           "[property]") {
   const TemporaryFolder folder;
@@ -76,7 +77,7 @@ TEST_CASE("the parts of a step add up to the start of the next, and to the energ
     INFO("step " << rows[k].step);
     const double energy = rows[k].kinetic_energy + rows[k].elastic_energy + rows[k].contact_energy +
                           rows[k].gravity_energy;
-    // The row adds terms in single precision; the limit is a thousand times their rounding.
+    // steps.csv adds the terms in single precision. The limit is a thousand times the rounding of that sum.
     CHECK(std::abs(end_of(l) - energy) < 1e-4 * size_of(l));
     CHECK(l.motion_taken <= l.motion_proposed * (1 + 1e-12) + 1e-12);
     CHECK(l.motion_taken_tangential <= l.motion_taken * (1 + 1e-12));
@@ -98,7 +99,7 @@ TEST_CASE("the parts of a step add up to the start of the next, and to the energ
                          l.momentum_truncation.*coordinate;
       return std::abs(end - next.momentum_start.*coordinate);
     };
-    // Σ m |v| ≤ √(2 Σ m · kinetic energy), and every scene here has a mass below a kilogram.
+    // Σ m |v| ≤ √(2 Σ m · kinetic energy), and the mass of every scene here is below a kilogram.
     const double size = std::sqrt(2 * rows[k].kinetic_energy) * 0x1p-23;
     CHECK(momentum(&compare::Vec3::x) < size);
     CHECK(momentum(&compare::Vec3::y) < size);
@@ -108,7 +109,8 @@ TEST_CASE("the parts of a step add up to the start of the next, and to the energ
   CHECK((taken > 0 || bounds == "planes"));
 }
 
-// The cloth falls far from everything: the guess contains gravity's impulse, and truncation takes nothing.
+// The cloth falls far from everything. So the guess contains the whole impulse of gravity, and truncation removes
+// nothing.
 TEST_CASE("in free fall truncation does nothing", "[property]") {
   const TemporaryFolder folder;
   make(folder / "run", "cloth_on_sphere --scale smoke --steps 3 --ledger --audit off");

@@ -1,4 +1,4 @@
-// Compares Eq. 29 as the run computes it with the reference's value for the same states and contact sets.
+// Compares the residual of Eq. 29 that a run computes with the reference's value for the same states and contact sets.
 #include <cmath>
 
 #include "compare/laws/measures.hpp"
@@ -19,10 +19,10 @@ std::vector<compare::StepMetrics> rows_of(const compare::Contestant& contestant,
 
 }  // namespace
 
-// Both residuals have the same positions and contact sets. They differ in f* and in arithmetic, by less than the force
-// of rounded positions, which the row bounds. Scenes are stiff and have few sweeps, so that the forces left are ten
-// times that bound and an error of a tenth shows. Yarn has no contacts, so that the reference detects new ones in its
-// guess. No bound holds any vertex.
+// Both residuals use the same positions and contact sets. They differ in f* and in arithmetic, by less than the force
+// of rounded positions, for which the row has a limit. Scenes are stiff and have few sweeps. So the remaining forces
+// are ten times this limit, and an error of a tenth would be detected. Yarn has no contacts, so that the reference
+// detects new ones in its guess loop. No bound stops any vertex.
 TEST_CASE("what a step leaves of forces is what the reference finds, but for rounding", "[figure]") {
   struct Case {
     std::string name;
@@ -70,8 +70,8 @@ TEST_CASE("vertices that a bound holds are counted apart from those that sweeps 
   CHECK(apart >= 3);
 }
 
-// Nothing touches, so that a run with s − 1 iterations ends in the state before the last sweep of a run with s. The
-// initial velocities bend the cloth, so that sweeps have an effect.
+// Nothing touches. So a run with s − 1 iterations ends in the state before the last sweep of a run with s iterations.
+// The initial velocities bend the cloth, so that sweeps have an effect.
 TEST_CASE("the last sweep's motion is that of a run with one sweep more", "[unit]") {
   compare::Scene scene = make_scene("cloth_on_sphere", Scale::smoke);
   scene.settings.steps = 1;
@@ -100,7 +100,7 @@ TEST_CASE("the last sweep's motion is that of a run with one sweep more", "[unit
       };
       swept += squared(last[i], before[i]), moved += squared(last[i], start[i]);
     }
-    // Masses of `fast` are in single precision, so that shares differ by 2u.
+    // The fast path stores masses in single precision, so the shares of both sides may differ by 2 · 2⁻²⁴.
     CHECK(rows.front().last_motion == Approx(std::sqrt(swept / moved)).epsilon(2 * 0x1p-24));
     CHECK(rows.front().last_motion > 0);
   }

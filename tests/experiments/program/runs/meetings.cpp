@@ -1,4 +1,5 @@
-// Tests meetings of real runs: counting changes no bit, runs with bounds have none, and runs without bounds have some.
+// Tests how runs count meetings (primitives that pass through each other during a step). Counting changes no bit, runs
+// with bounds have no meetings, and runs without bounds have some.
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -15,8 +16,8 @@ using namespace ogc::tests;
 
 namespace {
 
-/// Returns a straight curve of four edges along x that sinks through a fixed curve along z. Both are driven, so that
-/// only bounds stop them.
+/// Returns a straight curve of four edges along x that sinks through a fixed curve along z. Both have prescribed
+/// motions, so that only bounds stop them.
 compare::Scene curve_through_curve(compare::Bounds bounds) {
   compare::Scene scene;
   scene.name = "curves";

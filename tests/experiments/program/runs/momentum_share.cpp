@@ -1,4 +1,5 @@
-// Compares the loss of a guess loop with manual values: a share of the momentum, also if directions cancel.
+// Compares the loss of the guess loop with values computed by hand. The loss is a share of the momentum's sum of
+// moduli, so it is valid even if opposite momenta cancel.
 #include "experiments/program/runs/momentum_share.hpp"
 
 #include "experiments/scenes/shapes.hpp"
@@ -26,7 +27,8 @@ std::vector<compare::Vec3f> velocities(float left, float right) {
   return all;
 }
 
-/// Returns a row of a step that did all guess rounds and lost the share `lost` of its net momentum.
+/// Returns a row of steps.csv with the largest number of guess rounds and with `lost`, the lost share of the net
+/// momentum.
 compare::StepMetrics row_of(std::int64_t step, double lost) {
   compare::StepMetrics row;
   row.step = step;
@@ -37,8 +39,9 @@ compare::StepMetrics row_of(std::int64_t step, double lost) {
 
 }  // namespace
 
-// A motion up at 1 m/s and down at 0.9 m/s has a net momentum of (1 − 0.9)/(1 + 0.9), a nineteenth. If the whole motion
-// down is lost, the loss is 0.9/0.1 of the net momentum, and 0.9/1.9 of the sum of moduli.
+// One sheet moves up at 1 m/s, the other down at 0.9 m/s. The net momentum is (1 − 0.9)/(1 + 0.9), a nineteenth of the
+// sum of moduli. If the whole motion down is lost, the loss is 0.9/0.1 of the net momentum and 0.9/1.9 of the sum of
+// moduli.
 TEST_CASE("what is lost is a share of what was to move, whatever cancels in the sum", "[unit]") {
   MomentumShare share(two_sheets());
   share.begin_after(4, velocities(1, -0.9f));
@@ -60,7 +63,7 @@ TEST_CASE("nothing is said of steps whose start is not known, whose guess ended 
   CHECK(share.lost(row_of(6, 0)) == 0.0);
 }
 
-// Gravity changes velocities by 98.1 mm/s in h = 10 ms, which cancels a motion up at 98.1 mm/s.
+// In h = 10 ms gravity changes velocities by 98.1 mm/s, which cancels a motion up at 98.1 mm/s.
 TEST_CASE("what gravity changes in the step is part of what was to move, and fixed bodies are not", "[unit]") {
   compare::Scene scene = two_sheets();
   scene.gravity = {0, -9.81, 0};

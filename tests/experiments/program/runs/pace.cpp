@@ -1,5 +1,5 @@
-// Tests that long runs react to signals: a run checks for them within a second, or after each step if a step takes
-// longer, however far the next frame is.
+// Tests that long runs react to signals. A run checks for signals within a second, or after each step if a step takes
+// longer, even if the next frame is many steps away.
 #include "experiments/program/runs/pace.hpp"
 
 #include <chrono>
@@ -26,7 +26,7 @@ namespace {
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-/// Holds what a call of `advance` found in the folder at its begin, and its duration.
+/// One call of `advance`: the state of the run folder when the call began, and the call's duration.
 struct Call {
   std::int64_t before = 0, steps = 0;
   double seconds = 0;
@@ -34,7 +34,7 @@ struct Call {
   std::int64_t saved = 0;  ///< step of the checkpoint
 };
 
-/// Simulates one triangle at rest, with steps of a given duration.
+/// Simulates one triangle at rest. Each step takes the given time.
 class SlowSimulation : public compare::Simulation {
  public:
   SlowSimulation(const compare::Scene& scene, std::filesystem::path folder, std::chrono::milliseconds step,
@@ -99,7 +99,7 @@ std::vector<Call> run_slowly(const std::filesystem::path& folder, std::int64_t s
   return calls;
 }
 
-/// Returns rows as steps.csv has them, without times.
+/// Returns rows in the format of steps.csv, without times.
 std::string rows_text(std::vector<compare::StepMetrics> rows) {
   for (compare::StepMetrics& row : rows) row.wall_ms = 0;
   return compare::step_lines(rows, 0);

@@ -1,5 +1,5 @@
-// Tests runs that signals interrupt at random moments and that are resumed: everything but times equals an undisturbed
-// run.
+// Tests runs that signals interrupt at random moments and that are then resumed. Everything except times must equal an
+// uninterrupted run.
 #include <map>
 
 #include "compare/files/bytes.hpp"
@@ -74,7 +74,8 @@ TEST_CASE("what can't be resumed to the same bits is refused, and the message sa
   refused({"steps.csv", "not every row"});
 }
 
-// A simulation, its audits and its files need the result of resumed_run, so that none of them has begun when it throws.
+// The simulation, its audits and its files are constructed from the result of resumed_run. So none of them exists yet
+// when resumed_run throws.
 TEST_CASE("what can't be resumed is refused before anything is computed, and the folder stays as it is", "[unit]") {
   const TemporaryFolder folder;
   const fs::path run = folder / "run";
@@ -129,7 +130,7 @@ TEST_CASE("the help of run says that every solver resumes", "[unit]") {
   CHECK(!contains(help, {"Not with --solver ipc"}));
 }
 
-// The largest file size is 1900 blocks of 512 bytes: frames are smaller, the trajectory is larger.
+// The file size is limited to 1900 blocks of 512 bytes. Frames are smaller, the trajectory is larger.
 TEST_CASE("a run that a full disk ended exits 3, names the file, and goes on to the same bits when there is room",
           "[property]") {
   const TemporaryFolder folder;

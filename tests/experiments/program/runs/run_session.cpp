@@ -1,4 +1,4 @@
-// Runs a simulation with planted faults: the audit must catch each fault, stop the run and keep the last good state.
+// Runs a simulation with planted faults. The audit must find each fault, stop the run and keep the last good state.
 #include "experiments/program/runs/run_session.hpp"
 
 #include <limits>
@@ -39,7 +39,7 @@ compare::Scene two_bodies() {
 
 enum class Fault { none, crossing, beyond_bound, unsafe_bound, uncovered, half_space, not_finite, bound_status };
 
-/// Moves nothing until the fault.
+/// A simulation in which nothing moves until the planted fault.
 class FakeSimulation : public compare::Simulation {
  public:
   FakeSimulation(const compare::Scene& scene, Fault fault) : fault_(fault) {
@@ -145,7 +145,7 @@ TEST_CASE("the audit catches each planted fault, names it, and keeps the last go
   CHECK(summary.failed_states == 1);
 }
 
-// The sheets are 0.25 m apart, and γ_p times this is 0.1125 m.
+// The sheets are 0.25 m apart; γ_p times this distance is 0.1125 m.
 TEST_CASE("with planes the audit lists pairs that nothing holds apart, and half-spaces that are not kept",
           "[property]") {
   const auto [fault, words] = GENERATE(table<Fault, std::string>(

@@ -1,5 +1,5 @@
-// Tests runs whose start has intersections (--tolerate-start): which pairs are excluded, when they close, and what is
-// reported.
+// Tests runs whose start has intersections (--tolerate-start): which pairs are excluded, when an excluded pair is
+// closed (counts as a contact again), and what the run reports.
 #include "experiments/program/runs/start_pairs.hpp"
 
 #include <fstream>
@@ -21,8 +21,8 @@ using experiments::StartPairs;
 
 namespace {
 
-/// Returns a triangle that rises at `speed`, with its first corner below a large fixed triangle and the other two
-/// above.
+/// Returns a triangle that rises at `speed` [m/s]. Its first corner is below a large fixed triangle, its other two
+/// corners are above.
 compare::Scene tip_through_floor(double speed) {
   compare::Scene scene;
   scene.name = "tip";
@@ -73,7 +73,8 @@ std::vector<std::size_t> open_pairs(const std::filesystem::path& run) {
 
 }  // namespace
 
-// Both sides of the tip pass through the floor. Their three vertices and the floor's three make nine pairs.
+// Both edges at the triangle's tip pass through the floor. Their three vertices and the floor's three vertices make
+// nine pairs.
 TEST_CASE("start pairs are the vertices of what meets, and close where nothing that has them meets", "[unit]") {
   compare::Scene scene = tip_through_floor(0);
   StartPairs pairs(scene, positions_of(scene));
@@ -82,7 +83,7 @@ TEST_CASE("start pairs are the vertices of what meets, and close where nothing t
   CHECK(pairs.tolerant_scene().excluded_pairs.size() == 9);
   CHECK(!pairs.close_apart(positions_of(scene)));
   scene.mesh.positions[1].y = -0.1;
-  // the tip's first side is free, but its opposite side now intersects, so that its pairs stay open
+  // The first edge at the tip is free, but the opposite edge now intersects, so the pairs of its vertices stay open.
   CHECK(!pairs.close_apart(positions_of(scene)));
   scene.mesh.positions[2].y = -0.1;
   CHECK(pairs.close_apart(positions_of(scene)));
@@ -114,7 +115,7 @@ TEST_CASE("a start that intersects is left to come apart, says how far it is, an
   CHECK(open.front() == 9);
   CHECK(open.back() == 0);
   CHECK(std::ranges::is_sorted(open, std::greater{}));
-  // It rises at 0.6 m/s, returns after 0.12 s, and lies on the floor at 0.6 s.
+  // The triangle rises at 0.6 m/s, is back after 0.12 s, and lies on the floor at 0.6 s.
   const compare::RunReader reader(run);
   CHECK(compare::audit(build_topology(reader.scene()),
                        compare::to_double(reader.frame(reader.frame_count() - 1).positions))
@@ -141,7 +142,7 @@ TEST_CASE("a clean start that is tolerated is an ordinary run, with a word", "[u
   CHECK(!nlohmann::json::parse(result.out).contains("start_pairs"));
 }
 
-// Audits exclude only open pairs. Any other intersection would end the run with another status than 0.
+// Audits ignore open pairs only. Any other intersection would end the run with an exit status other than 0.
 TEST_CASE("sheets that start through each other let no pair in that did not meet at the start, with every bound",
           "[property]") {
   const TemporaryFolder folder;
@@ -174,7 +175,7 @@ TEST_CASE("an audit prints what meets as a scene excludes it", "[unit]") {
   CHECK(state.at("excluded_pairs").size() == 1);
   CHECK(state.at("excluded_pairs")[0].at("bodies") == std::vector<std::string>{"cloth", "cloth"});
   CHECK(state.at("excluded_pairs")[0].at("vertices").size() == 9);
-  // A scene file with these pairs is accepted, and its run starts.
+  // A scene file with these excluded pairs must be accepted, and its run must start.
   const nlohmann::json scene{{"format_version", 2},
                              {"bodies", {{{"name", "cloth"}, {"mesh", "m.obj"}}}},
                              {"excluded_pairs", state.at("excluded_pairs")},

@@ -1,5 +1,5 @@
-// Tests the properties of suggestions, which are inequalities between numbers and the mesh, on meshes that differ in
-// one respect each.
+// Tests the properties of suggested settings. They are inequalities between the suggested numbers and sizes of the
+// mesh. The meshes differ from each other in one property each.
 #include "experiments/program/runs/suggestion.hpp"
 
 #include <algorithm>
@@ -104,8 +104,8 @@ compare::Mesh strip(double edge) {
   return mesh;
 }
 
-/// Returns by how much the mesh sinks along x on average [m] when it hangs at rest from its vertices of least x.
-/// Settings are the suggested ones, with this number of iterations.
+/// Returns how far the mesh sinks along x on average [m] when it hangs at rest from its vertices of least x. The
+/// settings are the suggested ones, but with this number of iterations.
 double sunk(const compare::Mesh& mesh, const compare::Material& material, const Suggestion& found,
             std::int64_t iterations) {
   compare::Scene scene;
@@ -129,8 +129,8 @@ double sunk(const compare::Mesh& mesh, const compare::Material& material, const 
   return sum / static_cast<double>(mesh.positions.size());
 }
 
-/// Returns the share by which the mesh sinks further than with ten times as many sweeps. Their own share, the tenth
-/// power, is negligible.
+/// Returns the relative amount by which the mesh sinks further than with ten times as many sweeps. The error that
+/// remains with ten times as many sweeps is negligible: the tenth power of the measured one.
 double measured_excess(const compare::Mesh& mesh, const compare::Material& material, const Suggestion& found) {
   const auto iterations = static_cast<std::int64_t>(found.iterations.value);
   return sunk(mesh, material, found, iterations) / sunk(mesh, material, found, 10 * iterations) - 1;
@@ -138,8 +138,8 @@ double measured_excess(const compare::Mesh& mesh, const compare::Material& mater
 
 }  // namespace
 
-// Strips of 4 × 16 cells hang by a short side. Edges of 6 cm need fewer sweeps for 1 % than the limit, edges of 2 cm
-// need more. The rate follows from the exponent of method.md §7.7, about ln(1 + 1/number).
+// Strips of 4 × 16 cells hang by a short side. For an error of 1 %, edges of 6 cm need fewer sweeps than the limit,
+// edges of 2 cm need more. The error decreases at the rate of method.md §7.7, about ln(1 + 1/number) per sweep.
 TEST_CASE("suggested iterations leave what hangs at most 1 % longer, or as much longer as is said", "[property]") {
   const auto hung = [](double edge) {
     const compare::Mesh mesh = strip(edge);

@@ -1,5 +1,5 @@
-// Tests warnings: a probable mistake in a scene is reported once, with its number and a remedy; a correct scene causes
-// no warning.
+// Tests warnings. A probable mistake in a scene is reported once, with a number and a remedy. A correct scene causes no
+// warning.
 #include "experiments/program/runs/warnings.hpp"
 
 #include <fstream>
@@ -40,7 +40,8 @@ compare::StepMetrics numbered(std::int64_t step) {
   return row;
 }
 
-/// Returns the warnings at the end of a run of the scene, and checks that its JSON and run.json agree.
+/// Returns the warnings at the end of a run of the scene. Checks that the output of --json and run.json contain the
+/// same warnings.
 std::vector<std::string> warnings_of(compare::Scene scene) {
   const TemporaryFolder folder;
   round_to_single(scene);
@@ -54,7 +55,7 @@ std::vector<std::string> warnings_of(compare::Scene scene) {
         warnings);
   const std::string last = words.out.substr(words.out.rfind('\n', words.out.size() - 2) + 1);
   for (const std::string& warning : warnings) CHECK_THAT(last, Contains(warning));
-  // Each kind is printed once during the run.
+  // Each kind of warning must be printed once during the run.
   std::size_t said = 0;
   for (std::size_t at = words.err.find("warning: "); at != std::string::npos; at = words.err.find("warning: ", at + 1))
     ++said;
@@ -127,7 +128,7 @@ TEST_CASE("steps that leave a tenth of the free vertices' force are warned of at
   CHECK(warnings.list().empty());
 }
 
-// The sheet's diagonal is √2 m; gravity changes speeds by 98.1 mm/s in h = 10 ms.
+// The diagonal of the sheet is √2 m. In h = 10 ms gravity changes speeds by 98.1 mm/s.
 TEST_CASE("a tolerance of IPC above what gravity changes in a step is warned of, by its number and another one",
           "[unit]") {
   compare::Scene scene = sheet();
@@ -157,8 +158,8 @@ TEST_CASE("a run without bounds says at its first and last line that nothing is 
   CHECK_THAT(warnings[0], Contains("bounds=off") && Contains("guarantees nothing"));
 }
 
-// Bounds allow γ_p r_q = 0.45 · 40 mm in each of 16 rounds, at most 0.29 m a step, or 29 m/s for h = 10 ms. In free
-// flight only truncation takes momentum.
+// In each of 16 rounds the bounds allow γ_p r_q = 0.45 · 40 mm, so at most 0.29 m in a step, or 29 m/s for h = 10 ms.
+// In free flight only truncation removes momentum.
 TEST_CASE("a run of a sheet thrown faster than its bounds allow warns; half as fast as they allow it does not",
           "[property]") {
   compare::Scene scene = sheet();
@@ -170,7 +171,7 @@ TEST_CASE("a run of a sheet thrown faster than its bounds allow warns; half as f
   CHECK(warnings_of(scene).empty());
 }
 
-// Bounds allow 29 m/s, as above; the handle moves at 100 m/s.
+// The bounds allow 29 m/s (previous test). The handle moves at 100 m/s.
 TEST_CASE("a run whose handles fall behind by more than r warns with the lag", "[property]") {
   compare::Scene scene = sheet();
   compare::PrescribedMotion motion;

@@ -1,4 +1,5 @@
-// Tests yarn with bounds and with a penalty method: curves that are hooked, knotted, or shorter than their radius.
+// Tests yarn with bounds and with a penalty method: curves that are hooked into each other, knotted, or shorter than
+// their contact radius.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -22,7 +23,8 @@ using std::numbers::pi;
 
 namespace {
 
-/// Returns curves in free space, each a rod with the yarn of yarn_stretch and this k_c [N/m].
+/// Returns curves in free space. Each is a rod with the yarn material of yarn_stretch and the contact stiffness
+/// `stiffness` [N/m].
 compare::Scene yarn_of(const std::vector<Vec3>& positions, const std::vector<Edge>& loose, double stiffness) {
   compare::Scene scene;
   scene.name = "yarn";
@@ -43,7 +45,7 @@ compare::Scene yarn_of(const std::vector<Vec3>& positions, const std::vector<Edg
 
 constexpr Index ring_size = 24;
 
-/// Returns two hooked rings whose far sides are pulled apart with a tension far above k_c r.
+/// Returns two rings that are hooked into each other. Their far sides are pulled apart by a tension far above k_c r.
 compare::Scene hooked_rings(compare::Bounds bounds) {
   std::vector<Vec3> positions;
   std::vector<Edge> loose;
@@ -68,8 +70,8 @@ compare::Scene hooked_rings(compare::Bounds bounds) {
   return scene;
 }
 
-/// Returns the signed number of times that the second ring passes through the first in this motion, summed over its
-/// meetings.
+/// Returns how often the second ring passes through the first one during this motion; passes in opposite directions
+/// count +1 and −1. `count` gets the number of meetings.
 int signed_count(const compare::Topology& topology, const std::vector<Vec3>& from, const std::vector<Vec3>& to,
                  std::size_t& count) {
   const auto place = [&](double t) {
@@ -107,7 +109,7 @@ TEST_CASE("yarn: hooked rings that are pulled apart stay hooked with bounds", "[
   const auto run = audited(folder, "run", hooked_rings(compare::Bounds::ball));
   CHECK(run.at("audit").at("meetings") == 0);
   CHECK(run.at("guarantee_kept") == true);
-  // The tension is far above k_c r, the largest force of a quadratic contact.
+  // The tension must be far above k_c r, the largest force of a quadratic contact.
   CHECK(0.1 * compare::read_steps(folder / "run").rows.back().mean_stretch > 10 * 2 * 1e-3);
 }
 
@@ -154,8 +156,8 @@ TEST_CASE("yarn: a figure-eight knot that is pulled tight has no meeting", "[pro
   const auto run = audited(folder, "run", scene);
   CHECK(run.at("audit").at("meetings") == 0);
   CHECK(run.at("guarantee_kept") == true);
-  // The knot is tight: it is shorter than at the start, where its stretch is 3, and touches itself at its four
-  // crossings. It oscillates on the stiffness of its contacts, whose depth is half of r at the smallest distance.
+  // The knot must be tight: shorter than at the start, where its stretch is 3, and in contact with itself at its four
+  // crossings. It oscillates on the stiffness of these contacts. At the smallest distance their depth is half of r.
   const std::vector<compare::StepMetrics> rows = compare::read_steps(folder / "run").rows;
   const compare::StepMetrics& last = rows.back();
   CHECK(last.mean_stretch < 2);
@@ -169,7 +171,7 @@ TEST_CASE("yarn: a figure-eight knot that is pulled tight has no meeting", "[pro
 
 TEST_CASE("yarn: of a smooth curve with segments of a tenth of r neighbours are no contact", "[property]") {
   constexpr double r = 3e-3, segment = r / 10;
-  // The curves bend and wind with radii of at least 1.2 r, and come no nearer to themselves than r.
+  // Radii of curvature are at least 1.2 r, and no curve comes nearer to another part of itself than r.
   const auto helix = [](double t) { return Vec3{1.2 * r * std::cos(t), 1.2 * r * std::sin(t), 0.4 * r * t}; };
   const auto ring = [](double t) { return Vec3{1.2 * r * std::cos(t), 1.2 * r * std::sin(t), 0}; };
   const auto line = [](double t) { return Vec3{r * t, 0.3 * r * t, 0.2 * r * t}; };
@@ -192,13 +194,13 @@ TEST_CASE("yarn: of a smooth curve with segments of a tenth of r neighbours are 
   CHECK(count_of(line, 10 * r, false) == 0);
   CHECK(count_of(ring, 2 * pi * 1.2 * r, true) == 0);
   CHECK(count_of(helix, 30 * r, false) == 0);
-  // If the turns are closer than r, the curve is in contact with its next turn.
+  // In this helix adjacent turns are closer than r, so they are in contact.
   const auto narrow = [](double t) { return Vec3{1.2 * r * std::cos(t), 1.2 * r * std::sin(t), 0.1 * r * t}; };
   CHECK(count_of(narrow, 30 * r, false) > 0);
 }
 
-// From the fifth step on, touching strands that are nearly parallel alternate between pairs of closest points.
-// Detections without progress then end a step before its 50 iterations.
+// From the fifth step on, touching strands that are nearly parallel alternate between pairs of closest points. Then
+// detections without a better residual end a step before its 50 iterations.
 TEST_CASE("yarn: Newton's steps of a knit that is stretched end, and the run says that states were audited",
           "[property]") {
   const TemporaryFolder folder;
