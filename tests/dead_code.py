@@ -32,19 +32,16 @@ WINDOW = "tests look through it into what is private"
 CALLED = "a library or the system calls it by this name"
 # Names that are unused on purpose, each with its reason. An entry whose name does not exist is a finding itself.
 KEPT = {
-    **dict.fromkeys(("boundary_paths", "has_normals", "in_edge_only_block", "is_hull_edge", "locate",
-                     "part_contacts",
-                     "penetration_depths",
-                     "solid_angle", "surface_topology", "volumetric_contacts"), PAPER),
-    **dict.fromkeys(("bounds_above_exact", "edge_edge_by_definition", "edge_edge_over_all_pairs", "edge_edge_with_tree",
-                     "reference_sweep", "sensitivity", "stencil_derivatives", "vertex_facet_by_definition",
-                     "vertex_facet_with_tree"), ORACLE),
+    **dict.fromkeys(("boundary_paths", "has_normals", "in_edge_only_block", "is_hull_edge", "locate", "part_contacts",
+                     "penetration_depths", "solid_angle", "surface_topology", "volumetric_contacts"), PAPER),
+    **dict.fromkeys(("edge_edge_by_definition", "edge_edge_over_all_pairs", "reference_sweep",
+                     "sensitivity", "stencil_derivatives", "vertex_facet_by_definition"), ORACLE),
     "step_columns": WINDOW,
     "read_mesh": "meshes alone, without where their elements come from: what tests read",
     "declaration": "an object whose constructor adds rows to the table of settings",
-    **dict.fromkeys(("datum", "main", "ogc_activation", "ogc_barrier", "ogc_ccd", "ogc_closest_face",
+    **dict.fromkeys(("main", "ogc_activation", "ogc_barrier", "ogc_ccd", "ogc_closest_face",
                      "ogc_closest_points", "ogc_detect_vertex_facet", "ogc_friction_force", "ogc_spring",
-                     "ogc_tetrahedron", "ogc_truncate", "ogc_volume_force", "reference_point"), CALLED),
+                     "ogc_tetrahedron", "ogc_truncate", "ogc_volume_force"), CALLED),
 }
 
 

@@ -1,5 +1,5 @@
 // The contact sets of the paper as plain definitions, for comparison with the detections and with each other. Every
-// function visits all pairs, except the two with a tree.
+// function visits all pairs.
 #pragma once
 
 #include <span>
@@ -17,18 +17,12 @@ std::vector<compare::VertexFacetContact> vertex_facet_by_definition(const compar
 /// Returns F_OGC by Algorithm 1 over all pairs, line by line, with the constructive equations.
 std::vector<compare::VertexFacetContact> vertex_facet_over_all_pairs(const compare::DetectIn& in);
 
-/// Returns F_OGC by Algorithm 1 with its sphere query (line 3) by CGAL's tree, line by line, threaded.
-std::vector<compare::VertexFacetContact> vertex_facet_with_tree(const compare::DetectIn& in);
-
 /// Returns E_OGC by Eq. 17 (corrected: method.md §1.2, §1.3): exact closest points as quotients, by comparing the
 /// distances of all pairs of features, then DefinedBlocks.
 std::vector<compare::EdgeEdgeContact> edge_edge_by_definition(const compare::DetectIn& in);
 
 /// Returns E_OGC by Algorithm 2 (with the same corrections) over all pairs, with the constructive equations.
 std::vector<compare::EdgeEdgeContact> edge_edge_over_all_pairs(const compare::DetectIn& in);
-
-/// Returns E_OGC by Algorithm 2 (with the same corrections) with its sphere query (line 3) by CGAL's tree, threaded.
-std::vector<compare::EdgeEdgeContact> edge_edge_with_tree(const compare::DetectIn& in);
 
 /// Returns V_OGC(t): for each triangle the vertices in contact with a face that the triangle owns, ascending, one entry
 /// for each contact.
