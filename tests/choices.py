@@ -11,9 +11,10 @@ that a `switch` without `default` names whoever misses a new enumerator. What th
 """
 
 import re
-import sys
 import tempfile
 from pathlib import Path
+
+from house import run
 
 ROOMS = ("compare", "reference", "fast", "experiments")
 SUFFIXES = {".hpp", ".cpp", ".cu", ".cuh"}
@@ -88,16 +89,5 @@ def self_test():
         return wrong
 
 
-def main(arguments):
-    if len(arguments) != 1:
-        print(__doc__, file=sys.stderr)
-        return 2
-    found = self_test()
-    if not found and arguments[0] != "--self-test":
-        found = list(findings(Path(arguments[0])))
-    print("\n".join(found) if found else "every choice is asked by a switch or a trait")
-    return 1 if found else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    run(__doc__, self_test, lambda root: findings(Path(root)))

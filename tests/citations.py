@@ -18,10 +18,9 @@ A source file is cited by its path from the root, in documents and in sources; o
 """
 
 import re
-import subprocess
-import sys
-import tempfile
 from pathlib import Path
+
+from house import run, tracked
 
 HISTORY = {"CHANGELOG.md"}  # describes the past
 # Documents that programs write, by the code that names them. An entry that nothing cites is a finding itself.
@@ -171,25 +170,6 @@ def normal(path):
     return "/".join(parts)
 
 
-def tracked(source):
-    """Returns the texts of all files that git tracks; the names of those that are not text."""
-    names = subprocess.run(["git", "-C", source, "ls-files"], capture_output=True, text=True,
-                           check=True).stdout.split("\n")
-    files = {}
-    for name in filter(None, names):
-        path = Path(source) / name
-        if not path.is_file():
-            continue
-        try:
-            files[name] = "" if path.suffix in SKIPPED else path.read_text(encoding="utf-8")
-        except UnicodeDecodeError:
-            files[name] = ""
-    own = "tests/" + Path(__file__).name
-    if own in files:
-        files[own] = ""  # its own planted citations
-    return files
-
-
 SOUND = {
     "README.md": "See [the method](compare/method.md), [its energies](compare/method.md#4-energies), `method.md` §4.\n",
     "compare/method.md": "# Method\n\n## 4. Energies\n\n### 4.2 Contact\n\n## 5b. Planes\n\n**In bold.** Words.\n",
@@ -226,33 +206,17 @@ def self_test():
         found = House({**SOUND, name: text}).findings
         if found != [f"{name}:{line}: {message}"]:
             failures.append(f"self-test: expected {name}:{line}: {message}; got {found}")
-    with tempfile.TemporaryDirectory() as folder:
-        for command in (["init", "-q"], ["add", "."]):
-            (Path(folder) / "README.md").write_text("nothing" + ".md\n")
-            subprocess.run(["git", "-C", folder, *command], check=True, capture_output=True)
-        found = House(tracked(folder)).findings
-        if found != ["README.md:1: there is no document nothing" + ".md"]:
-            failures.append(f"self-test: in a repository: {found}")
     return failures
 
 
-def main(arguments):
-    if len(arguments) != 1:
-        print(__doc__, file=sys.stderr)
-        return 2
-    findings = self_test()
-    if arguments[0] != "--self-test":
-        files = tracked(arguments[0])
-        house = House(files)
-        findings += house.findings
-        if not house.documents:
-            findings.append(f"{arguments[0]}: no documents there")
-        findings += [f"tests/citations.py: nothing cites {name}: remove it"
-                     for name in sorted(set(WRITTEN) - house.used)]
-    for finding in findings:
-        print(finding)
-    return 1 if findings else 0
+def findings(root):
+    own = "tests/citations.py"  # has planted citations
+    house = House({name: "" if Path(name).suffix in SKIPPED or name == own else text
+                   for name, text in tracked(root).items()})
+    unused = sorted(set(WRITTEN) - house.used)
+    return [*house.findings, *(f"{own}: nothing cites {name}: remove it" for name in unused),
+            *([] if house.documents else [f"{root}: no documents there"])]
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    run(__doc__, self_test, findings)

@@ -11,9 +11,8 @@ It compares words, not meanings: a name that two things share counts as used whe
 import ast
 import collections
 import re
-import subprocess
-import sys
-from pathlib import Path
+
+from house import run, tracked
 
 ROOMS = ("compare", "reference", "fast", "experiments")
 COMMENTS_AND_TEXTS = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'', re.S)
@@ -32,19 +31,16 @@ WINDOW = "tests look through it into what is private"
 CALLED = "a library or the system calls it by this name"
 # Names that are unused on purpose, each with its reason. An entry whose name does not exist is a finding itself.
 KEPT = {
-    **dict.fromkeys(("boundary_paths", "has_normals", "in_edge_only_block", "is_hull_edge", "locate",
-                     "part_contacts",
-                     "penetration_depths",
-                     "solid_angle", "surface_topology", "volumetric_contacts"), PAPER),
-    **dict.fromkeys(("bounds_above_exact", "edge_edge_by_definition", "edge_edge_over_all_pairs", "edge_edge_with_tree",
-                     "reference_sweep", "sensitivity", "stencil_derivatives", "vertex_facet_by_definition",
-                     "vertex_facet_with_tree"), ORACLE),
+    **dict.fromkeys(("boundary_paths", "has_normals", "in_edge_only_block", "is_hull_edge", "locate", "part_contacts",
+                     "penetration_depths", "solid_angle", "surface_topology", "volumetric_contacts"), PAPER),
+    **dict.fromkeys(("edge_edge_by_definition", "edge_edge_over_all_pairs", "reference_sweep",
+                     "sensitivity", "stencil_derivatives", "vertex_facet_by_definition"), ORACLE),
     "step_columns": WINDOW,
     "read_mesh": "meshes alone, without where their elements come from: what tests read",
     "declaration": "an object whose constructor adds rows to the table of settings",
-    **dict.fromkeys(("datum", "main", "ogc_activation", "ogc_barrier", "ogc_ccd", "ogc_closest_face",
+    **dict.fromkeys(("main", "ogc_activation", "ogc_barrier", "ogc_ccd", "ogc_closest_face",
                      "ogc_closest_points", "ogc_detect_vertex_facet", "ogc_friction_force", "ogc_spring",
-                     "ogc_tetrahedron", "ogc_truncate", "ogc_volume_force", "reference_point"), CALLED),
+                     "ogc_tetrahedron", "ogc_truncate", "ogc_volume_force"), CALLED),
 }
 
 
@@ -77,12 +73,6 @@ def dead_functions(files):
     return sorted(name for name in alone if not called_by_name.fullmatch(name))
 
 
-def tracked(root, *patterns):
-    command = ["git", "-C", root, "ls-files", *patterns]
-    found = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
-    return {path: (Path(root) / path).read_text(errors="replace") for path in found if (Path(root) / path).is_file()}
-
-
 def self_test():
     """Returns sentences about planted code that is judged wrongly."""
     used = {"a.hpp": "int used(int x);\nstruct Used {\n  int member() const;\n};\nconstexpr int limit = 3;\n",
@@ -111,24 +101,16 @@ def self_test():
     return [f"self-test: {words}" for words in wrong]
 
 
-def main(arguments):
-    if len(arguments) != 1:
-        print(__doc__, file=sys.stderr)
-        return 2
-    findings = self_test()
-    if arguments[0] != "--self-test":
-        files = tracked(arguments[0], *(f"{room}/*.{end}" for room in ROOMS
-                                        for end in ("cpp", "hpp", "cu", "cuh", "in")))
-        dead, stale = dead_names(files, KEPT)
-        words = "nothing but tests uses it: remove it, or say in KEPT (tests/dead_code.py) what it is for"
-        findings += [f"{name}: {words}" for name in dead]
-        findings += [f"{name}: in KEPT, but gone: remove it there" for name in stale]
-        python = dead_functions(tracked(arguments[0], "*.py"))
-        findings += [f"{name}: nothing names this function: remove it" for name in python]
-        findings += [] if files else [f"{arguments[0]}: no source files there"]
-    print("\n".join(findings))
-    return 1 if findings else 0
+def findings(root):
+    files = tracked(root, *(f"{room}/*.{end}" for room in ROOMS for end in ("cpp", "hpp", "cu", "cuh", "in")))
+    dead, stale = dead_names(files, KEPT)
+    words = "nothing but tests uses it: remove it, or say in KEPT (tests/dead_code.py) what it is for"
+    yield from (f"{name}: {words}" for name in dead)
+    yield from (f"{name}: in KEPT, but gone: remove it there" for name in stale)
+    yield from (f"{name}: nothing names this function: remove it" for name in dead_functions(tracked(root, "*.py")))
+    if not files:
+        yield f"{root}: no source files there"
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    run(__doc__, self_test, findings)

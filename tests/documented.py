@@ -12,9 +12,9 @@ aliases, forward declarations, and what stands in a namespace without a name.
 """
 
 import re
-import subprocess
 import sys
-from pathlib import Path
+
+from house import run, tracked
 
 # The least share by room.
 THRESHOLDS = {"compare": 0.98, "reference": 0.90, "fast": 0.75, "experiments": 0.95}
@@ -160,9 +160,7 @@ def counts(files):
 
 
 def headers_of(source, room):
-    names = subprocess.run(["git", "-C", source, "ls-files", room], capture_output=True, text=True, check=True).stdout
-    return {name: (Path(source) / name).read_text(encoding="utf-8") for name in names.split("\n")
-            if name.endswith(HEADERS) and (Path(source) / name).is_file()}
+    return {name: text for name, text in tracked(source, room).items() if name.endswith(HEADERS)}
 
 
 PLANTED = """
@@ -218,30 +216,20 @@ def self_test():
     return [] if found == EXPECTED else [f"self-test: expected {EXPECTED}, got {found}"]
 
 
-def main(arguments):
-    findings = self_test()
-    if len(arguments) == 3 and arguments[1] == "--list":
-        for name, text in headers_of(arguments[0], arguments[2]).items():
-            for one in Header(text).found:
-                if not one.documented:
-                    print(f"{name}:{one.line + 1}: {one.name}")
-        return 0
-    if len(arguments) != 1:
-        print(__doc__, file=sys.stderr)
-        return 2
-    if arguments[0] != "--self-test":
-        for room, least in THRESHOLDS.items():
-            documented, total = counts(headers_of(arguments[0], room))
-            share = documented / max(total, 1)
-            print(f"{room}: {documented} of {total} public declarations documented, {100 * share:.1f} %",
-                  file=sys.stderr)
-            if share < least:
-                findings.append(f"{room}: {100 * share:.1f} % of the public declarations are documented, "
-                                f"{100 * least:.0f} % "
-                                f"are asked for: tests/documented.py SOURCE_DIR --list {room}")
-    print("\n".join(findings))
-    return 1 if findings else 0
+def findings(root):
+    for room, least in THRESHOLDS.items():
+        documented, total = counts(headers_of(root, room))
+        share = documented / max(total, 1)
+        print(f"{room}: {documented} of {total} public declarations documented, {100 * share:.1f} %", file=sys.stderr)
+        if share < least:
+            yield (f"{room}: {100 * share:.1f} % of the public declarations are documented, {100 * least:.0f} % are "
+                   f"asked for: tests/documented.py SOURCE_DIR --list {room}")
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    if sys.argv[2:3] == ["--list"]:
+        bare = ((name, one) for name, text in headers_of(sys.argv[1], sys.argv[3]).items()
+                for one in Header(text).found if not one.documented)
+        print("\n".join(f"{name}:{one.line + 1}: {one.name}" for name, one in bare))
+    else:
+        run(__doc__, self_test, findings)

@@ -12,10 +12,11 @@ The tables below are the include rules of CONTRIBUTING.md; a room is named by it
 """
 
 import re
-import sys
 import tempfile
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
+
+from house import run
 
 SOURCE_SUFFIXES = {".hpp", ".h", ".cpp", ".cu", ".cuh"}
 LINE_LIMITED_SUFFIXES = SOURCE_SUFFIXES | {".py", ".sh", ".cmake", ".txt"}
@@ -335,20 +336,10 @@ def self_test():
     return failures
 
 
-def main(arguments):
-    if len(arguments) != 1:
-        print(__doc__, file=sys.stderr)
-        return 2
-    findings = self_test()
-    if arguments[0] != "--self-test":
-        house = House(arguments[0])
-        if not house.includes:
-            findings.append(f"{arguments[0]}: no source files there")
-        findings += house.findings
-    for finding in findings:
-        print(finding)
-    return 1 if findings else 0
+def findings(root):
+    house = House(root)
+    return house.findings if house.includes else [f"{root}: no source files there"]
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    run(__doc__, self_test, findings)

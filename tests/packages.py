@@ -10,8 +10,8 @@ other systems).
 
 import re
 import subprocess
-import sys
-from pathlib import Path
+
+from house import run, tracked
 
 # Packages that no include, import or call reveals: the reason, and the words in the tree that need it.
 STATED = {
@@ -116,24 +116,13 @@ def self_test():
     return wrong + ([] if len(planted) == 5 else [f"of five planted packages {len(planted)} are found: {planted}"])
 
 
-def main(arguments):
-    if len(arguments) != 1:
-        print(__doc__, file=sys.stderr)
-        return 2
-    root = Path(arguments[0])
-    names = subprocess.run(["git", "-C", root, "ls-files"], capture_output=True, text=True, check=True).stdout.split()
+def findings(root):
     kinds = re.compile(r"(\.(cpp|hpp|h|cu|cuh|py|sh|txt|yaml|cmake)|/(reproduce|Snakefile|run|bundle))$")
-    texts = filter(kinds.search, names)
-    ours = {"experiments/dependencies.sh", "plots/requirements.txt", "tests/packages.py"}
-    there = (name for name in texts if name not in ours and (root / name).is_file())
-    tree = {name: (root / name).read_text(errors="replace") for name in there}
-    dependencies = (root / "experiments/dependencies.sh").read_text()
+    tree = {name: text for name, text in tracked(root).items() if kinds.search(name) and name != "tests/packages.py"}
+    dependencies, requirements = tree["experiments/dependencies.sh"], tree.pop("plots/requirements.txt")
     how = re.sub(r"^\w+=\(.*?\)$", "", dependencies, flags=re.M | re.S)  # without the lists of packages
-    tree["experiments/dependencies.sh"] = how
-    findings = self_test() + unused(dependencies, (root / "plots/requirements.txt").read_text(), tree)
-    print("\n".join(findings))
-    return 1 if findings else 0
+    return unused(dependencies, requirements, {**tree, "experiments/dependencies.sh": how})
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    run(__doc__, self_test, findings)

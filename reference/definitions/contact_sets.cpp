@@ -2,14 +2,10 @@
 // definitions do not use these predicates, either.
 #include "reference/definitions/contact_sets.hpp"
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <set>
 
 #include "reference/definitions/defined_blocks_exact.hpp"
-#include "reference/definitions/sphere_tree.hpp"
 #include "reference/geometry/closest_face.hpp"
 
 namespace ogc::reference {
@@ -68,14 +64,7 @@ void enter(const compare::DetectIn& in, const Complex& mesh, Index v, Index t, s
   if (a.kind == FaceKind::triangle || in_planes(mesh, a, mesh.at(v))) entered.insert({v, a, owner_of(mesh, a)});
 }
 
-std::vector<Box> triangle_boxes(const Complex& mesh) {
-  std::vector<Box> boxes(mesh.topology.triangles.size());
-  for (std::size_t t = 0; t < boxes.size(); ++t) {
-    for (const Index v : mesh.topology.triangles[t]) include(boxes[t], mesh.at(v));
-  }
-  return boxes;
-}
-
+/// Returns the squared distance as an exact quotient.
 Quotient<Exact> exact_squared_distance(const Complex& mesh, Index t, const Vec3f& x) {
   Quotient<Exact> smallest{Exact(-1), Exact(1)};
   for (const Face face : faces_of(mesh, t)) {
@@ -116,20 +105,6 @@ std::vector<VertexFacetContact> vertex_facet_over_all_pairs(const compare::Detec
   for (Index v = 0; v < in.topology->vertex_count; ++v) {
     for (Index t = 0; t < static_cast<Index>(in.topology->triangles.size()); ++t) enter(in, mesh, v, t, entered);
   }
-  return {entered.begin(), entered.end()};
-}
-
-std::vector<VertexFacetContact> vertex_facet_with_tree(const compare::DetectIn& in) {
-  const Complex mesh{*in.topology, in.positions};
-  const SphereTree tree(triangle_boxes(mesh));
-  const double r_q = in.query_radius;  // double: holds the square of a single-precision number without rounding
-  tbb::enumerable_thread_specific<std::set<VertexFacetContact>> shares;
-  tbb::parallel_for(Index{0}, in.topology->vertex_count, [&](Index v) {
-    const Vec3f& x = mesh.at(v);
-    for (const Index t : tree.within({x.x, x.y, x.z}, r_q * r_q)) enter(in, mesh, v, t, shares.local());
-  });
-  std::set<VertexFacetContact> entered;
-  for (auto& share : shares) entered.merge(share);
   return {entered.begin(), entered.end()};
 }
 

@@ -1,5 +1,5 @@
-// Computes the paper's contact sets as plain definitions, to test the detections against. Every function visits all
-// pairs, except the two with a tree.
+// The contact sets of the paper as plain definitions, for comparison with the detections and with each other. Every
+// function visits all pairs.
 #pragma once
 
 #include <span>
@@ -18,22 +18,15 @@ std::vector<compare::VertexFacetContact> vertex_facet_by_definition(const compar
 /// Returns F_OGC by Algorithm 1 with the half-spaces of Eq. 8–10, over all pairs.
 std::vector<compare::VertexFacetContact> vertex_facet_over_all_pairs(const compare::DetectIn& in);
 
-/// Returns F_OGC by Algorithm 1, in parallel; CGAL's tree answers the sphere query of line 3.
-std::vector<compare::VertexFacetContact> vertex_facet_with_tree(const compare::DetectIn& in);
-
-/// Returns E_OGC by Eq. 17 (corrected: method.md §1.2, §1.3): finds the exact closest points by comparing the distances
-/// of all pairs of features, then uses DefinedBlocks.
+/// Returns E_OGC by Eq. 17 (corrected: method.md §1.2, §1.3): exact closest points as quotients, by comparing the
+/// distances of all pairs of features, then DefinedBlocks.
 std::vector<compare::EdgeEdgeContact> edge_edge_by_definition(const compare::DetectIn& in);
 
 /// Returns E_OGC by Algorithm 2 (with the same corrections) with the half-spaces of Eq. 14 and 15, over all pairs.
 std::vector<compare::EdgeEdgeContact> edge_edge_over_all_pairs(const compare::DetectIn& in);
 
-/// Returns E_OGC by Algorithm 2 (with the same corrections), in parallel; CGAL's tree answers the sphere query of line
-/// 3.
-std::vector<compare::EdgeEdgeContact> edge_edge_with_tree(const compare::DetectIn& in);
-
-/// Returns V_OGC(t): for each triangle the vertices of the contacts that it owns, ascending, one entry for each
-/// contact.
+/// Returns V_OGC(t): for each triangle the vertices in contact with a face that the triangle owns, ascending, one entry
+/// for each contact.
 std::vector<std::vector<Index>> vertices_near_facets(const compare::Topology& topology,
                                                      std::span<const compare::VertexFacetContact> contacts);
 

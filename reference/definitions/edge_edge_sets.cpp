@@ -1,15 +1,9 @@
-// Computes E_OGC three times: by its definition with exact fractions, and by Algorithm 2 over all pairs and with a
-// tree.
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-
+// Computes E_OGC twice: by its definition over quotients, and by Algorithm 2 over all pairs.
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "reference/definitions/contact_sets.hpp"
 #include "reference/definitions/defined_blocks_exact.hpp"
-#include "reference/definitions/sphere_tree.hpp"
 #include "reference/geometry/closest_points.hpp"
 
 namespace ogc::reference {
@@ -189,36 +183,6 @@ void enter_if_active(const compare::DetectIn& in, const Complex& mesh, Index e, 
   if (are_in_blocks(mesh, faces)) enter(entered, faces, {e, f});
 }
 
-/// The ball of Alg. 2 line 3: centre at the edge's middle, radius r_q + l/2.
-struct Ball {
-  std::array<double, 3> centre;
-  double squared_radius;
-};
-
-/// Returns the ball about an edge. Its centre is the rounded middle; this is allowed because the radius is measured
-/// from there to the farther end. The factor 1 + 2⁻⁴⁸ covers the rounding error of the radius, at most 8 · 2⁻⁵³.
-Ball ball_about(const std::array<Vec3f, 2>& ends, double query_radius) {
-  const std::array<double, 3> a{ends[0].x, ends[0].y, ends[0].z}, b{ends[1].x, ends[1].y, ends[1].z};
-  Ball ball{};
-  double to_a = 0, to_b = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    ball.centre[k] = (a[k] + b[k]) / 2;
-    to_a += (a[k] - ball.centre[k]) * (a[k] - ball.centre[k]);
-    to_b += (b[k] - ball.centre[k]) * (b[k] - ball.centre[k]);
-  }
-  const double contact_radius = (std::sqrt(std::max(to_a, to_b)) + query_radius) * (1 + 0x1p-48);
-  ball.squared_radius = contact_radius * contact_radius;
-  return ball;
-}
-
-std::vector<Box> edge_boxes(const Complex& mesh) {
-  std::vector<Box> boxes(mesh.topology.edges.size());
-  for (std::size_t e = 0; e < boxes.size(); ++e) {
-    for (const Index v : mesh.topology.edges[e]) include(boxes[e], mesh.at(v));
-  }
-  return boxes;
-}
-
 }  // namespace
 
 std::vector<EdgeEdgeContact> edge_edge_by_definition(const compare::DetectIn& in) {
@@ -251,23 +215,6 @@ std::vector<EdgeEdgeContact> edge_edge_over_all_pairs(const compare::DetectIn& i
   const Complex mesh{*in.topology, in.positions};
   Entered entered;
   for_each_pair(in, [&](Index e, Index f) { enter_if_active(in, mesh, e, f, entered); });
-  return canonical(mesh, entered);
-}
-
-std::vector<EdgeEdgeContact> edge_edge_with_tree(const compare::DetectIn& in) {
-  const Complex mesh{*in.topology, in.positions};
-  const SphereTree tree(edge_boxes(mesh));
-  tbb::enumerable_thread_specific<Entered> shares;
-  tbb::parallel_for(Index{0}, static_cast<Index>(in.topology->edges.size()), [&](Index e) {
-    const Ball ball = ball_about(ends_of(mesh, e), in.query_radius);
-    for (const Index f : tree.within(ball.centre, ball.squared_radius)) {
-      if (f > e && is_candidate(in, e, f)) enter_if_active(in, mesh, e, f, shares.local());
-    }
-  });
-  Entered entered;
-  for (const Entered& share : shares) {
-    for (const auto& [faces, edges] : share) enter(entered, faces, edges);
-  }
   return canonical(mesh, entered);
 }
 

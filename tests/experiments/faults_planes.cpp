@@ -8,7 +8,6 @@
 #include "compare/stages/bound.hpp"
 #include "compare/stages/detect_edge_edge.hpp"
 #include "compare/stages/detect_vertex_facet.hpp"
-#include "reference/geometry/closest_face.hpp"
 #include "reference/geometry/pair_planes.hpp"
 #include "tests/compare/judge/faults.hpp"
 
@@ -113,71 +112,23 @@ Fault divided_otherwise(const std::string& name, const std::function<double(cons
 }
 
 double largest(const std::vector<double>& all) { return std::max(0.0, *std::ranges::max_element(all)); }
-double divided(double a, double b) {
-  return a + b > 0 ? std::clamp(a / (a + b), least_division, 1 - least_division) : 0.5;
-}
 
 std::vector<Fault> division_faults() {
   return {
-      divided_otherwise("offsets swapped: who approaches slowly gets the room",
-                        [](const Speeds& w) { return divided(largest(w.second), largest(w.first)); }),
       divided_otherwise("negative approach not clamped",
                         [](const Speeds& w) {
                           const double a = *std::ranges::max_element(w.first), b = *std::ranges::max_element(w.second);
                           return a + b != 0 ? std::clamp(a / (a + b), least_division, 1 - least_division) : 0.5;
                         }),
-      divided_otherwise("the modulus of speeds",
-                        [](const Speeds& w) {
-                          const auto modulus = [](const std::vector<double>& all) {
-                            double most = 0;
-                            for (const double speed : all) most = std::max(most, std::abs(speed));
-                            return most;
-                          };
-                          return divided(modulus(w.first), modulus(w.second));
-                        }),
-      divided_otherwise("the mean speed of a side in place of its largest",
-                        [](const Speeds& w) {
-                          const auto mean = [](const std::vector<double>& all) {
-                            double sum = 0;
-                            for (const double speed : all) sum += speed;
-                            return std::max(0.0, sum / static_cast<double>(all.size()));
-                          };
-                          return divided(mean(w.first), mean(w.second));
-                        }),
-      divided_otherwise(
-          "the first vertex of each side for all of it",
-          [](const Speeds& w) { return divided(std::max(0.0, w.first.front()), std::max(0.0, w.second.front())); }),
       divided_otherwise("all room to one side where the other does not approach",
                         [](const Speeds& w) {
                           const double a = largest(w.first), b = largest(w.second);
                           return a + b > 0 ? a / (a + b) : 0.5;
                         }),
-      divided_otherwise("room for whoever approaches alone, none where nobody does",
-                        [](const Speeds& w) {
-                          const double a = largest(w.first), b = largest(w.second);
-                          return divided(a, b) * (a + b > 0 ? 1 : least_division);
-                        }),
   };
 }
 
-/// Removes a triangle's planes from corners with weight 0 in the closest point, as if their approach did not matter.
-void weight_zero_ignored(const PlaneIn& in, Rows& rows) {
-  const auto at = [&](Index v) { return in.positions[static_cast<std::size_t>(v)]; };
-  for (std::size_t v = 0; v < rows.size(); ++v)
-    std::erase_if(rows[v], [&](const VertexPlane& plane) {
-      const auto own = static_cast<Index>(v);
-      if (plane.pair.kind != Kind::vertex_triangle || plane.pair.first == own) return false;
-      const Triangle& t = in.topology->triangles[static_cast<std::size_t>(plane.pair.second)];
-      const auto feature = static_cast<std::size_t>(
-          reference::closest_feature({at(t[0]), at(t[1]), at(t[2])}, at(plane.pair.first)));
-      const std::size_t k = static_cast<std::size_t>(std::ranges::find(t, own) - t.begin());
-      if (feature < 3) return k != feature;
-      return feature < 6 && k != feature - 3 && k != (feature - 2) % 3;
-    });
-}
-
-/// Keeps only planes_of_vertex − 1 planes of a vertex that has planes_of_vertex. The pair's other vertices keep their
-/// planes.
+/// Keeps the planes of each vertex's sixteen nearest pairs, independent of the pair's other vertices.
 void asymmetric_cap(const PlaneIn&, Rows& rows) {
   for (auto& row : rows)
     if (row.size() == planes_of_vertex) row.pop_back();
@@ -185,12 +136,6 @@ void asymmetric_cap(const PlaneIn&, Rows& rows) {
 
 std::vector<Fault> plane_by_plane() {
   return {
-      plane_fault("normal of the second side not turned",
-                  [](const PlaneIn& in, Index v, VertexPlane& plane) {
-                    if (!is_second(in, plane.pair, v)) return;
-                    plane.normal = {-plane.normal.x, -plane.normal.y, -plane.normal.z};
-                    plane.offset = -plane.offset;
-                  }),
       plane_fault("each side rounds its own normal",
                   [](const PlaneIn& in, Index v, VertexPlane& plane) {
                     if (is_second(in, plane.pair, v)) plane.normal.x = std::nextafter(plane.normal.x, 2.0f);
@@ -204,12 +149,6 @@ std::vector<Fault> plane_by_plane() {
                     const Vec3f& n = plane.normal;
                     const double room = plane.offset - (double{n.x} * x.x + double{n.y} * x.y + double{n.z} * x.z);
                     plane.offset += room * (0.5 / double{in.bounds_relaxation} - 1) * (1 + 0x1p-20);
-                  }),
-      plane_fault("two γ_p whether or not the other side is fixed",
-                  [](const PlaneIn& in, Index v, VertexPlane& plane) {
-                    const auto& x = in.positions[static_cast<std::size_t>(v)];
-                    const Vec3f& n = plane.normal;
-                    plane.offset += plane.offset - (double{n.x} * x.x + double{n.y} * x.y + double{n.z} * x.z);
                   }),
       plane_fault("no room: each side stays where it is",
                   [](const PlaneIn& in, Index v, VertexPlane& plane) {
@@ -230,7 +169,6 @@ std::vector<Fault> plane_by_plane() {
 
 std::vector<Fault> row_by_row() {
   return {
-      row_fault("approach of vertices with weight zero ignored", weight_zero_ignored),
       row_fault("a cap that one side of a pair keeps for itself", asymmetric_cap),
       row_fault("the second side bears no plane",
                 [](const PlaneIn& in, Rows& rows) {
@@ -238,11 +176,6 @@ std::vector<Fault> row_by_row() {
                     std::erase_if(rows[v], [&](const VertexPlane& plane) {
                       return is_second(in, plane.pair, static_cast<Index>(v));
                     });
-                }),
-      row_fault("edge pairs have no planes",
-                [](const PlaneIn&, Rows& rows) {
-                  for (auto& row : rows)
-                    std::erase_if(row, [](const VertexPlane& plane) { return plane.pair.kind == Kind::edge_edge; });
                 }),
       row_fault("planes in the order in which threads found them",
                 [](const PlaneIn&, Rows& rows) {

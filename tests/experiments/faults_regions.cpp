@@ -2,7 +2,6 @@
 // or restrict it without need.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "compare/judge/engine/exact_sum.hpp"
@@ -66,14 +65,8 @@ std::vector<Fault> region_faults() {
                          const Vec3f& x = in.half_spaces.current[i];
                          return height(h.normal, x) >= h.offset - 0x1p-40 * size(h.normal, x);
                        }),
-      lost_half_spaces("half-spaces ignored", [](const TruncateIn&, std::size_t, std::size_t) { return true; }),
       lost_half_spaces("the first half-space alone",
                        [](const TruncateIn&, std::size_t, std::size_t k) { return k > 0; }),
-      lost_half_spaces("half-spaces that face away from the motion so far released",
-                       [](const TruncateIn& in, std::size_t i, std::size_t k) {
-                         const HalfSpace& h = in.half_spaces.of(i)[k];
-                         return height(h.normal, in.half_spaces.current[i]) < height(h.normal, in.previous[i]);
-                       }),
       lost_half_spaces("half-spaces tested in single precision",
                        [](const TruncateIn& in, std::size_t i, std::size_t k) {
                          const HalfSpace& h = in.half_spaces.of(i)[k];
@@ -96,10 +89,6 @@ std::vector<Fault> region_faults() {
       region_spoiled("what is cut stays where it is",
                      [](const TruncateIn& in, std::size_t i, TruncateOut& out) {
                        if (out.cut[i] != 0) out.position[i] = in.half_spaces.current[i];
-                     }),
-      region_spoiled("what is cut goes back to X_prev",
-                     [](const TruncateIn& in, std::size_t i, TruncateOut& out) {
-                       if (out.cut[i] != 0) out.position[i] = in.previous[i];
                      }),
       region_spoiled("a way along a half-space halved",
                      [](const TruncateIn& in, std::size_t i, TruncateOut& out) {

@@ -46,14 +46,7 @@ void arithmetic_mean(const Scene& scene, RestStateOut& out) {
 
 std::vector<Fault> rest_state_faults() {
   return {rest_fault("no mass without a membrane", weightless_without_membrane),
-          rest_fault("arithmetic mean of contact stiffnesses", arithmetic_mean),
-          start_taken_for_rest(),
-          rest_fault("a third of a tetrahedron's mass to each corner",
-                     [](const Scene& scene, RestStateOut& out) {
-                       for (const Body& body : scene.bodies)
-                         for (Index v = 0; body.is_solid() && v < body.vertex_count; ++v)
-                           out.mass[static_cast<std::size_t>(body.first_vertex + v)] *= 4.0f / 3;
-                     }),
+          rest_fault("arithmetic mean of contact stiffnesses", arithmetic_mean), start_taken_for_rest(),
           rest_fault("two corners of tetrahedra exchanged",
                      [](const Scene&, RestStateOut& out) {
                        for (RestTetrahedron& t : out.tetrahedra) std::swap(t.corner[2], t.corner[3]);
@@ -145,17 +138,10 @@ Fault guess_fault(const std::string& name, Spoil spoil) {
                  });
 }
 
-void ignore_bound_of_fast_movers(const InitialGuessCase& c, std::size_t i, InitialGuessOut& out) {
-  const Vec3f &y = out.target[i], &p = c.previous;
-  const double x = double{y.x} - p.x, z = double{y.z} - p.z, height = double{y.y} - p.y;
-  if (out.cut[i] && x * x + height * height + z * z > 1e4 * c.bound * c.bound) out.position[i] = y;
-}
-
 std::vector<Fault> initial_guess_faults() {
   return {
       cases_asked_wrongly("initial_guess: truncated about the start of the step", &Contestant::initial_guess,
                           [](InitialGuessCase& c) { c.previous = c.start; }),
-      guess_fault("bound ignored by fast movers", ignore_bound_of_fast_movers),
       guess_fault("what moves far counted as cut", [](const InitialGuessCase& c, std::size_t i, InitialGuessOut& out) {
         const Vec3f &y = out.target[i], &p = c.previous;
         const double moved = std::hypot(double{y.x} - p.x, double{y.y} - p.y, double{y.z} - p.z);

@@ -100,28 +100,7 @@ EdgePairs edge_pairs(const DetectIn& in) {
   return pairs;
 }
 
-/// Accepts all pairs of edges within r except pairs of end points, without the block test.
-void all_but_end_points(const DetectIn& in, const Authority& authority, DetectEdgeEdgeOut& out) {
-  const auto& edges = in.topology->edges;
-  const auto [question, asked] = edge_pairs(in);
-  const ClosestPointsOut answer = authority.closest_points(question).exact;
-  const auto face = [&](Index e, EdgeFeature feature) {
-    return feature == EdgeFeature::interior ? Face{FaceKind::edge, e}
-                                            : Face{FaceKind::vertex, edges[e][static_cast<std::size_t>(feature)]};
-  };
-  for (std::size_t i = 0; i < asked.size(); ++i) {
-    const bool both_ends = answer.first_feature[i] != EdgeFeature::interior &&
-                           answer.second_feature[i] != EdgeFeature::interior;
-    if (both_ends || answer.contact_distance[i] >= in.contact_radius) continue;
-    const Face p = face(asked[i][0], answer.first_feature[i]), q = face(asked[i][1], answer.second_feature[i]);
-    const EdgeEdgeContact contact{std::min(p, q), std::max(p, q), asked[i][0], asked[i][1]};
-    if (std::none_of(out.contacts.begin(), out.contacts.end(),
-                     [&](const auto& c) { return c.first == contact.first && c.second == contact.second; }))
-      out.contacts.push_back(contact);
-  }
-}
-
-/// Also accepts nearly parallel edges nearer than r without the block test, so that a flat sheet at rest repels itself.
+/// Accepts nearly parallel edges wherever they are nearer than r, so that a flat sheet at rest pushes itself.
 void nearly_parallel_untested(const DetectIn& in, const Authority& authority, DetectEdgeEdgeOut& out) {
   const auto [question, asked] = edge_pairs(in);
   const ClosestPointsOut answer = authority.closest_points(question).exact;
@@ -168,29 +147,9 @@ std::vector<OverlapEnd> ends_of_overlap(const DetectIn& in, const Edge& e, const
   return ends;
 }
 
-bool is_exactly_parallel(const DetectIn& in, const Edge& e, const Edge& f) {
-  const auto along = [&](const Edge& edge) {
-    const Vec3f &a = in.positions[edge[0]], &b = in.positions[edge[1]];
-    return Vec3{double{b.x} - a.x, double{b.y} - a.y, double{b.z} - a.z};
-  };
-  const Vec3 u = along(e), v = along(f);
-  return u.y * v.z == u.z * v.y && u.z * v.x == u.x * v.z && u.x * v.y == u.y * v.x;
-}
-
 bool is_loose(const DetectIn& in, Index e) { return in.topology->edge_triangles[e].empty(); }
 
-/// Tests the blocks of exactly parallel edges only at the first end of their overlap.
-void one_end_of_overlap(const DetectIn& in, const Authority&, DetectEdgeEdgeOut& out) {
-  std::erase_if(out.contacts, [&](const EdgeEdgeContact& c) {
-    if (c.first.kind != FaceKind::edge || (is_loose(in, c.first_edge) && is_loose(in, c.second_edge))) return false;
-    const Edge &e = in.topology->edges[c.first_edge], &f = in.topology->edges[c.second_edge];
-    const auto ends = ends_of_overlap(in, e, f);
-    return is_exactly_parallel(in, e, f) && !ends.empty() && !ends.front().in_blocks;
-  });
-}
-
-/// Applies the block test to loose edges, too. Strands side by side with a negligible tilt then lose nearly all
-/// contacts.
+/// Applies the block test to loose edges, too: strands side by side with a negligible tilt lose nearly all contacts.
 void strands_tested(const DetectIn& in, const Authority& authority, DetectEdgeEdgeOut& out) {
   std::erase_if(out.contacts, [&](const EdgeEdgeContact& c) {
     if (c.first.kind != FaceKind::edge || !is_loose(in, c.first_edge) || !is_loose(in, c.second_edge)) return false;
@@ -287,9 +246,7 @@ std::vector<Fault> edge_faults() {
                  [](const auto&, const auto&, auto& out) {
                    if (!out.contacts.empty()) out.contacts.pop_back();
                  }),
-      edge_fault("all but pairs of end points", all_but_end_points),
       edge_fault("nearly parallel edges untested", nearly_parallel_untested),
-      edge_fault("parallel edges asked at one end of their overlap", one_end_of_overlap),
       edge_fault("parallel loose edges tested", strands_tested),
       edge_fault("ends passed over where a neighbour is as near", ends_passed_over),
       edge_fault("edge ends swapped",

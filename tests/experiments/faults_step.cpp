@@ -68,43 +68,6 @@ void keep_first_previous(const StepIn&, StepOut& out) {
     if (is_detection(event)) event.position = out.events.front().position;
 }
 
-/// Calls `change(guess, detection, v)` for each vertex v of a vertex–facet contact in each round of the guess loop,
-/// from round `first` on.
-template <class Change>
-void change_rounds(StepOut& out, int first, Change change) {
-  for (std::size_t i = 1, round = 0; i < out.events.size() && out.events[i].kind == StepEventKind::guess; i += 2)
-    if (static_cast<int>(round++) >= first)
-      for (const VertexFacetContact& contact : out.events[i - 1].vertex_facet.contacts)
-        change(out.events[i], out.events[i - 1], static_cast<std::size_t>(contact.vertex));
-}
-
-/// Keeps vertices in contact in place from the second round on.
-void hold_from_second_round(const StepIn&, StepOut& out) {
-  change_rounds(out, 1, [](StepEvent& guess, const StepEvent& detection, std::size_t v) {
-    guess.position[v] = detection.position[v];
-  });
-}
-
-/// Ignores contacts in the guess loop: vertices in contact move to their targets y, truncated.
-void fall_into_partners(const StepIn&, StepOut& out) {
-  change_rounds(out, 0, [&](StepEvent& guess, const StepEvent& detection, std::size_t v) {
-    const Vec3f &p = detection.position[v], &y = out.target[v];
-    const TruncateTruth truth = reference::truncate({{p}, {y}, {detection.bound[v]}});
-    guess.position[v] = reference::stored_within(truth.position[0], p, detection.bound[v]);
-  });
-}
-
-/// Keeps vertices in contact in place in the first round.
-void hold_in_first_round(const StepIn& in, StepOut& out) {
-  const std::vector<VertexFacetContact>& contacts = out.events[0].vertex_facet.contacts;
-  StepEvent& guess = out.events[1];
-  for (const VertexFacetContact& contact : contacts) {
-    const auto v = static_cast<std::size_t>(contact.vertex);
-    const Vec3 x = in.scene->mesh.positions[v];
-    guess.position[v] = {static_cast<float>(x.x), static_cast<float>(x.y), static_cast<float>(x.z)};
-  }
-}
-
 using Places = std::vector<reference::Triple<double>>;
 using GuessContacts = std::vector<reference::GuessContact>;
 
@@ -142,13 +105,6 @@ Fault held_wrongly(const std::string& name, const Wrong& wrong, double sign = 1)
   });
 }
 
-/// Returns a rule that sets the friction of every contact.
-Wrong friction_of(double friction) {
-  return [friction](GuessContacts& contacts, const Places&, Places&, std::size_t) {
-    for (reference::GuessContact& contact : contacts) contact.friction = friction;
-  };
-}
-
 void ignore_partners(GuessContacts&, const Places& previous, Places& target, std::size_t v) {
   const auto own = target[v];
   target = previous;
@@ -157,7 +113,7 @@ void ignore_partners(GuessContacts&, const Places& previous, Places& target, std
 
 /// Reverses the move, without friction and with other vertices at rest. So contacts remove the part that leaves them.
 void take_leaving(GuessContacts& contacts, const Places& previous, Places& target, std::size_t v) {
-  friction_of(0)(contacts, previous, target, v);
+  for (reference::GuessContact& contact : contacts) contact.friction = 0;
   ignore_partners(contacts, previous, target, v);
   target[v] = previous[v] - (target[v] - previous[v]);
 }
@@ -217,23 +173,7 @@ void divide_by_prediction(const StepIn& in, StepOut& out) {
   }
 }
 
-/// Gives the first corner of each tetrahedron the colour of its last corner.
-void share_a_colour(const StepIn&, StepOut& out) {
-  for (const RestTetrahedron& t : out.rest.tetrahedra) {
-    Index& first = out.colour[static_cast<std::size_t>(t.corner[0])];
-    const Index last = out.colour[static_cast<std::size_t>(t.corner[3])];
-    if (first >= 0 && last >= 0) first = last;
-  }
-}
-
-void bound_what_is_inside(const StepIn& in, StepOut& out) {
-  const auto ball = static_cast<float>(in.scene->settings.bounds_relaxation * out.query_radius);
-  for (StepEvent& event : out.events)
-    for (std::size_t v = 0; v < event.bound.size(); ++v)
-      if (!in.topology->on_surface(static_cast<Index>(v))) event.bound[v] = ball;
-}
-
-/// Detects contacts with volumes at the volumes' positions at the start of the step.
+/// Finds contacts with volumes as these are at the start of the step.
 void ask_volumes_of_before(const StepIn& in, StepOut& out) {
   const reference::SceneVolumes volumes(*in.scene, *in.topology);
   const std::vector<Vec3f> start = to_single(in.scene->mesh.positions);
@@ -247,14 +187,7 @@ void ask_volumes_of_before(const StepIn& in, StepOut& out) {
   }
 }
 
-/// Detects contacts with volumes at the inertial targets instead of X_prev.
-void ask_volumes_at_targets(const StepIn& in, StepOut& out) {
-  const reference::SceneVolumes volumes(*in.scene, *in.topology);
-  for (StepEvent& event : out.events)
-    if (is_detection(event)) event.volumes = volumes.contacts(out.target);
-}
-
-/// Repeats the first detection's contacts with volumes in all other detections.
+/// Keeps the contacts with volumes of the first detection in all others.
 void keep_contacts_with_volumes(const StepIn&, StepOut& out) {
   for (StepEvent& event : out.events)
     if (is_detection(event)) event.volumes = out.events.front().volumes;
@@ -329,11 +262,6 @@ std::vector<Fault> step_faults() {
                     }),
       spoiled("no detection between iterations", detect_before_iterations_only),
       spoiled("X_prev of the first detection kept", keep_first_previous),
-      spoiled("guess loop holds contacts in its first round", hold_in_first_round),
-      spoiled("what touches stays from the second round of the guess loop on", hold_from_second_round),
-      spoiled("contacts take nothing in the guess loop", fall_into_partners),
-      held_wrongly("friction takes no slip in the guess loop", friction_of(0)),
-      held_wrongly("contacts take all slip in the guess loop", friction_of(0x1p20)),
       held_wrongly("partners are taken to stand in the guess loop", ignore_partners),
       held_wrongly("what leaves a contact is held back in the guess loop", take_leaving, -1),
       spoiled("velocity since the last detection", velocity_from_last_detection),
@@ -354,18 +282,14 @@ std::vector<Fault> step_faults() {
       shown_by("dat", spoiled("sliding left on where approach divides", slide_with_dat)),
       shown_by("dat", spoiled("a vertex stops beside its way where approach divides", stop_beside_the_way)),
       shown_by("dat", spoiled("gaps of every detection divided by what inertia asks for", divide_by_prediction)),
-      spoiled("two corners of a tetrahedron of one colour", share_a_colour),
-      spoiled("a ball for vertices inside solids", bound_what_is_inside),
       spoiled("two neighbours of one colour",
               [](const StepIn&, StepOut& out) {
                 for (Index& colour : out.colour) colour = std::min(colour, 1);
               }),
       about_volumes("volumes of the step before", ask_volumes_of_before),
-      about_volumes("contacts with volumes found at y", ask_volumes_at_targets),
       about_volumes("contacts with volumes of the first detection kept", keep_contacts_with_volumes),
       about_volumes("volumes that lag", let_volumes_lag),
       about_volumes("a vertex left inside asks nothing", ask_nothing_inside),
-      about_free_volumes("free volumes where the step began", ask_volumes_of_before),
       about_free_volumes("vertices of free volumes do not ask", ask_from_surfaces_alone),
       shown_by("volume", asked_wrongly("a volume that truncates", bound_volumes)),
   };

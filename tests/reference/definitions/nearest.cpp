@@ -10,7 +10,6 @@
 #include <optional>
 #include <sstream>
 
-#include "reference/definitions/bound_check.hpp"
 #include "reference/geometry/bound.hpp"
 #include "reference/geometry/detect_edge_edge.hpp"
 #include "reference/geometry/detect_vertex_facet.hpp"

@@ -27,16 +27,6 @@ double size(const Quat& q) {
   return std::sqrt(double{q.x} * q.x + double{q.y} * q.y + double{q.z} * q.z + double{q.w} * q.w);
 }
 
-/// Returns the root ν of the secular equation (upper/ν)² + (lower/(ν + 2σ))² = 1 by bisection.
-double bisected(double upper, double lower, double sigma) {
-  double below = 0, above = upper + lower;
-  for (int i = 0; i < 200; ++i) {
-    const double nu = 0.5 * (below + above), a = upper / nu, b = lower / (nu + 2 * sigma);
-    (a * a + b * b > 1 ? below : above) = nu;
-  }
-  return 0.5 * (below + above);
-}
-
 }  // namespace
 
 TEST_CASE("quaternions turn as their product says, back as their conjugates do, and units are units", "[property]") {
@@ -53,24 +43,6 @@ TEST_CASE("quaternions turn as their product says, back as their conjugates do, 
     worst = std::max(worst, std::abs(size(q) - 1));
   }
   CHECK(worst <= 4 * u);
-}
-
-TEST_CASE("both ends of a segment feel opposite forces, nothing at rest", "[property]") {
-  std::mt19937 random(82);
-  for (int i = 0; i < 1000; ++i) {
-    const Quat q = some_orientation(random), start = some_orientation(random);
-    const SegmentRest segment{{0, 1}, 0.5f, 3, 0.25f};
-    const Vec before = 0.5f * director(start), direction = rod_rest_direction(segment, 0.25f, start, before);
-    ForceAndBlock first, second, rest;
-    const Vec apart = some_vector(random);
-    add_rod(segment, 0.25f, 0, apart, q, direction, first);
-    add_rod(segment, 0.25f, 1, apart, q, direction, second);
-    REQUIRE(length(first.force + second.force) == 0);
-    REQUIRE(first.block.xx == Approx(3 * 1.25 / 0.5));
-    add_rod(segment, 0.25f, 1, 0.5f * director(q), q, direction, rest);
-    // With u = 2⁻²⁴ and times k_s: each rotation errs by 14 u of 1.25, and lengths are off by 8 u.
-    REQUIRE(length(rest.force) <= 3 * 1.25 * 60 * u);
-  }
 }
 
 TEST_CASE("the force of a segment is the slope of its energy, its block the slope of the force", "[property]") {
@@ -127,42 +99,6 @@ TEST_CASE("a neighbour asks for the frame that stands to its own as at rest, its
   }
 }
 
-TEST_CASE("the secular root is that of bisection, wherever the parts lie", "[property]") {
-  std::mt19937 random(83);
-  std::uniform_real_distribution<float> power(-6, 6);
-  for (int i = 0; i < 20000; ++i) {
-    const float upper = std::pow(10.0f, power(random)), sigma = std::pow(10.0f, power(random));
-    float lower = std::pow(10.0f, power(random));
-    if (i % 4 == 0) lower = 2 * sigma * (1 + 0.1f * std::pow(10.0f, power(random)) * 1e-6f);
-    const double exact = bisected(upper, lower, sigma), nu = secular_root(upper, lower, sigma);
-    // The left side S of the equation errs by about 12 u (u = 2⁻²⁴). Its slope at the root is −(β₊²/ν³ + β₋²/(ν +
-    // 2σ)³)/S.
-    const double a = upper / exact, b = lower / (exact + 2 * double{sigma});
-    const double slope = a * a / exact + b * b / (exact + 2 * double{sigma});
-    REQUIRE(std::abs(nu - exact) <= 24 * u / slope + 8 * u * exact);
-  }
-}
-
-TEST_CASE("an orientation that has what it asks for stays, and minimises among many", "[property]") {
-  std::mt19937 random(84);
-  for (int i = 0; i < 2000; ++i) {
-    const Quat old = some_orientation(random), t = some_orientation(random);
-    const Vec apart = some_vector(random), axis{0, 0, 1};
-    const Quat b = (dot(t, old) < 0 ? -0.7f : 0.7f) * t;
-    const Quat q = rod_orientation(0.4f, apart, axis, b, old);
-    REQUIRE(std::abs(size(q) - 1) <= 4 * u);
-    const auto energy = [&](const Quat& p) {
-      const D3 d = wide(director(p));
-      return -0.4 * dot(wide(apart), d) -
-             (double{b.x} * p.x + double{b.y} * p.y + double{b.z} * p.z + double{b.w} * p.w);
-    };
-    const double least = energy(q), unit_of_energy = 0.4 * length(apart) + 0.7;
-    for (int k = 0; k < 20; ++k) REQUIRE(energy(some_orientation(random)) >= least - 100 * u * unit_of_energy);
-    const Quat again = rod_orientation(0.4f, static_cast<float>(length(apart)) * director(t), axis, 0.7f * t, old);
-    REQUIRE(size(again - t) <= 400 * u);
-  }
-}
-
 TEST_CASE("where nothing decides the old orientation does", "[unit]") {
   const Quat old{0.6f, 0, 0, 0.8f}, none{0, 0, 0, 0};
   const Vec axis{0, 0, 1};
@@ -188,20 +124,4 @@ TEST_CASE("where nothing decides the old orientation does", "[unit]") {
   CHECK(std::abs(size(held) - 1) <= 4 * u);
   CHECK(held.z / held.w == Approx(0.75));
   CHECK(held.x == Approx(0.1 / 4));
-}
-
-TEST_CASE("signs of neighbours do not matter: q and -q ask for the same", "[property]") {
-  std::mt19937 random(85);
-  for (int i = 0; i < 1000; ++i) {
-    const Quat old = some_orientation(random), own_start = some_orientation(random), now = some_orientation(random),
-               start = some_orientation(random);
-    const NeighbourRest rest{2, some_orientation(random)};
-    for (const bool is_ahead : {false, true}) {
-      Quat b{0, 0, 0, 0}, flipped{0, 0, 0, 0};
-      add_neighbour(rest, is_ahead, 0.5f, now, start, own_start, old, b);
-      add_neighbour(rest, is_ahead, 0.5f, -1.0f * now, start, own_start, old, flipped);
-      REQUIRE(size(b - flipped) == 0);
-      REQUIRE(dot(b, old) >= 0);
-    }
-  }
 }
