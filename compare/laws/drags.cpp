@@ -18,7 +18,7 @@ namespace {
 using namespace law_measures;
 using namespace law_shapes;
 
-constexpr double radius = 0.01, spacing = 0.05, reach = 0.5, sheet_vertices = 25;
+constexpr double contact_radius = 0.01, spacing = 0.05, reach = 0.5, sheet_vertices = 25;
 
 constexpr double pinch_depth = 5e-5;
 
@@ -29,7 +29,7 @@ Scene pinched(std::int64_t steps) {
   append_body(scene, {.name = "sheet", .material = material}, sheet(5, 5, spacing, 0));
   for (const double side : {-1., 1.})
     append_body(scene, {.name = side < 0 ? "below" : "above", .fixed = true, .material = material},
-                floor_triangle(reach, side * (radius - pinch_depth)));
+                floor_triangle(reach, side * (contact_radius - pinch_depth)));
   round_to_single(scene);
   return scene;
 }
@@ -43,8 +43,8 @@ std::vector<Reading> read_pinch(std::span<const Trajectory> runs) {
   const double creep = run.scene.settings.friction_velocity * (1 - std::sqrt(1 - share));
   const double way = centre(run.scene, 0, run.states[last]).x - centre(run.scene, 0, run.states[half]).x;
   const double error = force_left(run) * share / (2 * std::sqrt(1 - share)) * run.scene.settings.friction_velocity;
-  const double rounding = unit_roundoff *
-                          (radius / pinch_depth * creep + largest_coordinate(run) / run.scene.settings.time_step);
+  const double rounding = unit_roundoff * (contact_radius / pinch_depth * creep +
+                                           largest_coordinate(run) / run.scene.settings.time_step);
   return {{.what = "creep",
            .unit = "m/s",
            .measured = way / (static_cast<double>(last - half) * run.scene.settings.time_step),

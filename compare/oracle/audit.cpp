@@ -21,8 +21,6 @@ struct Findings {
   std::size_t pairs_tested = 0;
 };
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 class Auditor {
  public:
   Auditor(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions)

@@ -17,8 +17,6 @@
 namespace ogc::compare {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 class MotionAuditor {
  public:
   MotionAuditor(const Topology& topology, std::span<const Vec3> from, std::span<const Vec3> to,

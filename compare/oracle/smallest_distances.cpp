@@ -21,8 +21,6 @@ namespace {
 using Rational = CGAL::Gmpq;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 /// Returns whether two primitives are certainly farther apart than √limit.
 template <std::size_t A, std::size_t B>
 bool certainly_beyond(const std::array<Vec3, A>& first, const std::array<Vec3, B>& second, double limit) {

@@ -20,9 +20,7 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Corners = std::array<Vec3, 3>;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+constexpr double unreached = std::numeric_limits<double>::infinity();
 
 /// Returns the sign of the area of (a, b, x + (ε, ε²)) seen along the x axis.
 int side_seen(const Vec3& a, const Vec3& b, const Vec3& x) {
@@ -97,7 +95,7 @@ class PlacedPart {
 
   bool holds(const Vec3& x) const {
     Box ray = box_of({x});
-    ray.high[0] = infinity;
+    ray.high[0] = unreached;
     int winding = 0;
     bool is_on = false;
     tree_.for_each_meeting(ray, [&](Index i) {
@@ -109,7 +107,7 @@ class PlacedPart {
   }
 
   double distance(const Vec3& x) const {
-    double least = infinity;
+    double least = unreached;
     for (std::size_t i = 0; i < triangles_.size(); ++i) least = std::min(least, to_triangle(x, all_[i]));
     return least;
   }
@@ -132,7 +130,7 @@ class PlacedPart {
     for (const Triangle& t : triangles_)
       if (std::ranges::find(t, vertex) != t.end()) around.insert(around.end(), t.begin(), t.end());
     std::ranges::sort(around);
-    double least = infinity;
+    double least = unreached;
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
       const auto is_around = [&](Index v) { return std::ranges::binary_search(around, v); };
       if (std::ranges::none_of(triangles_[i], is_around))

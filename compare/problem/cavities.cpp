@@ -12,8 +12,6 @@
 namespace ogc::compare {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 /// Returns the sign of the area of the triangle of a, b and a point infinitesimally beside p, seen along the x axis.
 int side_seen(const Vec3& a, const Vec3& b, const Vec3& p) {
   const int side = orientation({0, a.y, a.z}, {0, b.y, b.z}, {0, p.y, p.z}, {1, p.y, p.z});

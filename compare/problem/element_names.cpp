@@ -8,8 +8,6 @@
 namespace ogc::compare {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 /// Returns the number in the file of element i of the mesh.
 Index file_number(const std::vector<Index>& numbers, Index i) { return at(i) < numbers.size() ? numbers[at(i)] : i; }
 

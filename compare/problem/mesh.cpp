@@ -10,8 +10,6 @@
 namespace ogc::compare {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 Index number(std::size_t i) { return static_cast<Index>(i); }
 
 Edge ordered(Index a, Index b) { return a < b ? Edge{a, b} : Edge{b, a}; }

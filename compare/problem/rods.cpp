@@ -26,8 +26,6 @@ constexpr std::array<RodInfo, 5> table{{
     {"diameter", "m", "rod: as it is drawn", 0, 0x1p20, &RodMaterial::diameter},
 }};
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 std::string quoted_body(const Body& body) { return "body '" + body.name + "'"; }
 
 void check_constants(std::vector<Problem>& problems, const Body& body) {

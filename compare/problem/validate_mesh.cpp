@@ -16,8 +16,6 @@
 namespace ogc::compare {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 Edge ordered(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
 bool usable_coordinate(double x) { return std::abs(x) <= most_length; }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace ogc::compare {
@@ -26,6 +27,9 @@ using Quaternion = std::array<float, 4>;
 inline constexpr double unit_quaternion_slack = 0x1p-21;
 
 using Index = std::int32_t;
+/// Returns the subscript of element i, which is not negative.
+constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
 /// Vertex indices of an edge, smaller first.
 using Edge = std::array<Index, 2>;
 /// Vertex indices of a triangle, in the order of the mesh file.

@@ -15,8 +15,6 @@
 namespace ogc::compare {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 /// An edge with the direction in which one of its triangles runs through it. Sorting puts all triangles of an edge next
 /// to each other.
 struct Side {

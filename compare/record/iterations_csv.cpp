@@ -14,7 +14,7 @@ struct IterationColumn {
   std::variant<double IterationMetrics::*, std::int64_t IterationMetrics::*> field;
 };
 
-constexpr std::array<IterationColumn, 15> columns{{
+constexpr std::array<IterationColumn, 15> iteration_columns{{
     {"step [1]", &IterationMetrics::step},
     {"iteration [1]", &IterationMetrics::iteration},
     {"wall [ms]", &IterationMetrics::wall_ms},
@@ -39,7 +39,7 @@ std::string text_of(std::int64_t value) { return std::to_string(value); }
 
 std::string iteration_header() {
   std::string text;
-  for (const IterationColumn& column : columns) text.append(text.empty() ? "" : ",").append(column.title);
+  for (const IterationColumn& column : iteration_columns) text.append(text.empty() ? "" : ",").append(column.title);
   return text + '\n';
 }
 
@@ -47,8 +47,8 @@ std::string iteration_lines(std::span<const StepMetrics> steps) {
   std::string text;
   for (const StepMetrics& step : steps)
     for (const IterationMetrics& row : step.iteration_rows) {
-      for (const IterationColumn& column : columns) {
-        if (&column != &columns.front()) text += ',';
+      for (const IterationColumn& column : iteration_columns) {
+        if (&column != &iteration_columns.front()) text += ',';
         text += std::visit([&](auto field) { return text_of(row.*field); }, column.field);
       }
       text += '\n';

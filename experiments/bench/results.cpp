@@ -19,7 +19,7 @@ using Verdict = BenchChange::Verdict;
 
 constexpr std::array<std::string_view, 4> verdict_names{"faster", "slower", "no change found", "too few samples"};
 
-std::string name_of(Verdict verdict) { return std::string(verdict_names[static_cast<std::size_t>(verdict)]); }
+std::string verdict_name(Verdict verdict) { return std::string(verdict_names[static_cast<std::size_t>(verdict)]); }
 
 /// Removes the parts of a benchmark's name that describe how it was measured.
 std::string plain_name(const std::string& name) {
@@ -152,7 +152,7 @@ std::string describe(const BenchComparison& comparison) {
     rows.push_back({change.name, duration(change.before_ns), duration(change.after_ns), number(change.ratio, 4),
                     number(change.probability, 2),
                     std::to_string(change.samples_before) + "+" + std::to_string(change.samples_after),
-                    name_of(change.verdict)});
+                    verdict_name(change.verdict)});
   text += table(rows, 1);
   for (const std::string& name : comparison.only_before) text += "only before: " + name + "\n";
   for (const std::string& name : comparison.only_after) text += "only after: " + name + "\n";
@@ -177,7 +177,7 @@ Json to_json(const BenchComparison& comparison) {
                                {"ratio", change.ratio},
                                {"probability", change.probability},
                                {"samples", {change.samples_before, change.samples_after}},
-                               {"verdict", name_of(change.verdict)}});
+                               {"verdict", verdict_name(change.verdict)}});
   json["samples_are_processes"] = comparison.is_of_processes;
   json["only_before"] = comparison.only_before;
   json["only_after"] = comparison.only_after;

@@ -309,7 +309,7 @@ int call_step(void* function, CallArrays& a) {
   return status;
 }
 
-constexpr std::array table{
+constexpr std::array stage_table{
     PluginStage{"closest_face", 2, face_outputs, call_closest_face},
     PluginStage{"closest_points", 2, points_outputs, call_closest_points},
     PluginStage{"block", topology_inputs + 2, block_outputs, call_block},
@@ -397,11 +397,11 @@ std::string_view list_name(List list) {
   return names[static_cast<std::size_t>(list)];
 }
 
-std::span<const PluginStage> plugin_stages() { return table; }
+std::span<const PluginStage> plugin_stages() { return stage_table; }
 
 std::optional<std::size_t> find_plugin_stage(std::string_view name) {
-  for (std::size_t i = 0; i < table.size(); ++i)
-    if (table[i].name == name) return i;
+  for (std::size_t i = 0; i < stage_table.size(); ++i)
+    if (stage_table[i].name == name) return i;
   return std::nullopt;
 }
 

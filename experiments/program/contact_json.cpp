@@ -12,12 +12,10 @@ namespace ogc::experiments {
 
 namespace {
 
+using compare::at, compare::Index;
 using compare::Face;
 using compare::FaceKind;
-using compare::Index;
 using compare::Topology;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 const char* name(FaceKind kind) {
   return kind == FaceKind::vertex ? "vertex" : kind == FaceKind::edge ? "edge" : "triangle";

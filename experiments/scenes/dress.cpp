@@ -16,7 +16,7 @@
 namespace ogc::experiments {
 namespace {
 
-using compare::Index;
+using compare::at, compare::Index;
 using compare::Mesh;
 using compare::Scene;
 using compare::Vec3;
@@ -26,8 +26,6 @@ constexpr double stitch_stiffness = 1000;                                  // [N
 constexpr double chest_radius = 0.145;                                     // [m]
 constexpr double shoulders = 1.30, waist = 1.00, hips = 0.80, hem = 0.60;  // heights [m]
 constexpr double hips_radius = 0.24, hem_radius = 0.30;                    // [m]
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 compare::Material wool() {
   constexpr double thickness = 0.328e-3, youngs_modulus = 76e3, poisson = 0.071, bending_share = 0.1;

@@ -10,8 +10,8 @@
 namespace ogc::experiments {
 namespace {
 
-constexpr double thickness = 8.333e-3, radius = 2e-3;  ///< [m], for 88 vertices on 1 m
-constexpr double young = 2e4, poisson = 0.4;           ///< [Pa], [1]
+constexpr double mat_thickness = 8.333e-3, mat_radius = 2e-3;  ///< [m], for 88 vertices on 1 m
+constexpr double young = 2e4, poisson = 0.4;                   ///< [Pa], [1]
 
 /// Returns the material. The energies of surfaces keep their defaults, because they do not act on a solid's surface.
 compare::Material soft_solid() {
@@ -37,7 +37,7 @@ compare::PrescribedMotion handle(const char* name, compare::Index column, compar
 }  // namespace
 
 compare::Scene mat_twist(const MatTwistSizes& sizes) {
-  const double coarser = 87.0 / (sizes.along - 1), half = thickness * coarser / 2;
+  const double coarser = 87.0 / (sizes.along - 1), half = mat_thickness * coarser / 2;
   compare::Scene scene;
   scene.name = "mat_twist";
   append_body(scene, {.name = "mat", .material = soft_solid()},
@@ -48,7 +48,7 @@ compare::Scene mat_twist(const MatTwistSizes& sizes) {
   scene.settings.time_step = 1.0 / 240;
   scene.settings.steps = sizes.steps;
   scene.settings.iterations = 20;
-  scene.settings.contact_radius = radius * coarser;
+  scene.settings.contact_radius = mat_radius * coarser;
   scene.settings.friction_velocity = 1e-2;
   return scene;
 }

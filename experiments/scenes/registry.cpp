@@ -221,7 +221,7 @@ compare::Scene yarn_twist_at(Scale scale) {
   return yarn_twist();
 }
 
-constexpr std::array<SceneInfo, 16> table{{
+constexpr std::array<SceneInfo, 16> scene_table{{
     {"activation_drop", "Fig. 21", "a square cloth falls onto a sphere and the ground, solved to convergence",
      activation_drop_at},
     {"cloth_on_sphere", "Fig. 18", "a square cloth falls off-centre onto a fixed sphere", cloth_on_sphere_at},
@@ -251,11 +251,11 @@ constexpr std::array<std::string_view, 3> scale_names{"smoke", "small", "paper"}
 
 }  // namespace
 
-std::span<const SceneInfo> scenes() { return table; }
+std::span<const SceneInfo> scenes() { return scene_table; }
 
 compare::Scene make_scene(std::string_view name, Scale scale, const std::filesystem::path& data) {
   std::vector<std::string_view> names;
-  for (const SceneInfo& info : table) {
+  for (const SceneInfo& info : scene_table) {
     names.push_back(info.name);
     if (info.name != name) continue;
     if (!data.empty() && !info.generate_of)

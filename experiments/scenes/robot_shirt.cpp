@@ -156,7 +156,7 @@ class Trajectory {
 
 /// Appends two boxes at x = `centre` that form a gripper. They move apart vertically, and otherwise together.
 void append_gripper(Scene& scene, const char* name, double centre, double spacing, const Trajectory& trajectory) {
-  constexpr double thickness = 0.012, inner = -0.045, outer = 0.03, frame_seconds = 1.0 / 60, seconds = 6;
+  constexpr double thickness = 0.012, inner = -0.045, outer = 0.03, seconds_a_frame = 1.0 / 60, seconds = 6;
   const double half = std::max(0.03, 1.1 * spacing);
   const auto cells = [&](double size) { return std::max<Index>(1, static_cast<Index>(std::lround(size / spacing))); };
   const std::array<Index, 3> cut{cells(2 * half), cells(thickness), cells(outer - inner)};
@@ -172,9 +172,9 @@ void append_gripper(Scene& scene, const char* name, double centre, double spacin
   motion.name = name;
   for (std::size_t v = 0; v < jaws.positions.size(); ++v)
     motion.vertices.push_back(static_cast<Index>(scene.mesh.positions.size() + v));
-  for (int k = 0; k <= std::lround(seconds / frame_seconds); ++k) {
-    motion.keyframes.times.push_back(frame_seconds * k);
-    const Pose pose = trajectory.at(frame_seconds * k);
+  for (int k = 0; k <= std::lround(seconds / seconds_a_frame); ++k) {
+    motion.keyframes.times.push_back(seconds_a_frame * k);
+    const Pose pose = trajectory.at(seconds_a_frame * k);
     for (std::size_t v = 0; v < jaws.positions.size(); ++v) {
       const Vec3& x = jaws.positions[v];
       const double rise = pose.y + (v < lower ? 0 : pose.opening - start.opening);

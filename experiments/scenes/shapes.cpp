@@ -9,13 +9,11 @@
 namespace ogc::experiments {
 namespace {
 
+using compare::at, compare::Index;
 using compare::Edge;
-using compare::Index;
 using compare::Mesh;
 using compare::Triangle;
 using compare::Vec3;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 Vec3 on_unit_sphere(const Vec3& v) {
   const double length = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);

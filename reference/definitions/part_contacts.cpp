@@ -15,7 +15,7 @@
 namespace ogc::reference {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+using compare::at;
 
 /// Returns the nearest face of a part; of equally near faces the lowest by dimension, then number.
 Face nearest_face(const Complex& mesh, const std::vector<Index>& part, const Vec3f& x) {

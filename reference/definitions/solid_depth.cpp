@@ -28,7 +28,7 @@ using compare::VolumeSheetTruth;
 
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+using compare::at;
 
 Vec3 difference(const Vec3f& a, const Vec3f& b) { return {double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z}; }
 Vec3 sum(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -310,12 +310,12 @@ VolumeSheetTruth SolidPart::sheets_of(const Group& group, const std::vector<Inde
     Face face;
     double low;
   };
-  struct Nearest {
+  struct NearestFace {
     std::optional<Face> face;
     Margin gap;
   };
   std::vector<Offered> offered;
-  std::vector<Nearest> exact(group.sheets.size());
+  std::vector<NearestFace> exact(group.sheets.size());
   double reach = INFINITY;  // upper limit of the length of the shortest way
   std::map<Face, Way> ways;
   for (const Index t : order) {
@@ -345,7 +345,7 @@ VolumeSheetTruth SolidPart::sheets_of(const Group& group, const std::vector<Inde
   truth.is_certain = group.is_certain;
   truth.may_be_unresolved = reach == INFINITY;
   std::vector<Face> faces;
-  for (const Nearest& nearest : exact) {
+  for (const NearestFace& nearest : exact) {
     if (!nearest.face) {
       ++truth.exact_unresolved;
     } else if (std::ranges::find(faces, *nearest.face) == faces.end()) {

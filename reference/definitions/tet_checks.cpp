@@ -13,7 +13,7 @@
 namespace ogc::reference {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+using compare::at;
 
 [[noreturn]] void refuse(const std::string& what) { throw compare::InputError("tetrahedra: " + what); }
 

@@ -17,7 +17,7 @@
 namespace ogc::reference {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+using compare::at;
 
 /// Returns adjacent doubles that enclose an exact number ≥ 0; one double twice if it is exact.
 std::array<double, 2> enclosing(const Rational& square) {

@@ -21,10 +21,10 @@
 namespace ogc::reference {
 namespace {
 
+using compare::at;
+
 using compare::VolumeAnswer;
 using compare::VolumePartTruth;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Tests one point against one part of triangles.
 class TrianglePart : public VolumeFaces {

@@ -14,7 +14,7 @@ using compare::VolumePartTruth;
 
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+using compare::at;
 
 /// Largest error of a grey distance, relative to the sum of the moduli of its coordinates.
 constexpr double doubt_factor = compare::grey_factor;

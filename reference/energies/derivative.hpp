@@ -10,6 +10,8 @@
 #include <cstddef>
 #include <type_traits>
 
+#include "compare/problem/vector.hpp"
+
 namespace ogc::reference {
 
 /// Returns the value without derivatives.
@@ -130,6 +132,12 @@ Derivative<T, N> atan2(const Derivative<T, N>& y, const Derivative<T, N>& x) {
 /// Three coordinates of any number type.
 template <class T>
 using Triple = std::array<T, 3>;
+
+/// Returns the length of a vector.
+inline double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
+
+/// Returns a point in double precision.
+inline Triple<double> widened(const compare::Vec3f& p) { return {p.x, p.y, p.z}; }
 
 template <class T>
 Triple<T> operator-(const Triple<T>& a, const Triple<T>& b) {

@@ -19,6 +19,8 @@
 namespace ogc::reference {
 namespace {
 
+using compare::at;
+
 using compare::PlaneIn;
 using compare::PlaneOut;
 using compare::PrimitivePair;
@@ -26,9 +28,7 @@ using compare::VertexPlane;
 using Long = long double;
 using Direction = std::array<Long, 3>;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+constexpr float no_threshold = std::numeric_limits<float>::infinity();
 
 Direction minus(const Vec3f& a, const Vec3f& b) { return {Long{a.x} - b.x, Long{a.y} - b.y, Long{a.z} - b.z}; }
 Direction minus(const Direction& a, const Direction& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
@@ -174,7 +174,7 @@ class PlaneMaker {
     std::vector<std::vector<float>> distances(in_.positions.size());
     for (const NearPair& pair : pairs_)
       for (const Index v : pair.vertices) distances[at(v)].push_back(pair.below);
-    std::vector<float> threshold(in_.positions.size(), infinity);
+    std::vector<float> threshold(in_.positions.size(), no_threshold);
     for (std::size_t v = 0; v < distances.size(); ++v) {
       if (distances[v].size() <= compare::planes_of_vertex || in_.is_fixed[v] != 0) continue;
       const auto place = distances[v].begin() + compare::planes_of_vertex;

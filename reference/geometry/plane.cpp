@@ -25,6 +25,8 @@
 namespace ogc::reference {
 namespace {
 
+using compare::at;
+
 using compare::PlaneFreedom;
 using compare::PlaneGuarantee;
 using compare::PlaneIn;
@@ -34,8 +36,6 @@ using compare::VertexPlane;
 using Rational = CGAL::Gmpq;
 
 constexpr double u = compare::unit_roundoff, infinity = std::numeric_limits<double>::infinity();
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 Rational exact(const Height& height) {
   const Vec3f &n = height.normal, &x = height.point;

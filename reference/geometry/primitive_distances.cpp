@@ -19,7 +19,7 @@
 namespace ogc::reference {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+using compare::at;
 
 template <class Work>
 void for_each(std::size_t count, Work work) {

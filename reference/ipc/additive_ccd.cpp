@@ -9,7 +9,7 @@ namespace {
 
 using Corners = std::array<Triple<double>, 4>;
 
-double length(const Triple<double>& a) { return std::sqrt(dot(a, a)); }
+double norm(const Triple<double>& a) { return std::sqrt(dot(a, a)); }
 
 double largest_coordinate(const Corners& x) {
   double largest = 0;
@@ -36,7 +36,7 @@ class Motion {
     double first = 0, second = 0;
     for (std::size_t k = 0; k < 4; ++k) {
       double& side = k < split_ ? first : second;
-      side = std::max(side, length(delta_[k]));
+      side = std::max(side, norm(delta_[k]));
     }
     approach_ = first + second;
   }
@@ -59,7 +59,7 @@ class Motion {
     widen(slab, apart);
     // The direction of the connection has an error of 2⁻⁵³ S over the gap, which tilts the slab. Normals of lines and
     // planes are more precise.
-    if (slab.width < 0.9 * length(apart)) widen(slab, normal_of(form, slab.x, apart));
+    if (slab.width < 0.9 * norm(apart)) widen(slab, normal_of(form, slab.x, apart));
     return slab;
   }
 
@@ -80,7 +80,7 @@ class Motion {
  private:
   /// Replaces the slab by the one perpendicular to `normal` if that is wider.
   void widen(Slab& slab, const Triple<double>& normal) const {
-    const double size = length(normal);
+    const double size = norm(normal);
     if (!(size > 0)) return;
     const Triple<double> unit = (1 / size) * normal;
     double width = std::numeric_limits<double>::infinity();

@@ -10,10 +10,8 @@
 namespace ogc::reference {
 namespace {
 
+using compare::at, compare::Index;
 using compare::ContactSides;
-using compare::Index;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Calls `visit` with an array of the `count` corners.
 template <class Visit>

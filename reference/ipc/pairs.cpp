@@ -11,11 +11,9 @@
 namespace ogc::reference {
 namespace {
 
+using compare::at, compare::Index;
 using compare::ContactSides;
-using compare::Index;
 using compare::Topology;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// Returns a term with only the form's vertices. Their order depends only on their numbers, so that equal terms are
 /// found by comparison.

@@ -43,19 +43,19 @@ class IpcSimulation : public compare::Simulation {
   }
 
   std::vector<compare::StepMetrics> advance(std::int64_t steps) override {
-    std::vector<compare::StepMetrics> rows;
+    std::vector<compare::StepMetrics> metrics_rows;
     for (std::int64_t k = 0; k < steps; ++k) {
       solver_.set_orientations(orientations_);
       IpcStep step = solver_.step(position_, velocity_, number_ + 1);
       const bool good = step.metrics.status == compare::step_clean;
-      rows.push_back(std::move(step.metrics));
+      metrics_rows.push_back(std::move(step.metrics));
       if (!good) break;
       ++number_;
       position_ = std::move(step.position);
       velocity_ = std::move(step.velocity);
       orientations_ = solver_.orientations();
     }
-    return rows;
+    return metrics_rows;
   }
 
   /// Returns the state with bounds of 0, because IPC has no bounds.

@@ -17,8 +17,6 @@ using compare::Vec3f;
 
 constexpr double not_asked = std::numeric_limits<double>::quiet_NaN();
 
-double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
-
 /// Counts the contacts with volumes and the points in contact. Contacts of one point are adjacent in the list.
 void count_volume_contacts(const ContactSets& sets, double contact_radius, compare::StepMetrics& metrics) {
   metrics.volume_contacts = static_cast<std::int64_t>(sets.volumes.size());

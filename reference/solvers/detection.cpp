@@ -11,8 +11,6 @@
 namespace ogc::reference {
 namespace {
 
-Triple<double> wide(const compare::Vec3f& p) { return {p.x, p.y, p.z}; }
-
 double distance_to_segment(const Triple<double>& x, const Triple<double>& a, const Triple<double>& b) {
   const Triple<double> along = b - a, away = x - a;
   const double length = dot(along, along), share = length > 0 ? std::clamp(dot(away, along) / length, 0.0, 1.0) : 0;
@@ -40,7 +38,7 @@ float sufficient_query_radius(const compare::Topology& topology, const compare::
                               const std::vector<std::size_t>& movable, const std::vector<compare::Vec3f>& positions,
                               float contact_radius, float most) {
   double query_radius = double{contact_radius};
-  const auto at = [&](compare::Index v) { return wide(positions[static_cast<std::size_t>(v)]); };
+  const auto at = [&](compare::Index v) { return widened(positions[static_cast<std::size_t>(v)]); };
   for (const std::size_t v : movable) {
     const auto vertex = static_cast<compare::Index>(v);
     double nearest = double{most};

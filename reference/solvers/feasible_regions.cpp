@@ -9,8 +9,6 @@ namespace {
 
 constexpr int slide_passes = 8;
 
-double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
-
 }  // namespace
 
 /// Reduces the bounds by the error of rounding to single precision. A coordinate is at most ‖X_prev‖_∞ + b_v and moves

@@ -14,19 +14,13 @@
 namespace ogc::reference {
 namespace {
 
-using compare::Index;
+using compare::at, compare::Index;
 using compare::StepEvent;
 using compare::StepEventKind;
 using compare::StepLedger;
 using compare::Vec3f;
 
-double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
-
-Triple<double> wide(const Vec3f& a) { return {a.x, a.y, a.z}; }
-
 void add(compare::Vec3& sum, const Triple<double>& a) { sum = {sum.x + a[0], sum.y + a[1], sum.z + a[2]}; }
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// The scene rounded to single precision, as the stages read it, and data derived from it. It is a base class, so that
 /// it is constructed before the members that read it.
@@ -66,7 +60,7 @@ class LedgerWriter::Writer : private RoundedScene {
     potential_.begin_step(start_, target_);
     read_contacts({trace.events[0].vertex_facet.contacts, trace.events[0].edge_edge.contacts}, start);
     ledger_.energy_start = energy_ = potential_energy(x_) + kinetic_energy(velocity);
-    for (const std::size_t v : free_) add(ledger_.momentum_start, potential_.mass()[v] * wide(velocity[v]));
+    for (const std::size_t v : free_) add(ledger_.momentum_start, potential_.mass()[v] * widened(velocity[v]));
     for (auto event = trace.events.begin() + 1; event != trace.events.end(); ++event) enter(*event, trace.colour);
     subtract(ledger_.momentum_guess, ledger_.momentum_start);
     read_contacts(contacts_at_end, trace.position);
@@ -105,7 +99,7 @@ class LedgerWriter::Writer : private RoundedScene {
   double kinetic_energy(const std::vector<Vec3f>& velocity) const {
     double sum = 0;
     for (std::size_t v = 0; v < velocity.size(); ++v)
-      sum += 0.5 * potential_.mass()[v] * dot(wide(velocity[v]), wide(velocity[v]));
+      sum += 0.5 * potential_.mass()[v] * dot(widened(velocity[v]), widened(velocity[v]));
     return sum;
   }
 
@@ -184,7 +178,7 @@ class LedgerWriter::Writer : private RoundedScene {
     find_nearest();
     for (const std::size_t v : cut_) {
       const Triple<double> taken = (potential_.mass()[v] / step_) * (proposed[v] - stored[v]),
-                           n = wide(nearest_[v].normal);
+                           n = widened(nearest_[v].normal);
       ledger_.motion_taken += length(taken);
       if (!(dot(n, n) > 0)) {
         ledger_.motion_taken_unpaired += length(taken);

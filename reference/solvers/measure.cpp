@@ -12,10 +12,6 @@ namespace {
 
 using compare::Vec3f;
 
-double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
-
-Triple<double> wide(const Vec3f& a) { return {a.x, a.y, a.z}; }
-
 /// Returns the distance of a contact's closed faces at x [m].
 double distance_of(const ContactTerm& term, const State& x) {
   const auto corners = contact_corners(term.sides, term.vertex, x);
@@ -42,11 +38,11 @@ State inertial_targets(const compare::Scene& scene, const std::vector<Vec3f>& st
   const Triple<double> acceleration{scene.gravity.x, scene.gravity.y, scene.gravity.z};
   State target = widened(start);
   for (std::size_t v = 0; v < target.size(); ++v)
-    if (mobility[v] == Mobility::free) target[v] = target[v] + h * wide(velocity[v]) + h * h * acceleration;
+    if (mobility[v] == Mobility::free) target[v] = target[v] + h * widened(velocity[v]) + h * h * acceleration;
   for (const compare::PrescribedMotion& motion : scene.motions) {
     const std::vector<Vec3f> positions = prescribed_targets(scene, motion, time);
     for (std::size_t k = 0; k < positions.size(); ++k)
-      target[static_cast<std::size_t>(motion.vertices[k])] = wide(positions[k]);
+      target[static_cast<std::size_t>(motion.vertices[k])] = widened(positions[k]);
   }
   return target;
 }
@@ -55,7 +51,7 @@ std::vector<Vec3f> end_velocities(const std::vector<Vec3f>& position, const Stat
   std::vector<Vec3f> velocity;
   velocity.reserve(position.size());
   for (std::size_t v = 0; v < position.size(); ++v) {
-    const Triple<double> moved = (1 / step) * (wide(position[v]) - start[v]);
+    const Triple<double> moved = (1 / step) * (widened(position[v]) - start[v]);
     velocity.push_back({static_cast<float>(moved[0]), static_cast<float>(moved[1]), static_cast<float>(moved[2])});
   }
   return velocity;
@@ -112,7 +108,7 @@ void measure_energies(compare::StepMetrics& metrics, const StepStates& states, c
 
 bool keeps_bounds(const std::vector<Vec3f>& position, const Detected& detected) {
   for (std::size_t v = 0; v < position.size(); ++v) {
-    const Triple<double> moved = wide(position[v]) - wide(detected.previous[v]);
+    const Triple<double> moved = widened(position[v]) - widened(detected.previous[v]);
     if (!(dot(moved, moved) <= double{detected.bound[v]} * detected.bound[v])) return false;
   }
   return broken_planes(detected.planes, position) == 0;

@@ -14,8 +14,6 @@ namespace {
 constexpr int questions_a_mesh = 48, questions_a_field = 2000;
 constexpr std::size_t neighbours = 8;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 double squared_distance(const Vec3f& a, const Vec3f& b) {
   const double x = double{a.x} - b.x, y = double{a.y} - b.y, z = double{a.z} - b.z;
   return x * x + y * y + z * z;

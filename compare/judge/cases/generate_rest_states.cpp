@@ -23,8 +23,6 @@ namespace {
 
 using namespace placement;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 /// Takes the legal part of a mesh; enlarges a tiny mesh 2¹⁰ times, and reduces a vast one (edges up to 2²⁰ m at twice
 /// the size) to an eighth. Coordinates that are too small become 0; faces that are too short, flat or repeated are left
 /// out, and vertices without a face with them.

@@ -6,8 +6,6 @@
 namespace ogc::compare {
 namespace {
 
-std::size_t place(Index i) { return static_cast<std::size_t>(i); }
-
 /// Returns the place of a number in an ascending list; −1 if the list lacks it.
 Index find(const std::vector<Index>& ascending, Index number) {
   const auto found = std::ranges::lower_bound(ascending, number);
@@ -33,12 +31,12 @@ VolumeQuestion::VolumeQuestion(const Scene& scene, const Topology& topology)
       asking_(volume_askers(scene, topology)),
       contact_radius_(static_cast<float>(scene.settings.contact_radius)) {
   const std::vector<bool> is_volume = volume_flags(scene);
-  for (const Index v : asking_) asking_as_.push_back(is_volume[place(v)] ? v : -1);
+  for (const Index v : asking_) asking_as_.push_back(is_volume[compare::at(v)] ? v : -1);
 }
 
 VolumeDepthCase VolumeQuestion::at(std::span<const Vec3f> positions) const {
   VolumeDepthCase asked{own_, {positions.begin(), positions.end()}, contact_radius_, {}, surface_.tetrahedra};
-  for (const Index v : asking_) asked.points.push_back(positions[place(v)]);
+  for (const Index v : asking_) asked.points.push_back(positions[compare::at(v)]);
   asked.own = asking_as_;
   asked.cavities = surface_.cavities;
   return asked;
@@ -54,7 +52,7 @@ std::vector<VolumeContact> VolumeQuestion::exact(const VolumeDepthCase& asked, c
   std::vector<VolumeContact> contacts;
   const auto take = [&](const VolumeAnswer& answer, std::size_t i) {
     VolumeContact contact = rounded(answer, asking_[i]);
-    contact.triangle = surface_.triangles[place(contact.triangle)];
+    contact.triangle = surface_.triangles[compare::at(contact.triangle)];
     contact.face = scene_face(surface_, topology_, contact.face);
     contacts.push_back(contact);
   };
@@ -81,9 +79,9 @@ std::optional<VolumeDepthOut> VolumeQuestion::answer_of(const VolumeDepthOut& in
     contact.triangle = triangle;
     if (contact.face.kind == FaceKind::triangle) contact.face.index = find(surface_.triangles, contact.face.index);
     if (contact.face.kind == FaceKind::edge) {
-      if (contact.face.index < 0 || place(contact.face.index) >= topology_.edges.size())
+      if (contact.face.index < 0 || compare::at(contact.face.index) >= topology_.edges.size())
         return refuse("an edge that does not exist");
-      const Edge& ends = topology_.edges[place(contact.face.index)];
+      const Edge& ends = topology_.edges[compare::at(contact.face.index)];
       contact.face.index = find_edge(surface_.topology, ends[0], ends[1]);
     }
     if (contact.face.index < 0) return refuse("a face of none");

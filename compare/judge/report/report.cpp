@@ -40,8 +40,8 @@ std::string print_rows(const std::vector<ReportRow>& rows) {
     std::string line;
     for (std::size_t c = 0; c < row.size(); ++c) {
       const std::string gap(widths[c] - width(row[c]), ' ');
-      const bool left = c == 0 || c == 6;
-      line += (c == 0 ? "" : "  ") + (left ? row[c] + gap : gap + row[c]);
+      const bool is_text = c == 0 || c == 6;
+      line += (c == 0 ? "" : "  ") + (is_text ? row[c] + gap : gap + row[c]);
     }
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }

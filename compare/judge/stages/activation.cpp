@@ -113,13 +113,13 @@ void judge_activation(Cases cases, const ActivationIn& in, const ActivationTruth
 namespace {
 
 /// Absolute thresholds that programs use [m].
-constexpr std::array<std::pair<const char*, float>, 7> thresholds{{{"1e-2", 1e-2f},
-                                                                   {"1e-3", 1e-3f},
-                                                                   {"1e-4", 1e-4f},
-                                                                   {"1e-5", 1e-5f},
-                                                                   {"1e-6", 1e-6f},
-                                                                   {"1e-7", 1e-7f},
-                                                                   {"1e-8", 1e-8f}}};
+constexpr std::array<std::pair<const char*, float>, 7> gap_thresholds{{{"1e-2", 1e-2f},
+                                                                       {"1e-3", 1e-3f},
+                                                                       {"1e-4", 1e-4f},
+                                                                       {"1e-5", 1e-5f},
+                                                                       {"1e-6", 1e-6f},
+                                                                       {"1e-7", 1e-7f},
+                                                                       {"1e-8", 1e-8f}}};
 
 /// Makes a form that changes the truth of each case by `change(in, i, truth)`.
 template <class Change>
@@ -178,7 +178,7 @@ void add_variants(std::vector<WrongForm>& forms) {
 }
 
 void add_thresholds(std::vector<WrongForm>& forms) {
-  for (const auto& [text, epsilon] : thresholds) {
+  for (const auto& [text, epsilon] : gap_thresholds) {
     forms.push_back(activation_asked("distance_floor_" + std::string(text),
                                      "distances below an absolute epsilon of " + std::string(text) + " m count as it",
                                      [e = epsilon](float& d, float, float, ContactActivation) { d = std::max(d, e); }));

@@ -22,8 +22,6 @@ namespace ogc::compare {
 
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 std::string print(const VolumeContact& c, const Topology& topology) {
   return std::string(c.inside != 0 ? "inside at " : "outside at ") + face_name(c.face, topology) + ", triangle " +
          std::to_string(c.triangle);

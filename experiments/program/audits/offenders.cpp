@@ -11,9 +11,7 @@ namespace ogc::experiments {
 
 namespace {
 
-using compare::Index;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+using compare::at, compare::Index;
 
 void sort_once(std::vector<Index>& numbers) {
   std::ranges::sort(numbers);

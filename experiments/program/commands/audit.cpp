@@ -28,7 +28,7 @@ namespace {
 
 using compare::SmallestDistances;
 
-struct Options {
+struct AuditOptions {
   AuditRequest request;
   std::string show;               ///< folder of the .vtp files; empty: none
   std::optional<double> deepest;  ///< depth inside a volume above which a state fails [m]; empty: no limit
@@ -190,7 +190,7 @@ class Reading {
 
 /// Judges as many states in parallel as there are threads, because a single thread does most of the work on a state.
 /// Ways are checked one after the other, each by all threads.
-Audits audit_all(AuditSource& source, const Options& options) {
+Audits audit_all(AuditSource& source, const AuditOptions& options) {
   const std::string& show = options.show;
   Audits audits;
   audits.planned = source.size();
@@ -355,7 +355,7 @@ void print(const Audits& audits, const Totals& totals, const std::string& left_o
   print_result(text + (audits.states.empty() ? "" : describe_distances(audits.states)));
 }
 
-void print_json(const Options& options, const Audits& audits, const Totals& totals, const std::string& left_out) {
+void print_json(const AuditOptions& options, const Audits& audits, const Totals& totals, const std::string& left_out) {
   const auto& paths = options.request.paths;
   Json json{{"audited", paths.size() == 1 ? Json(paths.front()) : Json(paths)}, {"states", Json::array()}};
   for (const State& state : audits.states) json["states"].push_back(state.json);
@@ -377,7 +377,7 @@ void print_json(const Options& options, const Audits& audits, const Totals& tota
   print_result(json);
 }
 
-int run(const Options& options, const CommandContext& context) {
+int run_audit(const AuditOptions& options, const CommandContext& context) {
   const std::unique_ptr<AuditSource> source = open_audit(options.request);
   const Audits audits = audit_all(*source, options);
   const Totals totals = totals_of(audits.states);
@@ -400,7 +400,7 @@ int run(const Options& options, const CommandContext& context) {
 }  // namespace
 
 void add_audit_command(CLI::App& app, CommandContext& context) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<AuditOptions>();
   CLI::App* command = app.add_subcommand(
       "audit", "Exact self-intersection audit of a mesh, of a run, or of the frames of any other program");
   command
@@ -464,7 +464,7 @@ void add_audit_command(CLI::App& app, CommandContext& context) {
       "  ogc audit their_run/*.ply --show crossings\n"
       "  ogc audit cloth.pc2 --mesh cloth.obj --between\n"
       "  ogc audit frames.npz --json --limit 20 > verdict.json");
-  command->callback([options, &context] { context.status = run(*options, context); });
+  command->callback([options, &context] { context.status = run_audit(*options, context); });
 }
 
 }  // namespace ogc::experiments

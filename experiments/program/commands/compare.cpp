@@ -199,7 +199,7 @@ void print_reports(const std::vector<StageReport>& reports, const std::optional<
   print_result(text);
 }
 
-int run(CompareOptions options, const CommandContext& context) {
+int run_compare(CompareOptions options, const CommandContext& context) {
   if (options.list) return list_stages(options);
   if (!options.report.empty())
     // created first, so that a wrong path is reported before the cases are judged
@@ -304,7 +304,7 @@ void add_compare_command(CLI::App& app, CommandContext& context) {
       "  ogc compare truncate --plugin ./mine.so\n"
       "  ogc compare --problem \"stage=detect_edge_edge gen=few seed=7 index=12 r=2e-3 r_q=4e-3\"\n"
       "  ogc compare --determinism --backend cuda --json");
-  command->callback([options, &context] { context.status = run(*options, context); });
+  command->callback([options, &context] { context.status = run_compare(*options, context); });
 }
 
 }  // namespace ogc::experiments

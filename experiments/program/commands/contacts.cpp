@@ -28,7 +28,7 @@ constexpr double least_radius = 0x1p-20, most_radius = 0x1p20, most_query_radius
 /// (large_radius_twist).
 constexpr double default_radius_ratio = 0.2;
 
-struct Options {
+struct ContactsOptions {
   std::string mesh, engine = "exact";
   double contact_radius = 0, query_radius = 0;
   compare::MeshOptions taken;
@@ -59,7 +59,7 @@ void expect_engine(const std::string& engine) {
     throw compare::ResourceError("--engine cuda: " + device.description + ", or take --engine cpu or --engine exact");
 }
 
-void run(const Options& options, const CommandContext& context) {
+void run_contacts(const ContactsOptions& options, const CommandContext& context) {
   if (options.schema) return print_result(contacts_schema());
   if (options.mesh.empty())
     throw compare::InputError("ogc contacts needs a mesh, or --schema; see ogc contacts --help");
@@ -103,7 +103,7 @@ void run(const Options& options, const CommandContext& context) {
 }  // namespace
 
 void add_contacts_command(CLI::App& app, CommandContext& context) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ContactsOptions>();
   CLI::App* command = app.add_subcommand("contacts", "Contact sets, distances and conservative bounds of a mesh");
   command->add_option("MESH", options->mesh,
                       "A mesh file: .obj, .ply, .stl, .off, .gltf, .glb, .vtp, .vtu, .vtk, .msh or .mesh");
@@ -138,7 +138,7 @@ void add_contacts_command(CLI::App& app, CommandContext& context) {
       "Examples:\n"
       "  ogc contacts shirt.obj --radius 0.002\n"
       "  ogc contacts shirt.ply --engine cpu --threads 8 --json > contacts.json");
-  command->callback([options, &context] { run(*options, context); });
+  command->callback([options, &context] { run_contacts(*options, context); });
 }
 
 }  // namespace ogc::experiments

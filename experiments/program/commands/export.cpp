@@ -12,11 +12,11 @@ namespace ogc::experiments {
 
 namespace {
 
-struct Options {
+struct ExportOptions {
   std::string folder, format = "vtp", out;
 };
 
-void run(const Options& options, const CommandContext& context) {
+void run_export(const ExportOptions& options, const CommandContext& context) {
   const compare::ExportFormat format = compare::parse_export_format(options.format);
   const std::filesystem::path out = options.out.empty() ? std::filesystem::path(options.folder) / options.format
                                                         : std::filesystem::path(options.out);
@@ -37,7 +37,7 @@ void run(const Options& options, const CommandContext& context) {
 }  // namespace
 
 void add_export_command(CLI::App& app, CommandContext& context) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExportOptions>();
   CLI::App* command = app.add_subcommand("export", "Write the frames of a run as mesh files");
   command->add_option("RUN", options->folder, "A run folder, finished or not")->required();
   command
@@ -55,7 +55,7 @@ void add_export_command(CLI::App& app, CommandContext& context) {
       "Examples:\n"
       "  ogc export runs/twist-small-20250801-120000\n"
       "  ogc export runs/twist-small-20250801-120000 --format obj --out meshes");
-  command->callback([options, &context] { run(*options, context); });
+  command->callback([options, &context] { run_export(*options, context); });
 }
 
 }  // namespace ogc::experiments

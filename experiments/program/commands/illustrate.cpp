@@ -13,7 +13,7 @@ namespace ogc::experiments {
 
 namespace {
 
-struct Options {
+struct IllustrateOptions {
   std::vector<std::string> figures;
   std::string folder = ".";
 };
@@ -33,7 +33,7 @@ Json to_json(const std::string& figure, const std::vector<reference::DrawingPane
   return json;
 }
 
-void run(const Options& options, const CommandContext& context) {
+void run_illustrate(const IllustrateOptions& options, const CommandContext& context) {
   std::vector<std::string> figures = options.figures;
   if (figures.empty()) {
     const auto names = reference::illustration_names();
@@ -54,7 +54,7 @@ void run(const Options& options, const CommandContext& context) {
 }  // namespace
 
 void add_illustrate_command(CLI::App& app, CommandContext& context) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<IllustrateOptions>();
   CLI::App* command = app.add_subcommand("illustrate",
                                          "Data of the paper's drawings of blocks, Gauss maps, contact sets and "
                                          "truncated steps (Fig. 2c to e, 3 to 9, 22)");
@@ -67,7 +67,7 @@ void add_illustrate_command(CLI::App& app, CommandContext& context) {
       "  python3 -m paper_figures.figures.illustrations FOLDER\n\n"
       "Example:\n"
       "  ogc illustrate fig07 fig08 --out runs/illustrations");
-  command->callback([options, &context] { run(*options, context); });
+  command->callback([options, &context] { run_illustrate(*options, context); });
 }
 
 }  // namespace ogc::experiments

@@ -14,13 +14,13 @@ namespace ogc::experiments {
 
 namespace {
 
-struct Options {
+struct LawsOptions {
   std::vector<std::string> laws;
   std::string solver, backend, bounds;
   bool quick = false, list = false, schema = false;
 };
 
-void check(const Options& options) {
+void check(const LawsOptions& options) {
   if (!options.backend.empty() && !options.solver.empty() && options.solver != "vbd")
     throw compare::InputError("--backend belongs to --solver vbd; " + options.solver + " runs on the CPU");
   if (!options.bounds.empty() && options.solver == "ipc")
@@ -33,7 +33,7 @@ void check(const Options& options) {
 /// Returns the solvers and bounds that the options select. Without options: vbd on the CPU with balls and with planes,
 /// newton, ipc. --backend selects vbd alone. If no bounds are named, newton runs with balls only, because bounds change
 /// its iterates but not the resulting motion.
-std::vector<LawAsked> asked_by(const Options& options) {
+std::vector<LawAsked> asked_by(const LawsOptions& options) {
   check(options);
   const auto is_asked = [&](const char* solver) {
     return options.solver == solver || (options.solver.empty() && options.backend.empty());
@@ -57,7 +57,7 @@ std::vector<const compare::Law*> chosen(const std::vector<std::string>& names) {
   return found;
 }
 
-void run(const Options& options, CommandContext& context) {
+void run_laws(const LawsOptions& options, CommandContext& context) {
   if (options.schema) return print_result(laws_schema());
   if (options.list) return print_result(list_laws());
   const std::vector<const compare::Law*> laws = chosen(options.laws);
@@ -81,7 +81,7 @@ void run(const Options& options, CommandContext& context) {
 }  // namespace
 
 void add_laws_command(CLI::App& app, CommandContext& context) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<LawsOptions>();
   CLI::App* command = app.add_subcommand("laws", "Closed answers (falls, slopes, beams …) asked of each solver");
   command->add_option("LAW", options->laws, "Names of laws (default: all laws of --list)");
   command
@@ -107,7 +107,7 @@ void add_laws_command(CLI::App& app, CommandContext& context) {
       "  ogc laws --quick\n"
       "  ogc laws slope_slides --solver vbd --bounds planes\n"
       "  ogc laws free_fall spin --solver newton --json");
-  command->callback([options, &context] { run(*options, context); });
+  command->callback([options, &context] { run_laws(*options, context); });
 }
 
 }  // namespace ogc::experiments

@@ -23,7 +23,7 @@ std::string introduction(const RunRequest& request) {
          number(scene.settings.time_step) + " s; writes " + request.folder.string();
 }
 
-/// Options that are allowed with --resume, because they change no bit.
+/// RunOptions that are allowed with --resume, because they change no bit.
 constexpr std::array<std::string_view, 4> free_options{"--resume", "--threads", "--checkpoint", "--json"};
 
 ResumedRun resumed(const RunOptions& options, const std::string& folder, const CLI::App& command) {
@@ -41,7 +41,8 @@ ResumedRun resumed(const RunOptions& options, const std::string& folder, const C
   return run;
 }
 
-int run(const RunOptions& options, const std::string& resume, const CLI::App& command, const CommandContext& context) {
+int make_run(const RunOptions& options, const std::string& resume, const CLI::App& command,
+             const CommandContext& context) {
   const auto limit = limited_threads(options.threads);
   if (options.scene.empty() && resume.empty())
     throw compare::InputError("run needs a scene (" + scene_names() +
@@ -104,7 +105,7 @@ void add_run_command(CLI::App& app, CommandContext& context) {
       "summary and run.json say where the time went: start, steps, waiting for audits, for the disk.\n"
       "Exit status 1: a penetration, a broken bound, a number that is not finite.");
   command->callback(
-      [options, resume, command, &context] { context.status = run(*options, *resume, *command, context); });
+      [options, resume, command, &context] { context.status = make_run(*options, *resume, *command, context); });
 }
 
 }  // namespace ogc::experiments

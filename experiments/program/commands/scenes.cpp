@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::array<std::string_view, 3> scale_names{"smoke", "small", "paper"};
 
-struct Options {
+struct ScenesOptions {
   std::string scene, folder, scale = "small";
   std::vector<std::string> assignments;
   bool schema = false, force = false;
@@ -102,7 +102,7 @@ void move_files(const std::filesystem::path& from, const std::filesystem::path& 
 
 /// Writes the files of the scene. They first go to a folder beside the destination, because their names are known only
 /// after writing.
-std::filesystem::path write_files(const Options& options) {
+std::filesystem::path write_files(const ScenesOptions& options) {
   const compare::Scene scene = make_scene(options.scene, parse_scale(options.scale), data_folder(options.assignments));
   const std::filesystem::path folder(options.folder), partial = compare::partial_name(folder / options.scene);
   std::filesystem::remove_all(partial);
@@ -117,13 +117,13 @@ std::filesystem::path write_files(const Options& options) {
   return folder / name;
 }
 
-void write(const Options& options, const CommandContext& context) {
+void write(const ScenesOptions& options, const CommandContext& context) {
   const std::filesystem::path file = write_files(options);
   if (context.json) return print_result(Json{{"written", file.string()}});
   print_result(file.string() + "\n");
 }
 
-void run(const Options& options, const CommandContext& context) {
+void run_scenes(const ScenesOptions& options, const CommandContext& context) {
   if (options.schema) return print_result(compare::scene_schema() + "\n");
   if (!options.folder.empty() && options.scene.empty())
     throw compare::InputError("--write needs a scene: ogc scenes NAME --write DIR");
@@ -141,7 +141,7 @@ void run(const Options& options, const CommandContext& context) {
 }  // namespace
 
 void add_scenes_command(CLI::App& app, CommandContext& context) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ScenesOptions>();
   CLI::App* command = app.add_subcommand("scenes", "List the built-in scenes, show one, or write one as files to edit");
   command->add_option("NAME", options->scene, "A scene; without it all are listed");
   command->add_option("--write", options->folder, "Write NAME.json and its meshes into this folder");
@@ -163,7 +163,7 @@ void add_scenes_command(CLI::App& app, CommandContext& context) {
       "  ogc scenes\n"
       "  ogc scenes cloth_on_sphere --write mine --scale smoke    # then edit mine/cloth_on_sphere.json and: ogc run "
       "mine/cloth_on_sphere.json");
-  command->callback([options, &context] { run(*options, context); });
+  command->callback([options, &context] { run_scenes(*options, context); });
 }
 
 }  // namespace ogc::experiments

@@ -20,7 +20,7 @@ namespace ogc::experiments {
 
 namespace {
 
-struct Options {
+struct SuggestOptions {
   std::string mesh;
   compare::MeshOptions reading;
   std::optional<double> fall;
@@ -62,7 +62,7 @@ std::string command_line(const std::string& mesh, double ground, const std::vect
   return text;
 }
 
-void run(const Options& options, const CommandContext& context) {
+void run_suggest(const SuggestOptions& options, const CommandContext& context) {
   const MeshInput input = read_mesh_input(options.mesh, options.reading);
   expect_solid(input);
   const bool is_solid = !input.mesh.tetrahedra.empty();
@@ -91,7 +91,7 @@ void run(const Options& options, const CommandContext& context) {
 }  // namespace
 
 void add_suggest_command(CLI::App& app, CommandContext& context) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SuggestOptions>();
   CLI::App* command = app.add_subcommand("suggest", "Settings to run a mesh with, each with its reason");
   command->add_option("MESH", options->mesh, "A mesh file")->required();
   add_mesh_options(*command, options->reading);
@@ -113,7 +113,7 @@ void add_suggest_command(CLI::App& app, CommandContext& context) {
       "Examples:\n"
       "  ogc suggest shirt.obj\n"
       "  ogc suggest shirt.obj --fall 0.5 --json");
-  command->callback([options, &context] { run(*options, context); });
+  command->callback([options, &context] { run_suggest(*options, context); });
 }
 
 }  // namespace ogc::experiments

@@ -19,8 +19,8 @@ using compare::Vec3;
 /// the step. It is a rough choice.
 constexpr double share_of_gravity = 0.1;
 
-double length(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
-double distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
+double norm(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
+double separation(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
 std::string bounds_warning(const compare::Scene& scene) {
   if (traits_of(scene.settings.bounds).certifies) return "";
@@ -35,7 +35,7 @@ std::string box_warning(const compare::Scene& scene) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
-  const double diagonal = distance(low, high);
+  const double diagonal = separation(low, high);
   if (diagonal <= largest_diagonal) return "";
   return "the scene's box has a diagonal of " + number(diagonal) + " m, above " + number(largest_diagonal) +
          " m: lengths are metres; a mesh in millimetres is to be scaled by 0.001, one in centimetres by 0.01";
@@ -47,7 +47,7 @@ double median_edge(const compare::Scene& scene, const compare::Body& body) {
   const auto at = [&](compare::Index v) { return scene.mesh.positions[static_cast<std::size_t>(v)]; };
   for (compare::Index t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
     const auto& [a, b, c] = scene.mesh.triangles[static_cast<std::size_t>(t)];
-    lengths.insert(lengths.end(), {distance(at(a), at(b)), distance(at(b), at(c)), distance(at(c), at(a))});
+    lengths.insert(lengths.end(), {separation(at(a), at(b)), separation(at(b), at(c)), separation(at(c), at(a))});
   }
   if (lengths.empty()) return 0;
   const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
@@ -75,7 +75,7 @@ std::string radius_warning(const compare::Scene& scene) {
 /// step. A body at rest and a body that should begin to slide then look alike.
 std::string tolerance_warning(const compare::Scene& scene, Solver solver) {
   if (solver != Solver::ipc) return "";
-  const double speed = reference::ipc_end_speed(scene), gained = length(scene.gravity) * scene.settings.time_step;
+  const double speed = reference::ipc_end_speed(scene), gained = norm(scene.gravity) * scene.settings.time_step;
   if (gained == 0 || speed <= gained) return "";
   const bool by_velocity = compare::get_setting(scene.settings, "ipc_stopping") != 0;
   const std::string setting = by_velocity ? "ipc_velocity_tolerance" : "ipc_tolerance";
@@ -108,7 +108,7 @@ std::string keys_warning(const compare::Scene& scene) {
   for (const compare::PrescribedMotion& motion : scene.motions)
     for (std::size_t k = 0; k < motion.vertices.size() && !motion.keyframes.empty(); ++k) {
       const compare::Index v = motion.vertices[k];
-      const double away = distance(at_start(motion, k), scene.mesh.positions[static_cast<std::size_t>(v)]);
+      const double away = separation(at_start(motion, k), scene.mesh.positions[static_cast<std::size_t>(v)]);
       if (away > farthest) farthest = away, of = &motion, vertex = v;
     }
   if (of == nullptr) return "";

@@ -17,10 +17,7 @@ constexpr double given_back = 0x1p-6;
 /// Rounding of a difference of two sums of three products in double: each operation rounds by 2⁻⁵³ of its result.
 constexpr double height_noise = 0x1p-49;
 
-double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
 double largest(const Triple<double>& a) { return std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])}); }
-Triple<double> wide(const compare::Vec3f& p) { return {p.x, p.y, p.z}; }
-
 /// Returns how far rounding to single precision moves a point with coordinates up to `size` [m] (as in
 /// FeasibleRegions).
 double rounding_of(double size) { return std::sqrt(3.0) * ((0x1p-24 + 0x1p-50) * size + 0x1p-149); }
@@ -48,7 +45,7 @@ MovingPlanes::MovingPlanes(const std::vector<NearPair>& pairs, const std::vector
       radius_[v] = std::max(0.0, (ball_ - rounding_of(largest(centre_[v]) + ball_)) * (1 - 0x1p-50));
   pairs_.reserve(pairs.size());
   for (const NearPair& near : pairs) {
-    Pair pair{{}, near.second_from, wide(near.normal), 0, 0};
+    Pair pair{{}, near.second_from, widened(near.normal), 0, 0};
     double size = 0;
     for (std::size_t k = 0; k < 4; ++k) {
       pair.vertices[k] = static_cast<std::size_t>(near.vertices[k]);
@@ -180,13 +177,13 @@ State MovingPlanes::truncated(const State& x, State step) const {
 
 bool MovingPlanes::kept_by(const std::vector<compare::Vec3f>& stored) const {
   for (std::size_t v = 0; v < stored.size(); ++v) {
-    const double moved = length(wide(stored[v]) - centre_[v]);
+    const double moved = length(widened(stored[v]) - centre_[v]);
     if (stays(v) ? moved != 0 : !(moved * (1 + 0x1p-50) <= ball_)) return false;
   }
   return std::ranges::all_of(pairs_, [&](const Pair& pair) {
     double size = 0;
-    for (const std::size_t v : pair.vertices) size = std::max(size, largest(wide(stored[v])));
-    return separation(pair, [&](std::size_t v) { return wide(stored[v]); }) > 3 * height_noise * size;
+    for (const std::size_t v : pair.vertices) size = std::max(size, largest(widened(stored[v])));
+    return separation(pair, [&](std::size_t v) { return widened(stored[v]); }) > 3 * height_noise * size;
   });
 }
 

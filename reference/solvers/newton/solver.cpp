@@ -27,8 +27,6 @@ constexpr int most_pin_rounds = 6;
 /// If the line search accepts a smaller share, it has stalled at its balls or at a kink of its contacts.
 constexpr double least_share = 1e-3;
 
-double length(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
-
 }  // namespace
 
 void NewtonSolver::set_orientations(std::span<const compare::Quaternion> orientations) {

@@ -10,12 +10,10 @@
 
 namespace ogc::reference {
 
-using compare::Index;
+using compare::at, compare::Index;
 using Frame = FourOf<double>;
 
 namespace {
-
-std::size_t place(Index i) { return static_cast<std::size_t>(i); }
 
 Frame wide(const compare::Quaternion& q) { return {q[0], q[1], q[2], q[3]}; }
 compare::Quaternion narrow(const Frame& q) {
@@ -52,7 +50,7 @@ std::vector<Index> segment_colours_of(const compare::RestStateOut& rest, const s
   for (std::size_t e = 0; e < colour.size(); ++e) {
     if (held[e] != -1) continue;
     const auto taken = [&](Index c) {
-      return std::ranges::any_of(rest.segments[e].neighbour, [&](Index f) { return f >= 0 && colour[place(f)] == c; });
+      return std::ranges::any_of(rest.segments[e].neighbour, [&](Index f) { return f >= 0 && colour[at(f)] == c; });
     };
     for (colour[e] = 0; taken(colour[e]);) ++colour[e];
   }
@@ -63,7 +61,7 @@ std::vector<compare::Quaternion> start_orientations(const compare::Scene& scene,
   if (!scene.orientations.empty()) return scene.orientations;
   std::vector<compare::Quaternion> all;
   const auto between = [](const std::vector<compare::Vec3>& x, const compare::Edge& ends) {
-    const compare::Vec3 &a = x[place(ends[0])], &b = x[place(ends[1])];
+    const compare::Vec3 &a = x[at(ends[0])], &b = x[at(ends[1])];
     return Triple<double>{b.x - a.x, b.y - a.y, b.z - a.z};
   };
   for (const compare::RestSegment& segment : rest.segments) {
@@ -79,7 +77,7 @@ RodSystem::RodSystem(const compare::Scene& scene, const compare::RestStateOut& r
   const std::vector<Index> held = compare::segment_groups(scene, compare::rod_segments(scene));
   for (std::size_t e = 0; e < rest.segments.size(); ++e) {
     const compare::RestSegment& from = rest.segments[e];
-    const compare::RodMaterial& material = *scene.bodies[place(from.body)].material.rod;
+    const compare::RodMaterial& material = *scene.bodies[at(from.body)].material.rod;
     RodTerm term;
     term.vertex = from.end;
     term.length = double{from.length};
@@ -96,13 +94,13 @@ RodSystem::RodSystem(const compare::Scene& scene, const compare::RestStateOut& r
   const std::vector<Index> colour = segment_colours_of(rest, held);
   for (std::size_t e = 0; e < colour.size(); ++e) {
     if (colour[e] < 0) continue;
-    classes_.resize(std::max(classes_.size(), place(colour[e]) + 1));
-    classes_[place(colour[e])].push_back(e);
+    classes_.resize(std::max(classes_.size(), at(colour[e]) + 1));
+    classes_[at(colour[e])].push_back(e);
   }
   for (std::size_t e = 0; e < terms_.size(); ++e)
     for (std::size_t end = 0; end < 2; ++end)
-      if (terms_[e].weight[end] > 0 && place(terms_[e].neighbour[end]) > e)
-        joints_.push_back({e, end, place(terms_[e].neighbour[end])});
+      if (terms_[e].weight[end] > 0 && at(terms_[e].neighbour[end]) > e)
+        joints_.push_back({e, end, at(terms_[e].neighbour[end])});
   set_start({});
 }
 
@@ -127,7 +125,7 @@ std::vector<compare::Quaternion> RodSystem::orientations() const {
 }
 
 Triple<double> RodSystem::apart(std::size_t e, const Positions& x) const {
-  return x[place(terms_[e].vertex[1])] - x[place(terms_[e].vertex[0])];
+  return x[at(terms_[e].vertex[1])] - x[at(terms_[e].vertex[0])];
 }
 
 void RodSystem::begin_step(const Positions& start, std::int64_t number) {
@@ -139,7 +137,7 @@ void RodSystem::begin_step(const Positions& start, std::int64_t number) {
     RodTerm& term = terms_[e];
     term.start = (1 / term.length) * rotated(conjugate(start_[e]), apart(e, start));
     for (std::size_t end = 0; end < 2; ++end)
-      if (term.neighbour[end] >= 0) term.before[end] = relative(start_[e], start_[place(term.neighbour[end])], end);
+      if (term.neighbour[end] >= 0) term.before[end] = relative(start_[e], start_[at(term.neighbour[end])], end);
   }
 }
 
@@ -147,8 +145,8 @@ void RodSystem::turn(const Positions& x) {
   const double h = scene_.settings.time_step, before = static_cast<double>(number_ - 1) * h;
   for (std::size_t e = 0; e < terms_.size(); ++e) {
     const Index held = terms_[e].held;
-    if (held > 0 && says_turn(scene_.motions[place(held) - 1]))
-      q_[e] = unit(product(wide(prescribed_turn(scene_.motions[place(held) - 1], before, before + h)), start_[e]));
+    if (held > 0 && says_turn(scene_.motions[at(held) - 1]))
+      q_[e] = unit(product(wide(prescribed_turn(scene_.motions[at(held) - 1], before, before + h)), start_[e]));
     else if (held > 0 || (held < 0 && turns(scene_.settings.rod_start)))
       q_[e] = turned_along(apart(e, start_positions_), apart(e, x), start_[e]);
     else
@@ -169,7 +167,7 @@ on_sphere::Problem<double> RodSystem::problem(std::size_t e, const Positions& x)
   };
   for (std::size_t end = 0; end < 2; ++end) {
     if (!(term.weight[end] > 0)) continue;
-    const Frame& other = q_[place(term.neighbour[end])];
+    const Frame& other = q_[at(term.neighbour[end])];
     const auto asked = [&](const Frame& p) { return product(other, end == 1 ? conjugate(p) : p); };
     add(asked(term.rest[end]), term.weight[end]);
     if (term.damping > 0) add(asked(term.before[end]), term.damping * term.weight[end]);
@@ -288,11 +286,11 @@ Triple<Six> variables(std::size_t first) {
 void RodSystem::add_force(Index e, std::size_t end, const std::array<Triple<double>, 2>& ends,
                           VertexSystemOf<double>& sum) const {
   using Own = ByOwnTwice<double>;
-  const RodTerm& term = terms_[place(e)];
+  const RodTerm& term = terms_[at(e)];
   const auto x = with_own<Own>(ends, end);
   Triple<Own> apart;
   for (std::size_t axis = 0; axis < 3; ++axis) apart[axis] = x[1][axis] - x[0][axis];
-  add_exactly(segment_energy(term, apart, constant<Own>(q_[place(e)]), term.damping), sum);
+  add_exactly(segment_energy(term, apart, constant<Own>(q_[at(e)]), term.damping), sum);
 }
 
 std::array<Index, 4> RodSystem::vertices(std::size_t stencil) const {

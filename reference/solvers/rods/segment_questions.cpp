@@ -7,12 +7,10 @@
 namespace ogc::reference {
 namespace {
 
-using compare::Index;
-
-std::size_t place(Index i) { return static_cast<std::size_t>(i); }
+using compare::at, compare::Index;
 
 const compare::RodMaterial& material_of(const compare::SweepIn& in, std::size_t segment) {
-  return *in.scene->bodies[place(in.rest->segments[segment].body)].material.rod;
+  return *in.scene->bodies[at(in.rest->segments[segment].body)].material.rod;
 }
 
 float damping_of(const compare::SweepIn& in, std::size_t segment) {
@@ -26,11 +24,11 @@ compare::OrientationCase orientation_question(const compare::SweepIn& in, const 
   const compare::RestSegment& rest = in.rest->segments[segment];
   compare::OrientationCase question;
   for (std::size_t end = 0; end < 2; ++end) {
-    const auto v = place(rest.end[end]);
+    const auto v = at(rest.end[end]);
     question.vertex[end] = in.colour[v] < 0 ? answer.position[v] : in.old[v];
     question.start[end] = in.start[v];
     if (rest.neighbour[end] < 0) continue;
-    const auto f = place(rest.neighbour[end]);
+    const auto f = at(rest.neighbour[end]);
     const bool is_set = in.segment_colour[f] < in.segment_colour[segment];
     compare::RodNeighbour& seen = end == 0 ? question.behind : question.ahead;
     seen.weight = rest.weight[end];
@@ -51,7 +49,7 @@ compare::RodCase rod_question(const compare::SweepIn& in, const compare::SweepOu
   const compare::RestSegment& rest = in.rest->segments[segment];
   compare::RodCase question;
   question.vertex = ends;
-  question.start = {in.start[place(rest.end[0])], in.start[place(rest.end[1])]};
+  question.start = {in.start[at(rest.end[0])], in.start[at(rest.end[1])]};
   question.orientation = answer.orientation[segment];
   question.orientation_start = in.orientation_start[segment];
   question.rest_length = rest.length;

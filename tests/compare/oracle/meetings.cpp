@@ -25,8 +25,6 @@ namespace {
 
 constexpr MeetingKind vertex = MeetingKind::vertex_triangle, edges = MeetingKind::edge_edge;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 /// Rounds a coordinate to a multiple of 2⁻²⁰, so that the integers of the brute force represent it exactly.
 double coarse(double x) { return std::ldexp(std::nearbyint(std::ldexp(x, 20)), -20); }
 

@@ -20,8 +20,6 @@ struct Complex {
   std::vector<Edge> loose_edges;
 };
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 Edge ordered(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
 // Returns distinct triangles on few vertices: many edges with three and more triangles, isolated vertices, several

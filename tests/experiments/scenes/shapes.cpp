@@ -13,8 +13,6 @@ using namespace ogc::experiments;
 
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 Vec3 difference(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 
 Vec3 cross(const Vec3& a, const Vec3& b) {

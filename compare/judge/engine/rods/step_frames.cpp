@@ -10,8 +10,6 @@ namespace ogc::compare {
 
 namespace {
 
-std::size_t place(Index i) { return static_cast<std::size_t>(i); }
-
 std::string segment(std::size_t e) { return "segment " + std::to_string(e); }
 
 /// Return a − b in single precision, as every contestant computes it.
@@ -40,7 +38,7 @@ std::string wrong_segment_colour(const Scene& scene, const StepOut& out) {
     const Index own = out.segment_colour[e];
     if ((held[e] < 0) != (own >= 0)) return "colour: " + segment(e) + " has " + std::to_string(own);
     for (const Index f : out.rest.segments[e].neighbour)
-      if (f >= 0 && own >= 0 && out.segment_colour[place(f)] == own)
+      if (f >= 0 && own >= 0 && out.segment_colour[at(f)] == own)
         return "colour: " + segment(e) + " shares that of its neighbour " + std::to_string(f);
   }
   return {};
@@ -62,7 +60,7 @@ TurnedFrames start_frames(const StepIn& in, const StepOut& out, std::string& wro
   TurnedFrames asked;
   for (std::size_t e = 0; e < out.orientation_start.size(); ++e) {
     const Edge& ends = out.rest.segments[e].end;
-    const auto a = place(ends[0]), b = place(ends[1]);
+    const auto a = at(ends[0]), b = at(ends[1]);
     const Vec3f rest = rounded_difference(scene.rest_positions[b], scene.rest_positions[a]),
                 now = rounded_difference(scene.mesh.positions[b], scene.mesh.positions[a]);
     const bool is_given = !scene.orientations.empty() || rest == now;
@@ -86,13 +84,13 @@ TurnedFrames turned_frames(const StepIn& in, const StepOut& out, const std::vect
     const bool is_kept = held[e] == 0 || (held[e] < 0 && !turns(scene.settings.rod_start));
     if (is_kept && now != before) wrong = segment(e) + " has turned before the first sweep";
     if (is_kept) continue;
-    if (held[e] > 0 && says_turn(scene.motions[place(held[e]) - 1])) {
-      const Quaternion turn = prescribed_turn(scene.motions[place(held[e]) - 1], 0, scene.settings.time_step);
+    if (held[e] > 0 && says_turn(scene.motions[at(held[e]) - 1])) {
+      const Quaternion turn = prescribed_turn(scene.motions[at(held[e]) - 1], 0, scene.settings.time_step);
       if (!is_product(now, turn, before)) wrong = segment(e) + " has not turned as its motion has";
       continue;
     }
     const Edge& ends = out.rest.segments[e].end;
-    const auto a = place(ends[0]), b = place(ends[1]);
+    const auto a = at(ends[0]), b = at(ends[1]);
     asked.in.turns.push_back({difference(start[b], start[a]), difference(x[b], x[a]), before});
     asked.out.orientation.push_back(now);
   }

@@ -24,8 +24,6 @@ using namespace volume_bodies;
 
 using Cells = std::array<int, 3>;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 /// Returns cells of side 1 from the origin on, each of six tetrahedra about its diagonal.
 VolumeBody block(const Cells& cells) {
   constexpr std::array<std::array<std::size_t, 3>, 6> ways{

@@ -14,7 +14,7 @@ using namespace placement;
 
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+using compare::at;
 
 }  // namespace
 

@@ -21,8 +21,6 @@ namespace {
 using namespace placement;
 using namespace volume_bodies;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 /// Returns a box of n × m × l cells about the origin, of this size; its quads are cut along one diagonal.
 VolumeBody box(const std::array<int, 3>& cells, const Vec3& size) {
   VolumeBody body;
