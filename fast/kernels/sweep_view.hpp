@@ -18,11 +18,10 @@
 
 namespace ogc::fast {
 
-/// What a scene asks of the sum over the stencils of a vertex, one bit each: elements of these kinds, volumes, other
-/// models of bending or damping than the usual ones (discrete hinges, damping of strains), another activation than
-/// `ogc`.
-inline constexpr unsigned asks_triangles = 1, asks_hinges = 2, asks_springs = 4, asks_tetrahedra = 8,
-                          asks_segments = 16, asks_volumes = 32, asks_any_model = 64, asks_any_activation = 128;
+/// What a scene asks of the sum over the stencils of a vertex, one bit each: volumes, other models of bending or
+/// damping than the usual ones (discrete hinges, damping of strains), another activation than `ogc`. The bits of the
+/// kinds of elements follow these, in the order of their list (kinds/kinds.hpp).
+inline constexpr unsigned asks_volumes = 1, asks_any_model = 2, asks_any_activation = 4, first_kind_bit = 8;
 
 /// The elements of a vertex in the stream of a kind.
 struct Row {

@@ -31,8 +31,11 @@ struct HingeEnergy {
   }
 };
 
+struct Hinges;
+
 /// The kind. Roles 0 and 1 are the ends of the edge, 2 and 3 the opposite vertices.
 struct HingeKind : ElementKind<HingeRest, HingeIncidence> {
+  using Whole = Hinges;
   using Beside = IsometricStencil;
   using RestBeside = HingeWeights;
   using Start = float;  ///< θᵗ [rad]; 0 where the hinge has collapsed
@@ -40,7 +43,6 @@ struct HingeKind : ElementKind<HingeRest, HingeIncidence> {
   struct View {
     StreamView<HingeIncidence, IsometricStencil, float, NoData, false> hinges;
   };
-  static constexpr unsigned asked = asks_hinges;
   static constexpr int row_in_vertex = 1;
   /// The other vertices as a vertex of each role lists them. Exchanging both pairs at once keeps the angle
   /// (fast/kernels/models/discrete_hinge.hpp).
@@ -184,7 +186,8 @@ struct AddAnyHinge {
 
 /// Discrete hinges with damping of strains.
 struct UsualHinges {
-  static constexpr unsigned gives = asks_hinges;
+  template <class All>
+  static constexpr unsigned gives = All::template bit<HingeKind>;
 
   template <class View>
   OGC_HD static Part<LoadFrom<HingeIncidence>, AddDiscreteHinge> part_of(const View& view, int slot,
@@ -198,7 +201,8 @@ struct UsualHinges {
 };
 /// Hinges of any model with whatever damping.
 struct Hinges {
-  static constexpr unsigned gives = asks_hinges | asks_any_model;
+  template <class All>
+  static constexpr unsigned gives = All::template bit<HingeKind> | asks_any_model;
 
   template <class View>
   OGC_HD static Part<LoadAnyHinge, AddAnyHinge> part_of(const View& view, int slot, const SweepVertex& vertex,

@@ -5,7 +5,7 @@
 //   Beside, Start, ByBody, RestBeside
 //                     further data, `NoData` where there are none: StreamView says what; `RestBeside` belongs to Rest
 //   stream(view)      its stream in a SweepView, and `View`, the part of SweepView that holds it
-//   asked             its bit among what a scene asks of a sum
+//   Whole             its part of a sum, for all of its models
 //   row_in_vertex     its place in SweepVertex::rows; −1: its rows are an array of their own
 //   is_curve          whether vertices have few elements, so that a narrow team serves them
 //   count, vertices   how many vertices an element has, and which

@@ -1,6 +1,8 @@
 // The list of the kinds of elements. Whatever treats all kinds alike runs over it.
 #pragma once
 
+#include <type_traits>
+
 #include "fast/kernels/kinds/hinge.hpp"
 #include "fast/kernels/kinds/segment.hpp"
 #include "fast/kernels/kinds/spring.hpp"
@@ -14,6 +16,16 @@ template <class... Kinds>
 struct KindList {
   /// The streams of all.
   struct Views : Kinds::View... {};
+
+  /// The bit of a kind among what a scene asks of a sum: that of its place in the list.
+  template <class Kind>
+  static constexpr unsigned bit = [] {
+    unsigned next = first_kind_bit, own = 0;
+    ((own |= std::is_same_v<Kind, Kinds> ? next : 0u, next *= 2), ...);
+    return own;
+  }();
+  /// The bits of all kinds.
+  static constexpr unsigned bits = (bit<Kinds> | ...);
 
   /// use(kind) for each, in order.
   template <class Use>

@@ -17,14 +17,18 @@ struct RodStream : StreamView<RodIncidence, NoData, NoData, float, true> {  // b
   bool as_published = false;                ///< μ = σ + ‖b‖ in place of the root
 };
 
+template <bool is_there>
+struct AnySegments;
+using Segments = AnySegments<false>;
+
 /// The kind. A segment's energy is summed up beside the extremes of rods (fast/kernels/sums/rod_sums.hpp).
 struct SegmentKind : ElementKind<SegmentRest, RodIncidence> {
+  using Whole = Segments;
   using ByBody = float;
   /// The kind's part of SweepView.
   struct View {
     RodStream rods;
   };
-  static constexpr unsigned asked = asks_segments;
   static constexpr bool is_curve = true;
   /// fast/kernels/models/rod.hpp, at one end: difference 3, over its length 5, turned director 30, strain 3, force 6,
   /// block 4.
@@ -69,7 +73,8 @@ struct AddRod {
 /// Segments with whatever damping. `is_there`: the scene surely has some.
 template <bool is_there>
 struct AnySegments {
-  static constexpr unsigned gives = asks_segments | asks_any_model;
+  template <class All>
+  static constexpr unsigned gives = All::template bit<SegmentKind> | asks_any_model;
 
   template <class View>
   OGC_HD static Part<LoadFrom<RodIncidence>, AddRod> part_of(const View& view, int slot, const SweepVertex& vertex,
@@ -80,6 +85,5 @@ struct AnySegments {
   }
 };
 using UsualSegments = AnySegments<true>;
-using Segments = AnySegments<false>;
 
 }  // namespace ogc::fast

@@ -16,7 +16,8 @@ template <class Activation, class... Parts>
 struct Gather {
   static constexpr int parts = sizeof...(Parts) + 2;  ///< warps of a block where teams are spread (fast/cuda/team.cuh)
   /// All that a scene may ask of this sum. It has other models than the usual ones only where all of its parts do.
-  static constexpr unsigned gives = ((Parts::gives | ...) & ~asks_any_model) | (Parts::gives & ... & asks_any_model) |
+  static constexpr unsigned gives = ((Parts::template gives<Kinds> | ...) & ~asks_any_model) |
+                                    (Parts::template gives<Kinds> & ... & asks_any_model) |
                                     (std::is_same_v<Activation, AnyActivation> ? asks_any_activation : 0u);
   /// Whether a vertex may lie deep inside a volume.
   static constexpr bool has_volumes = (gives & asks_volumes) != 0;
@@ -46,7 +47,17 @@ struct Gather {
   }
 };
 
+/// The sum of the whole parts of a list of kinds; contacts with volumes stand before the last of them.
+template <class Kinds, class... Before>
+struct WholeSum;
+template <class Last, class... Before>
+struct WholeSum<KindList<Last>, Before...> {
+  using Sum = Gather<AnyActivation, Before..., VolumeContacts, typename Last::Whole>;
+};
+template <class Next, class... More, class... Before>
+struct WholeSum<KindList<Next, More...>, Before...> : WholeSum<KindList<More...>, Before..., typename Next::Whole> {};
+
 /// The sum that any scene can take.
-using GatherAll = Gather<AnyActivation, Triangles, Hinges, Springs, Tetrahedra, VolumeContacts, Segments>;
+using GatherAll = WholeSum<Kinds>::Sum;
 
 }  // namespace ogc::fast

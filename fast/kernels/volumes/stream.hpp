@@ -72,6 +72,7 @@ struct AddVolumeContact {
 
 /// The contacts with volumes of a scene, which may have none.
 struct VolumeContacts {
+  template <class All>
   static constexpr unsigned gives = asks_volumes | asks_any_model;
 
   OGC_HD static Part<LoadVolumeContact, AddVolumeContact> part_of(const SweepShared& view, int slot,

@@ -1,5 +1,5 @@
 // Tests the tetrahedron's kernel against differences of its energy, in every shape, and its exact properties.
-#include "fast/kernels/models/tetrahedron.hpp"
+#include "fast/kernels/kinds/tetrahedron.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,6 @@
 #include <random>
 
 #include "fast/kernels/arithmetic/solve3.hpp"
-#include "fast/kernels/kinds/tetrahedron.hpp"
 #include "fast/kernels/rest_state.hpp"
 #include "fast/stages/sweep.hpp"
 #include "tests/catch.hpp"
