@@ -475,7 +475,7 @@ struct RestState : MeshStage<RestState, &Contestant::rest_state, &Authority::res
   static constexpr StageInfo info{.name = "rest_state",
                                   .question = "masses, stencils, rest angles, meeting stiffness of a scene",
                                   .unit = "vertex",
-                                  .reference = "reference/energies/rest_state.cpp",
+                                  .reference = "reference/solvers/kinds/rest_state.cpp",
                                   .kind = CaseKind::mesh,
                                   .has_boundary = false,
                                   .determinism = Determinism::cpu_to_gpu};
