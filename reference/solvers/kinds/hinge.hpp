@@ -1,7 +1,7 @@
 // Hinges with a bending energy.
 #pragma once
 
-#include "compare/stages/kinds.hpp"
+#include "compare/stages/rest_state.hpp"
 #include "compare/stages/sweep.hpp"
 #include "reference/energies/bending.hpp"
 #include "reference/energies/hinge_terms.hpp"

@@ -1,7 +1,7 @@
 // Segments of rods, whose list has frames beside vertices (solvers/rods/rod_system.hpp).
 #pragma once
 
-#include "compare/stages/kinds.hpp"
+#include "compare/stages/rest_state.hpp"
 #include "compare/stages/sweep.hpp"
 #include "reference/energies/rods/rod.hpp"
 #include "reference/solvers/rods/rod_system.hpp"

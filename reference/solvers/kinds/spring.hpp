@@ -1,7 +1,7 @@
 // Springs between two vertices, or a vertex and a point between two others.
 #pragma once
 
-#include "compare/stages/kinds.hpp"
+#include "compare/stages/rest_state.hpp"
 #include "compare/stages/sweep.hpp"
 #include "reference/energies/spring.hpp"
 #include "reference/solvers/kinds/elements.hpp"

@@ -1,7 +1,7 @@
 // Tetrahedra of solids.
 #pragma once
 
-#include "compare/stages/kinds.hpp"
+#include "compare/stages/rest_state.hpp"
 #include "compare/stages/sweep.hpp"
 #include "reference/energies/tetrahedron.hpp"
 #include "reference/solvers/kinds/elements.hpp"

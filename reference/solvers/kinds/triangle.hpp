@@ -1,7 +1,7 @@
 // Triangles with a membrane.
 #pragma once
 
-#include "compare/stages/kinds.hpp"
+#include "compare/stages/rest_state.hpp"
 #include "compare/stages/sweep.hpp"
 #include "reference/energies/membrane.hpp"
 #include "reference/energies/membrane_terms.hpp"
