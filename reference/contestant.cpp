@@ -7,7 +7,6 @@
 #include "reference/energies/contact_force.hpp"
 #include "reference/energies/friction_force.hpp"
 #include "reference/energies/membrane.hpp"
-#include "reference/energies/rest_state.hpp"
 #include "reference/energies/rods/orientation.hpp"
 #include "reference/energies/rods/rod.hpp"
 #include "reference/energies/spring.hpp"
@@ -25,6 +24,7 @@
 #include "reference/ipc/stages.hpp"
 #include "reference/simulation.hpp"
 #include "reference/solvers/initial_guess.hpp"
+#include "reference/solvers/kinds/rest_state.hpp"
 #include "reference/solvers/step.hpp"
 #include "reference/solvers/sweep.hpp"
 

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "compare/problem/scene.hpp"
+
 namespace ogc::compare {
 namespace {
 
@@ -180,13 +182,16 @@ Topology build_topology(Index vertex_count, std::span<const Triangle> triangles,
 
 Topology build_topology(const Mesh& mesh) {
   Topology topology = build_topology(static_cast<Index>(mesh.positions.size()), mesh.triangles, mesh.loose_edges);
-  for (const Tetrahedron& tetrahedron : mesh.tetrahedra) {
-    for (const Index v : tetrahedron) {
-      if (!topology.vertex_edges[static_cast<std::size_t>(v)].empty()) continue;
+  const auto mark_inside = [&](const auto& element) {
+    for (const Index v : element) {
+      if (!topology.vertex_edges[at(v)].empty()) continue;
       topology.off_surface.resize(mesh.positions.size());
-      topology.off_surface[static_cast<std::size_t>(v)] = 1;
+      topology.off_surface[at(v)] = 1;
     }
-  }
+  };
+  for_each_of<MeshLists>([&]<class List, std::size_t>() {
+    if constexpr (HasVolume<List>) std::ranges::for_each(mesh.*List::list, mark_inside);
+  });
   return topology;
 }
 

@@ -37,15 +37,16 @@ void check_constants(std::vector<Problem>& problems, const Body& body) {
   }
 }
 
-/// Holds for each vertex whether it is on a triangle or a tetrahedron, and whether it moves freely.
+/// Holds for each vertex whether it is on an element other than a loose edge, and whether it moves freely.
 struct Vertices {
   std::vector<bool> has_mass, is_free;
 
   explicit Vertices(const Scene& scene) : has_mass(scene.mesh.positions.size()), is_free(has_mass.size(), true) {
-    for (const Triangle& t : scene.mesh.triangles)
-      for (const Index v : t) has_mass[at(v)] = true;
-    for (const Tetrahedron& t : scene.mesh.tetrahedra)
-      for (const Index v : t) has_mass[at(v)] = true;
+    for_each_of<MeshLists>([&]<class List, std::size_t>() {
+      if constexpr (HasRange<List>)
+        for (const auto& element : scene.mesh.*List::list)
+          for (const Index v : element) has_mass[at(v)] = true;
+    });
     for (const Body& body : scene.bodies)
       if (body.fixed) std::fill_n(is_free.begin() + body.first_vertex, body.vertex_count, false);
     for (const PrescribedMotion& motion : scene.motions)

@@ -6,7 +6,6 @@
 
 #include "compare/problem/material_table.hpp"
 #include "compare/problem/rods.hpp"
-#include "compare/problem/tetrahedra.hpp"
 
 namespace ogc::compare {
 namespace {
@@ -70,23 +69,52 @@ std::vector<Vec3f> between(const Keyframes& frames, std::size_t count, double t)
 
 }  // namespace
 
+bool has_volume(const Mesh& mesh) {
+  bool has = false;
+  for_each_of<MeshLists>([&]<class List, std::size_t>() {
+    if constexpr (HasVolume<List>) has = has || !(mesh.*List::list).empty();
+  });
+  return has;
+}
+
+std::vector<Triangle> surface_triangles(const Mesh& mesh) {
+  if (!has_volume(mesh)) return mesh.triangles;
+  std::vector<Triangle> surface;
+  for_each_of<MeshLists>([&]<class List, std::size_t>() {
+    if constexpr (HasVolume<List>) {
+      const std::vector<Triangle> own = List::boundary(mesh.*List::list);
+      surface.insert(surface.end(), own.begin(), own.end());
+    }
+  });
+  return surface;
+}
+
 std::size_t append_body(Scene& scene, Body body, const Mesh& mesh) {
   const auto first = static_cast<Index>(scene.mesh.positions.size());
   body.first_vertex = first;
   body.vertex_count = static_cast<Index>(mesh.positions.size());
-  const std::vector<Triangle> triangles = mesh.tetrahedra.empty() ? mesh.triangles
-                                                                  : boundary_triangles(mesh.tetrahedra);
-  body.first_triangle = static_cast<Index>(scene.mesh.triangles.size());
-  body.triangle_count = static_cast<Index>(triangles.size());
-  body.first_tetrahedron = static_cast<Index>(scene.mesh.tetrahedra.size());
-  body.tetrahedron_count = static_cast<Index>(mesh.tetrahedra.size());
+  const std::vector<Triangle> surface = surface_triangles(mesh);
   scene.mesh.positions.insert(scene.mesh.positions.end(), mesh.positions.begin(), mesh.positions.end());
   scene.rest_positions.insert(scene.rest_positions.end(), mesh.positions.begin(), mesh.positions.end());
   scene.velocities.resize(scene.mesh.positions.size());
-  for (const auto& [a, b, c] : triangles) scene.mesh.triangles.push_back({first + a, first + b, first + c});
-  for (const auto& [a, b, c, d] : mesh.tetrahedra)
-    scene.mesh.tetrahedra.push_back({first + a, first + b, first + c, first + d});
-  for (const auto& [a, b] : mesh.loose_edges) scene.mesh.loose_edges.push_back({first + a, first + b});
+  for_each_of<MeshLists>([&]<class List, std::size_t number>() {
+    const auto& added = [&]() -> const auto& {
+      if constexpr (number == 0)
+        return surface;
+      else
+        return mesh.*List::list;
+    }
+    ();
+    auto& all = scene.mesh.*List::list;
+    if constexpr (HasRange<List>) {
+      body.*List::first = static_cast<Index>(all.size());
+      body.*List::count = static_cast<Index>(added.size());
+    }
+    for (ElementOf<List> element : added) {
+      for (Index& v : element) v += first;
+      all.push_back(element);
+    }
+  });
   scene.bodies.push_back(std::move(body));
   return scene.bodies.size() - 1;
 }
@@ -101,10 +129,11 @@ void round_to_single(Scene& scene) {
     for (const RodInfo& info : rod_table())
       (*body.material.rod).*info.field = rounded((*body.material.rod).*info.field);
   }
-  for (Spring& spring : scene.springs) {
-    for (double* number : {&spring.stiffness, &spring.rest_length, &spring.damping, &spring.ratio})
-      *number = rounded(*number);
-  }
+  for_each_of<SceneLists>([&]<class List, std::size_t>() {
+    for (auto& element : scene.*List::list)
+      for (const auto& field : List::fields)
+        if (field.number != nullptr) element.*field.number = rounded(element.*field.number);
+  });
   scene.gravity = rounded(scene.gravity);
   for (const SettingInfo& info : setting_table()) {
     if (kind_of(info) == SettingKind::real)

@@ -7,11 +7,15 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
+#include "compare/problem/element_names.hpp"
 #include "compare/problem/exclusions.hpp"
 #include "compare/problem/mesh.hpp"
 #include "compare/problem/settings.hpp"
+#include "compare/problem/tetrahedra.hpp"
 
 namespace ogc::compare {
 
@@ -76,6 +80,84 @@ struct Body {
   friend bool operator==(const Body&, const Body&) = default;
 };
 
+struct MeshCheck;
+struct Problem;
+
+// The one list of the lists of elements that a mesh has. Bookkeeping, validation, mesh files and scene files fold over
+// it. Each has these members:
+//
+//     name, key       are for messages; the key, a plural, also for files
+//     list            points to the elements
+//     named           returns the name of an element in messages, with its place in the file
+//     first, count    point to a body's range; without them the elements of a body are those on its vertices
+//     boundary        returns the surface of elements with volume, which replaces a body's triangles
+//     check           checks what only these elements promise, check_rest the same of their rest shapes
+//     msh_type        is Gmsh's number of elements with volume; numbers and lines, if any, point to their places there
+
+/// The triangles of a mesh.
+struct TrianglesOfMesh {
+  static constexpr const char *name = "triangle", *key = "triangles";  ///< for messages and files
+  static constexpr auto list = &Mesh::triangles;
+  static constexpr auto named = &ElementNames::triangle;
+  static constexpr auto first = &Body::first_triangle, count = &Body::triangle_count;
+};
+
+/// The edges that belong to no triangle.
+struct LooseEdgesOfMesh {
+  static constexpr const char *name = "loose edge", *key = "loose_edges";  ///< for messages and files
+  static constexpr auto list = &Mesh::loose_edges;
+  static constexpr auto named = &ElementNames::loose_edge;
+};
+
+/// The tetrahedra of a mesh.
+struct TetrahedraOfMesh {
+  static constexpr const char *name = "tetrahedron", *key = "tetrahedra";  ///< for messages and files
+  static constexpr auto list = &Mesh::tetrahedra;
+  static constexpr auto named = &ElementNames::tetrahedron;
+  static constexpr auto first = &Body::first_tetrahedron, count = &Body::tetrahedron_count;
+  static constexpr auto boundary = &boundary_triangles;
+  static constexpr int msh_type = 4;
+  static constexpr auto numbers = &MeshSource::tetrahedra;
+  static constexpr auto lines = &MeshSource::tetrahedron_lines;
+  /// Lists faces that more than two tetrahedra have, or two on one side.
+  static void check(const MeshCheck& check);
+  /// Lists tetrahedra that are inverted at their rest positions, decided exactly, or flat: without volume, or with so
+  /// little that their rest data are beyond the limits of compare/stages/tetrahedron.hpp. Positions are numbers of
+  /// single precision.
+  static void check_rest(const MeshCheck& check, const std::vector<Vec3>& rest_positions);
+};
+
+/// All of them; triangles, which are the surface of the others, come first.
+using MeshLists = std::tuple<TrianglesOfMesh, LooseEdgesOfMesh, TetrahedraOfMesh>;
+
+/// Holds for elements of which a body has a range.
+template <class List>
+concept HasRange = requires {
+  List::first;
+};
+/// Holds for elements with volume.
+template <class List>
+concept HasVolume = requires {
+  List::boundary;
+};
+/// An element of a list.
+template <class List>
+using ElementOf = std::remove_cvref_t<decltype((std::declval<Mesh>().*List::list)[0])>;
+
+/// Calls `visit` with each type of a list and its number as a constant: visit.operator()<Kind, number>().
+template <class All, class Visit>
+constexpr void for_each_of(Visit visit) {
+  [&]<std::size_t... number>(std::index_sequence<number...>) {
+    (visit.template operator()<std::tuple_element_t<number, All>, number>(), ...);
+  }
+  (std::make_index_sequence<std::tuple_size_v<All>>());
+}
+
+/// Returns whether a mesh has elements with volume.
+bool has_volume(const Mesh& mesh);
+/// Returns the boundary of a mesh's elements with volume, or its triangles if it has none.
+std::vector<Triangle> surface_triangles(const Mesh& mesh);
+
 /// Holds positions at some times, joined by straight lines; at rest before the first and after the last.
 struct Keyframes {
   std::vector<double> times;     ///< ascending [s]; empty or at least two
@@ -132,6 +214,52 @@ struct Scene {
   std::vector<Quaternion> orientations{};
   friend bool operator==(const Scene&, const Scene&) = default;
 };
+
+/// A vertex or a number of an element that a scene lists. Files have the fields in this order.
+template <class Element>
+struct ElementField {
+  const char* name;                     ///< its key in files
+  const char* meaning;                  ///< for the schema, with the unit; of a vertex: none
+  Index Element::*vertex = nullptr;     ///< either this
+  double Element::*number = nullptr;    ///< or this, at least 0
+  bool is_required = false;             ///< whether a file must give it
+  Index Element::*goes_with = nullptr;  ///< left out in files where this vertex is −1
+  std::optional<double> maximum = {};   ///< of a number, in the schema
+};
+
+// The one list of the elements that a scene lists beside its mesh, each with the key, the list, the fields and a check.
+
+/// The springs of a scene.
+struct SpringsOfScene {
+  static constexpr const char *key = "springs",  ///< for files
+      *meaning = "between a vertex and another, or a point between two others; no part of contact";
+  static constexpr auto list = &Scene::springs;
+  /// In the order of files.
+  static constexpr std::array fields{
+      ElementField<Spring>{.name = "first", .meaning = "", .vertex = &Spring::first, .is_required = true},
+      ElementField<Spring>{.name = "second", .meaning = "", .vertex = &Spring::second, .is_required = true},
+      ElementField<Spring>{.name = "stiffness", .meaning = "[N/m]", .number = &Spring::stiffness, .is_required = true},
+      ElementField<Spring>{.name = "rest_length", .meaning = "[m]; default 0", .number = &Spring::rest_length},
+      ElementField<Spring>{
+          .name = "damping", .meaning = "stiffness-proportional [s]; default 0", .number = &Spring::damping},
+      ElementField<Spring>{.name = "third", .meaning = "", .vertex = &Spring::third, .goes_with = &Spring::third},
+      ElementField<Spring>{
+          .name = "ratio",
+          .meaning = "s of the point (1 − s) second + s third that the spring holds instead of second [1]; default 0",
+          .number = &Spring::ratio,
+          .goes_with = &Spring::third,
+          .maximum = 1}};
+  /// Lists springs that join no two vertices or have a number out of range.
+  static void check(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names, std::size_t limit);
+};
+
+/// All of them.
+using SceneLists = std::tuple<SpringsOfScene>;
+/// Returns whether files give a field of an element.
+template <class Element>
+bool has_field(const Element& element, const ElementField<Element>& field) {
+  return field.goes_with == nullptr || element.*field.goes_with >= 0;
+}
 
 /// Appends the mesh as a body at rest in its rest shape and returns the body's number. `body` gives name, material and
 /// whether it is fixed; its ranges are set here. If the mesh has tetrahedra, their boundary replaces its triangles.

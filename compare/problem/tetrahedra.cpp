@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "compare/problem/expansion.hpp"
+#include "compare/problem/problem_kind.hpp"
+#include "compare/problem/validate_mesh.hpp"
 
 namespace ogc::compare {
 namespace {
@@ -32,6 +34,34 @@ void add_determinant(const Vec3& p, const Vec3& q, const Vec3& r, double sign, E
   sum.add_product(-sign * p.y, q.x, r.z);
   sum.add_product(sign * p.z, q.x, r.y);
   sum.add_product(-sign * p.z, q.y, r.x);
+}
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+std::string tetrahedron_name(const MeshCheck& check, Index t) {
+  return check.names.tetrahedron(t, check.mesh.tetrahedra[at(t)]);
+}
+
+/// Returns whether 6V is below 2⁻⁸⁰ m³, or V ∇N_k·∇N_l = n_k·n_l/(36 V) may be above 2⁶⁰ m; n_k is the normal of twice
+/// a face's area.
+bool is_sliver(const std::vector<Vec3>& positions, const Tetrahedron& corners) {
+  const auto edge = [&](Index from, Index to) {
+    const Vec3 &p = positions[at(from)], &q = positions[at(to)];
+    return Vec3{q.x - p.x, q.y - p.y, q.z - p.z};
+  };
+  const auto outer = [](const Vec3& a, const Vec3& b) {
+    return Vec3{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  };
+  double largest = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Triangle face = opposite_face(corners, k);
+    const Vec3 normal = outer(edge(face[0], face[1]), edge(face[0], face[2]));
+    largest = std::max(largest, normal.x * normal.x + normal.y * normal.y + normal.z * normal.z);
+  }
+  const Vec3 normal = outer(edge(corners[0], corners[2]), edge(corners[0], corners[3])),
+             first = edge(corners[0], corners[1]);
+  const double six_volumes = first.x * normal.x + first.y * normal.y + first.z * normal.z;
+  return !(six_volumes >= 0x1p-80) || largest > 0x1p60 * 6 * six_volumes;
 }
 
 }  // namespace
@@ -105,6 +135,37 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   add_determinant(a, b, d, 1, sum);
   add_determinant(a, b, c, -1, sum);
   return sum.sign();
+}
+
+void TetrahedraOfMesh::check(const MeshCheck& check) {
+  ProblemKind shared(check.problems, check.limit, "has a face that two other tetrahedra have",
+                     "of a face there are two tetrahedra at most, one on each side: remove the others");
+  ProblemKind doubled(check.problems, check.limit, "lies on the same side of a face as another tetrahedron",
+                      "remove one of them, or reorder the vertices of the one that is inside out");
+  const std::vector<TetrahedronFace> faces = sorted_faces(check.mesh.tetrahedra);
+  for (std::size_t i = 0, end = 0; i < faces.size(); i = end) {
+    while (end < faces.size() && faces[end].vertices == faces[i].vertices) ++end;
+    const auto names = [&](std::size_t k) { return tetrahedron_name(check, faces[k].tetrahedron); };
+    const std::string where = check.names.vertices(faces[i].vertices);
+    if (end - i > 2) shared.add(names(end - 1), where + " of " + names(i) + " and " + names(i + 1));
+    if (end - i == 2 && faces[i].even == faces[i + 1].even) doubled.add(names(i + 1), where + " of " + names(i));
+  }
+}
+
+void TetrahedraOfMesh::check_rest(const MeshCheck& check, const std::vector<Vec3>& rest_positions) {
+  ProblemKind flat(check.problems, check.limit, "is flat at rest", "remove the tetrahedron or move its vertices");
+  ProblemKind inverted(check.problems, check.limit, "is inverted at rest",
+                       "exchange two of its vertices, or untangle the mesh");
+  for (std::size_t t = 0; t < check.mesh.tetrahedra.size(); ++t) {
+    const auto& [a, b, c, d] = check.mesh.tetrahedra[t];
+    const auto usable = [&](Index v) { return is_finite(rest_positions[at(v)]); };
+    if (!std::ranges::all_of(check.mesh.tetrahedra[t], usable)) continue;
+    const int side = orientation(rest_positions[at(a)], rest_positions[at(b)], rest_positions[at(c)],
+                                 rest_positions[at(d)]);
+    if (side == 0 || (side > 0 && is_sliver(rest_positions, check.mesh.tetrahedra[t])))
+      flat.add(tetrahedron_name(check, static_cast<Index>(t)));
+    if (side < 0) inverted.add(tetrahedron_name(check, static_cast<Index>(t)));
+  }
 }
 
 }  // namespace ogc::compare

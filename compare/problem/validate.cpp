@@ -2,7 +2,9 @@
 #include "compare/problem/validate.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <span>
 
@@ -10,7 +12,6 @@
 #include "compare/problem/problem_kind.hpp"
 #include "compare/problem/ranges.hpp"
 #include "compare/problem/rods.hpp"
-#include "compare/problem/tetrahedra.hpp"
 #include "compare/problem/text.hpp"
 #include "compare/problem/validate_mesh.hpp"
 #include "compare/problem/volumes.hpp"
@@ -61,72 +62,89 @@ void check_materials(std::vector<Problem>& problems, const Scene& scene) {
   }
 }
 
+/// Returns "a, b and c".
+std::string listed(const std::vector<std::string>& items) {
+  std::string text = items.front();
+  for (std::size_t i = 1; i < items.size(); ++i) text += (i + 1 < items.size() ? ", " : " and ") + items[i];
+  return text;
+}
+
+/// Visits the lists of a mesh of which bodies have ranges: visit.operator()<List, number>().
+template <class Visit>
+void each_range(Visit visit) {
+  for_each_of<MeshLists>([&]<class List, std::size_t number>() {
+    if constexpr (HasRange<List>) visit.template operator()<List, number>();
+  });
+}
+
 // Returns whether the bodies are consecutive ranges that end at the last vertex and triangle; lists the first gap.
 bool check_cover(std::vector<Problem>& problems, const Scene& scene) {
-  const std::string remedy = "bodies are consecutive ranges that cover all vertices, triangles and tetrahedra";
-  std::int64_t vertex = 0, triangle = 0, tetrahedron = 0;
+  std::vector<std::string> kinds{"vertices"};
+  each_range([&]<class List, std::size_t>() { kinds.emplace_back(List::key); });
+  const std::string remedy = "bodies are consecutive ranges that cover all " + listed(kinds);
+  std::int64_t vertex = 0;
+  std::array<std::int64_t, std::tuple_size_v<MeshLists>> next{};
   for (const Body& body : scene.bodies) {
-    if (body.first_vertex != vertex || body.first_triangle != triangle || body.first_tetrahedron != tetrahedron ||
-        body.vertex_count <= 0 || body.triangle_count < 0 || body.tetrahedron_count < 0) {
-      problems.push_back(
-          {quoted("body", body.name), "does not begin where the one before it ends, or is empty", remedy});
-      return false;
-    }
+    bool follows = body.first_vertex == vertex && body.vertex_count > 0;
     vertex += body.vertex_count;
-    triangle += body.triangle_count;
-    tetrahedron += body.tetrahedron_count;
+    each_range([&]<class List, std::size_t number>() {
+      follows = follows && body.*List::first == next[number] && body.*List::count >= 0;
+      next[number] += body.*List::count;
+    });
+    if (follows) continue;
+    problems.push_back({quoted("body", body.name), "does not begin where the one before it ends, or is empty", remedy});
+    return false;
   }
-  const auto of = [](std::int64_t covered, std::size_t all, const char* kind) {
-    return std::to_string(covered) + " of " + std::to_string(all) + " " + kind;
+  bool complete = true;
+  std::vector<std::string> shares;
+  const auto add = [&](std::int64_t covered, std::size_t all, const std::string& kind) {
+    complete = complete && covered == static_cast<std::int64_t>(all);
+    shares.push_back(std::to_string(covered) + " of " + std::to_string(all) + " " + kind);
   };
-  const Mesh& mesh = scene.mesh;
-  if (vertex == std::ssize(mesh.positions) && triangle == std::ssize(mesh.triangles) &&
-      tetrahedron == std::ssize(mesh.tetrahedra))
-    return true;
-  problems.push_back({"scene",
-                      "bodies cover " + of(vertex, mesh.positions.size(), "vertices, ") +
-                          of(triangle, mesh.triangles.size(), "triangles and ") +
-                          of(tetrahedron, mesh.tetrahedra.size(), "tetrahedra"),
-                      remedy});
-  return false;
+  add(vertex, scene.mesh.positions.size(), "vertices");
+  each_range([&]<class List, std::size_t number>() { add(next[number], (scene.mesh.*List::list).size(), List::key); });
+  if (!complete) problems.push_back({"scene", "bodies cover " + listed(shares), remedy});
+  return complete;
 }
 
 void check_ownership(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names, std::size_t limit) {
   ProblemKind foreign(problems, limit, "has vertices of another body", "give each body faces on its own vertices");
   const std::vector<Index> owner = body_of_vertex(scene);
   const auto owner_of = [&](Index v) { return owner[static_cast<std::size_t>(v)]; };
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    const Body& body = scene.bodies[b];
-    for (Index t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
-      const Triangle& corners = scene.mesh.triangles[static_cast<std::size_t>(t)];
-      const bool own = std::all_of(corners.begin(), corners.end(),
-                                   [&](Index v) { return owner_of(v) == static_cast<Index>(b); });
-      if (!own) foreign.add(names.triangle(t, corners), quoted("of body", body.name));
+  for_each_of<MeshLists>([&]<class List, std::size_t>() {
+    const auto& all = scene.mesh.*List::list;
+    const auto check = [&](std::size_t i, Index wanted, const std::string& of) {
+      if (!std::ranges::all_of(all[i], [&](Index v) { return owner_of(v) == wanted; }))
+        foreign.add(std::invoke(List::named, names, static_cast<Index>(i), all[i]), of);
+    };
+    if constexpr (HasRange<List>) {
+      for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+        const Body& body = scene.bodies[b];
+        for (Index i = body.*List::first; i < body.*List::first + body.*List::count; ++i)
+          check(static_cast<std::size_t>(i), static_cast<Index>(b), quoted("of body", body.name));
+      }
+    } else {
+      for (std::size_t i = 0; i < all.size(); ++i) check(i, owner_of(all[i][0]), {});
     }
-  }
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    const Body& body = scene.bodies[b];
-    for (Index t = body.first_tetrahedron; t < body.first_tetrahedron + body.tetrahedron_count; ++t) {
-      const Tetrahedron& corners = scene.mesh.tetrahedra[static_cast<std::size_t>(t)];
-      if (!std::all_of(corners.begin(), corners.end(), [&](Index v) { return owner_of(v) == static_cast<Index>(b); }))
-        foreign.add(names.tetrahedron(t, corners), quoted("of body", body.name));
-    }
-  }
-  for (std::size_t e = 0; e < scene.mesh.loose_edges.size(); ++e) {
-    const Edge& ends = scene.mesh.loose_edges[e];
-    if (owner_of(ends[0]) != owner_of(ends[1])) foreign.add(names.loose_edge(static_cast<Index>(e), ends));
-  }
+  });
 }
 
 // Checks that a solid's triangles are its boundary: they are derived, so no others can be among them.
 void check_boundaries(std::vector<Problem>& problems, const Scene& scene) {
   for (const Body& body : scene.bodies) {
     if (!body.is_solid()) continue;
-    const auto first = static_cast<std::size_t>(body.first_tetrahedron),
-               triangle = static_cast<std::size_t>(body.first_triangle);
-    const std::vector<Triangle> boundary = boundary_triangles(
-        std::span(scene.mesh.tetrahedra).subspan(first, static_cast<std::size_t>(body.tetrahedron_count)));
-    const auto own = std::span(scene.mesh.triangles).subspan(triangle, static_cast<std::size_t>(body.triangle_count));
+    const auto range = [&]<class List>() {
+      return std::span(scene.mesh.*List::list)
+          .subspan(static_cast<std::size_t>(body.*List::first), static_cast<std::size_t>(body.*List::count));
+    };
+    std::vector<Triangle> boundary;
+    each_range([&]<class List, std::size_t>() {
+      if constexpr (HasVolume<List>) {
+        const std::vector<Triangle> faces = List::boundary(range.template operator()<List>());
+        boundary.insert(boundary.end(), faces.begin(), faces.end());
+      }
+    });
+    const auto own = range.template operator()<TrianglesOfMesh>();
     if (!std::equal(boundary.begin(), boundary.end(), own.begin(), own.end()))
       problems.push_back({quoted("body", body.name), "has tetrahedra and triangles that are not their boundary",
                           "give sheets a body of their own"});
@@ -216,33 +234,6 @@ std::string point_name(const Scene& scene, const ElementNames& names, Index v) {
   return exists ? names.vertex(v) : "vertex " + std::to_string(v) + " of the scene, which does not exist";
 }
 
-/// Checks springs; the ranges are as in the table of material constants.
-void check_springs(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names, std::size_t limit) {
-  ProblemKind unknown(problems, limit, "does not join two vertices", "give two different vertices of the scene");
-  ProblemKind range(problems, limit, "has a number out of range",
-                    "give a stiffness up to 2⁴⁰ N/m, a rest length of 0 or from 2⁻²⁰ to 2²⁰ m and a damping up to 2⁴⁰ "
-                    "s, none below 0");
-  const auto count = static_cast<Index>(scene.mesh.positions.size());
-  const auto within = [](double x, double most) { return x >= 0 && x <= most; };
-  ProblemKind no_point(problems, limit, "has no such point on the line of its second and third vertex",
-                       "give a third vertex, another than both, and a ratio from 0 to 1");
-  for (std::size_t i = 0; i < scene.springs.size(); ++i) {
-    const Spring& s = scene.springs[i];
-    const bool known = std::min(s.first, s.second) >= 0 && std::max(s.first, s.second) < count && s.first != s.second;
-    if (!known)
-      unknown.add(numbered("spring", i), point_name(scene, names, s.first) + ", " + point_name(scene, names, s.second));
-    const bool has_third = s.third >= 0 && s.third < count && s.third != s.first && s.third != s.second;
-    if (s.third == -1 ? s.ratio != 0 : !(has_third && s.ratio >= 0 && s.ratio <= 1))
-      no_point.add(numbered("spring", i),
-                   (s.third == -1 ? "no third vertex" : "third " + point_name(scene, names, s.third)) + ", ratio " +
-                       shortest(s.ratio));
-    const bool length_is_legal = s.rest_length == 0 || (s.rest_length >= least_length && s.rest_length <= most_length);
-    if (!length_is_legal || !within(s.stiffness, 0x1p40) || !within(s.damping, 0x1p40))
-      range.add(numbered("spring", i),
-                shortest(s.stiffness) + " N/m, " + shortest(s.rest_length) + " m, " + shortest(s.damping) + " s");
-  }
-}
-
 void check_excluded(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names, std::size_t limit) {
   ProblemKind unknown(problems, limit, "does not name two vertices", "give two different vertices of the scene");
   const auto count = static_cast<Index>(scene.mesh.positions.size());
@@ -279,6 +270,34 @@ void check_velocities(std::vector<Problem>& problems, const Scene& scene, const 
 
 }  // namespace
 
+/// Checks springs; the ranges are as in the table of material constants.
+void SpringsOfScene::check(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names,
+                           std::size_t limit) {
+  ProblemKind unknown(problems, limit, "does not join two vertices", "give two different vertices of the scene");
+  ProblemKind range(problems, limit, "has a number out of range",
+                    "give a stiffness up to 2⁴⁰ N/m, a rest length of 0 or from 2⁻²⁰ to 2²⁰ m and a damping up to 2⁴⁰ "
+                    "s, none below 0");
+  const auto count = static_cast<Index>(scene.mesh.positions.size());
+  const auto within = [](double x, double most) { return x >= 0 && x <= most; };
+  ProblemKind no_point(problems, limit, "has no such point on the line of its second and third vertex",
+                       "give a third vertex, another than both, and a ratio from 0 to 1");
+  for (std::size_t i = 0; i < scene.springs.size(); ++i) {
+    const Spring& s = scene.springs[i];
+    const bool known = std::min(s.first, s.second) >= 0 && std::max(s.first, s.second) < count && s.first != s.second;
+    if (!known)
+      unknown.add(numbered("spring", i), point_name(scene, names, s.first) + ", " + point_name(scene, names, s.second));
+    const bool has_third = s.third >= 0 && s.third < count && s.third != s.first && s.third != s.second;
+    if (s.third == -1 ? s.ratio != 0 : !(has_third && s.ratio >= 0 && s.ratio <= 1))
+      no_point.add(numbered("spring", i),
+                   (s.third == -1 ? "no third vertex" : "third " + point_name(scene, names, s.third)) + ", ratio " +
+                       shortest(s.ratio));
+    const bool length_is_legal = s.rest_length == 0 || (s.rest_length >= least_length && s.rest_length <= most_length);
+    if (!length_is_legal || !within(s.stiffness, 0x1p40) || !within(s.damping, 0x1p40))
+      range.add(numbered("spring", i),
+                shortest(s.stiffness) + " N/m, " + shortest(s.rest_length) + " m, " + shortest(s.damping) + " s");
+  }
+}
+
 std::vector<Problem> validate(const Scene& scene, std::size_t limit) {
   return validate(scene, limit, ElementNames(scene));
 }
@@ -306,7 +325,7 @@ std::vector<Problem> validate(const Scene& scene, std::size_t limit, const Eleme
     if (has_lengths) check_rods(problems, scene, names, limit);
   }
   check_motions(problems, scene, names, covered, limit);
-  check_springs(problems, scene, names, limit);
+  for_each_of<SceneLists>([&]<class List, std::size_t>() { List::check(problems, scene, names, limit); });
   check_excluded(problems, scene, names, limit);
   return problems;
 }

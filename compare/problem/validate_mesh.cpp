@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <span>
 
 #include "compare/problem/problem_kind.hpp"
-#include "compare/problem/tetrahedra.hpp"
+#include "compare/problem/scene.hpp"
 #include "compare/problem/text.hpp"
 #include "compare/problem/zero_area.hpp"
 
@@ -36,16 +37,18 @@ bool check_coordinates(const MeshCheck& check, const std::vector<Vec3>& position
   return not_finite.count() == 0 && out_of_range.count() == 0;
 }
 
-std::string triangle_name(const MeshCheck& check, std::size_t t) {
-  return check.names.triangle(static_cast<Index>(t), check.mesh.triangles[t]);
+template <class List>
+std::string element_name(const MeshCheck& check, std::size_t i) {
+  return std::invoke(List::named, check.names, static_cast<Index>(i), (check.mesh.*List::list)[i]);
 }
 
-std::string tetrahedron_name(const MeshCheck& check, std::size_t t) {
-  return check.names.tetrahedron(static_cast<Index>(t), check.mesh.tetrahedra[t]);
-}
-
-std::string loose_edge_name(const MeshCheck& check, std::size_t e) {
-  return check.names.loose_edge(static_cast<Index>(e), check.mesh.loose_edges[e]);
+/// Calls `use` with the ends of each edge of an element: those of a triangle in its sense, of others all pairs.
+template <std::size_t corners, class Use>
+void each_edge(const std::array<Index, corners>& element, const Use& use) {
+  for (std::size_t k = 0; k < corners; ++k) {
+    if (corners == 3) use(element[k], element[(k + 1) % 3]);
+    for (std::size_t l = k + 1; l < corners && corners != 3; ++l) use(element[k], element[l]);
+  }
 }
 
 // Visits each edge once for each triangle that has it; a bad edge is named with the first. Zero is decided exactly; at
@@ -65,22 +68,11 @@ void check_edges(const MeshCheck& check, const std::vector<Vec3>& positions, con
     is_zero ? zero.add(face_name(), ends)
             : out_of_range.add(face_name(), (ends.empty() ? "" : ends + ": ") + shortest(length) + " m");
   };
-  for (std::size_t t = 0; t < check.mesh.triangles.size(); ++t) {
-    const Triangle& corners = check.mesh.triangles[t];
-    for (std::size_t k = 0; k < 3; ++k)
-      check_edge(corners[k], corners[(k + 1) % 3], [&] { return triangle_name(check, t); });
-  }
-  for (std::size_t e = 0; e < check.mesh.loose_edges.size(); ++e) {
-    const auto& [a, b] = check.mesh.loose_edges[e];
-    check_edge(a, b, [&] { return loose_edge_name(check, e); });
-  }
-  for (std::size_t t = 0; t < check.mesh.tetrahedra.size(); ++t) {
-    const Tetrahedron& corners = check.mesh.tetrahedra[t];
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (std::size_t l = k + 1; l < 4; ++l)
-        check_edge(corners[k], corners[l], [&] { return tetrahedron_name(check, t); });
-    }
-  }
+  for_each_of<MeshLists>([&]<class List, std::size_t>() {
+    const auto& all = check.mesh.*List::list;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      each_edge(all[i], [&](Index a, Index b) { check_edge(a, b, [&] { return element_name<List>(check, i); }); });
+  });
 }
 
 void check_areas(const MeshCheck& check, const std::vector<Vec3>& positions, const std::string& kind) {
@@ -88,25 +80,27 @@ void check_areas(const MeshCheck& check, const std::vector<Vec3>& positions, con
                    "remove the triangle or move its vertices");
   for (std::size_t t = 0; t < check.mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = check.mesh.triangles[t];
-    if (has_zero_area(positions[at(a)], positions[at(b)], positions[at(c)])) zero.add(triangle_name(check, t));
+    if (has_zero_area(positions[at(a)], positions[at(b)], positions[at(c)]))
+      zero.add(element_name<TrianglesOfMesh>(check, t));
   }
 }
 
 // Lists elements with equal vertices, which stand next to each other after sorting.
-template <std::size_t corners, class Name>
-void check_repeated(const MeshCheck& check, const std::string& kind,
-                    const std::vector<std::array<Index, corners>>& faces, const Name& name) {
-  ProblemKind repeated(check.problems, check.limit, "has the same vertices as another " + kind, "keep one of them");
-  std::vector<std::pair<std::array<Index, corners>, std::size_t>> sorted;
-  sorted.reserve(faces.size());
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    sorted.emplace_back(faces[i], i);
+template <class List>
+void check_repeated(const MeshCheck& check) {
+  const auto& all = check.mesh.*List::list;
+  ProblemKind repeated(check.problems, check.limit, std::string("has the same vertices as another ") + List::name,
+                       "keep one of them");
+  std::vector<std::pair<ElementOf<List>, std::size_t>> sorted;
+  sorted.reserve(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    sorted.emplace_back(all[i], i);
     std::sort(sorted.back().first.begin(), sorted.back().first.end());
   }
   std::sort(sorted.begin(), sorted.end());
   for (std::size_t i = 1; i < sorted.size(); ++i) {
     if (sorted[i].first == sorted[i - 1].first)
-      repeated.add(name(check, sorted[i].second), name(check, sorted[i - 1].second));
+      repeated.add(element_name<List>(check, sorted[i].second), element_name<List>(check, sorted[i - 1].second));
   }
 }
 
@@ -117,7 +111,7 @@ void check_loose_edges(const MeshCheck& check) {
   for (const auto& [a, b, c] : check.mesh.triangles) of_triangles.insert({ordered(a, b), ordered(b, c), ordered(c, a)});
   for (std::size_t e = 0; e < check.mesh.loose_edges.size(); ++e) {
     const auto& [a, b] = check.mesh.loose_edges[e];
-    if (of_triangles.contains(ordered(a, b))) in_triangle.add(loose_edge_name(check, e));
+    if (of_triangles.contains(ordered(a, b))) in_triangle.add(element_name<LooseEdgesOfMesh>(check, e));
   }
 }
 
@@ -125,40 +119,13 @@ void check_isolated_vertices(const MeshCheck& check) {
   ProblemKind isolated(check.problems, check.limit, "belongs to no triangle, no edge and no tetrahedron",
                        "remove the vertex");
   std::vector<bool> used(check.mesh.positions.size());
-  for (const Triangle& t : check.mesh.triangles) {
-    for (const Index v : t) used[at(v)] = true;
-  }
-  for (const Edge& e : check.mesh.loose_edges) {
-    for (const Index v : e) used[at(v)] = true;
-  }
-  for (const Tetrahedron& t : check.mesh.tetrahedra) {
-    for (const Index v : t) used[at(v)] = true;
-  }
+  for_each_of<MeshLists>([&]<class List, std::size_t>() {
+    for (const auto& element : check.mesh.*List::list)
+      for (const Index v : element) used[at(v)] = true;
+  });
   for (std::size_t v = 0; v < used.size(); ++v) {
     if (!used[v]) isolated.add(check.names.vertex(static_cast<Index>(v)));
   }
-}
-
-/// Returns whether 6V is below 2⁻⁸⁰ m³, or V ∇N_k·∇N_l = n_k·n_l/(36 V) may be above 2⁶⁰ m; n_k is the normal of twice
-/// a face's area.
-bool is_sliver(const std::vector<Vec3>& positions, const Tetrahedron& corners) {
-  const auto edge = [&](Index from, Index to) {
-    const Vec3 &p = positions[at(from)], &q = positions[at(to)];
-    return Vec3{q.x - p.x, q.y - p.y, q.z - p.z};
-  };
-  const auto outer = [](const Vec3& a, const Vec3& b) {
-    return Vec3{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-  };
-  double largest = 0;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Triangle face = opposite_face(corners, k);
-    const Vec3 normal = outer(edge(face[0], face[1]), edge(face[0], face[2]));
-    largest = std::max(largest, normal.x * normal.x + normal.y * normal.y + normal.z * normal.z);
-  }
-  const Vec3 normal = outer(edge(corners[0], corners[2]), edge(corners[0], corners[3])),
-             first = edge(corners[0], corners[1]);
-  const double six_volumes = first.x * normal.x + first.y * normal.y + first.z * normal.z;
-  return !(six_volumes >= 0x1p-80) || largest > 0x1p60 * 6 * six_volumes;
 }
 
 }  // namespace
@@ -167,36 +134,10 @@ bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) 
 
 std::string printed(const Vec3& v) { return "(" + shortest(v.x) + ", " + shortest(v.y) + ", " + shortest(v.z) + ")"; }
 
-void check_tetrahedra(const MeshCheck& check) {
-  check_repeated(check, "tetrahedron", check.mesh.tetrahedra, tetrahedron_name);
-  ProblemKind shared(check.problems, check.limit, "has a face that two other tetrahedra have",
-                     "of a face there are two tetrahedra at most, one on each side: remove the others");
-  ProblemKind doubled(check.problems, check.limit, "lies on the same side of a face as another tetrahedron",
-                      "remove one of them, or reorder the vertices of the one that is inside out");
-  const std::vector<TetrahedronFace> faces = sorted_faces(check.mesh.tetrahedra);
-  for (std::size_t i = 0, end = 0; i < faces.size(); i = end) {
-    while (end < faces.size() && faces[end].vertices == faces[i].vertices) ++end;
-    const auto names = [&](std::size_t k) { return tetrahedron_name(check, at(faces[k].tetrahedron)); };
-    const std::string where = check.names.vertices(faces[i].vertices);
-    if (end - i > 2) shared.add(names(end - 1), where + " of " + names(i) + " and " + names(i + 1));
-    if (end - i == 2 && faces[i].even == faces[i + 1].even) doubled.add(names(i + 1), where + " of " + names(i));
-  }
-}
-
 void check_volumes(const MeshCheck& check, const std::vector<Vec3>& rest_positions) {
-  ProblemKind flat(check.problems, check.limit, "is flat at rest", "remove the tetrahedron or move its vertices");
-  ProblemKind inverted(check.problems, check.limit, "is inverted at rest",
-                       "exchange two of its vertices, or untangle the mesh");
-  for (std::size_t t = 0; t < check.mesh.tetrahedra.size(); ++t) {
-    const auto& [a, b, c, d] = check.mesh.tetrahedra[t];
-    const auto usable = [&](Index v) { return is_finite(rest_positions[at(v)]); };
-    if (!std::ranges::all_of(check.mesh.tetrahedra[t], usable)) continue;
-    const int side = orientation(rest_positions[at(a)], rest_positions[at(b)], rest_positions[at(c)],
-                                 rest_positions[at(d)]);
-    if (side == 0 || (side > 0 && is_sliver(rest_positions, check.mesh.tetrahedra[t])))
-      flat.add(tetrahedron_name(check, t));
-    if (side < 0) inverted.add(tetrahedron_name(check, t));
-  }
+  for_each_of<MeshLists>([&]<class List, std::size_t>() {
+    if constexpr (HasVolume<List>) List::check_rest(check, rest_positions);
+  });
 }
 
 bool check_indices(const MeshCheck& check) {
@@ -214,12 +155,10 @@ bool check_indices(const MeshCheck& check) {
         return repeated.add(face_name(), check.names.vertex(corners[k]));
     }
   };
-  for (std::size_t t = 0; t < check.mesh.triangles.size(); ++t)
-    check_face(check.mesh.triangles[t], [&] { return triangle_name(check, t); });
-  for (std::size_t e = 0; e < check.mesh.loose_edges.size(); ++e)
-    check_face(check.mesh.loose_edges[e], [&] { return loose_edge_name(check, e); });
-  for (std::size_t t = 0; t < check.mesh.tetrahedra.size(); ++t)
-    check_face(check.mesh.tetrahedra[t], [&] { return tetrahedron_name(check, t); });
+  for_each_of<MeshLists>([&]<class List, std::size_t>() {
+    const auto& all = check.mesh.*List::list;
+    for (std::size_t i = 0; i < all.size(); ++i) check_face(all[i], [&] { return element_name<List>(check, i); });
+  });
   return range.count() == 0 && repeated.count() == 0;
 }
 
@@ -234,11 +173,12 @@ std::vector<Problem> validate(const Mesh& mesh, std::size_t limit, const Element
   std::vector<Problem> problems;
   const MeshCheck check{mesh, names, limit, problems};
   if (check_indices(check)) {
-    check_repeated(check, "triangle", mesh.triangles, triangle_name);
-    check_repeated(check, "loose edge", mesh.loose_edges, loose_edge_name);
+    for_each_of<MeshLists>([&]<class List, std::size_t>() { check_repeated<List>(check); });
     check_loose_edges(check);
     check_isolated_vertices(check);
-    check_tetrahedra(check);
+    for_each_of<MeshLists>([&]<class List, std::size_t>() {
+      if constexpr (requires { List::check(check); }) List::check(check);
+    });
     check_positions(check, mesh.positions, "");
   } else {
     check_coordinates(check, mesh.positions, "");

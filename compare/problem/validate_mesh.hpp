@@ -1,4 +1,4 @@
-// Checks a mesh's indices, positions and tetrahedra; a scene needs some of it twice, for start and for rest positions.
+// Checks a mesh's indices and positions; a scene needs some of it twice, for start and for rest positions.
 #pragma once
 
 #include <string>
@@ -27,12 +27,7 @@ bool check_indices(const MeshCheck& check);
 /// before the nouns: "" or "rest ".
 void check_positions(const MeshCheck& check, const std::vector<Vec3>& positions, const std::string& kind);
 
-/// Lists faces that more than two tetrahedra have, or two on one side, and repeated tetrahedra; indices are valid.
-void check_tetrahedra(const MeshCheck& check);
-
-/// Lists tetrahedra that are inverted at their rest positions, decided exactly, or flat: without volume, or with so
-/// little that their rest data are beyond the limits of compare/stages/tetrahedron.hpp. Positions are numbers of single
-/// precision, indices are valid.
+/// Lists elements with volume that their rest shape forbids; indices are valid.
 void check_volumes(const MeshCheck& check, const std::vector<Vec3>& rest_positions);
 
 /// Returns whether all three coordinates are finite.

@@ -78,32 +78,31 @@ std::int64_t prescribed_count(const Scene& scene, const Body& body) {
 
 Json bodies_json(const Scene& scene) {
   Json json = Json::array();
-  for (const Body& body : scene.bodies)
-    json.push_back({{"name", body.name},
-                    {"first_vertex", body.first_vertex},
-                    {"vertex_count", body.vertex_count},
-                    {"first_triangle", body.first_triangle},
-                    {"triangle_count", body.triangle_count},
-                    {"first_tetrahedron", body.first_tetrahedron},
-                    {"tetrahedron_count", body.tetrahedron_count},
-                    {"fixed", body.fixed},
-                    {"body_contact", name_of(body.contact)},
-                    {"prescribed_vertices", prescribed_count(scene, body)},
-                    {"material", material_json(body.material)}});
+  for (const Body& body : scene.bodies) {
+    Json& entry = json.emplace_back(
+        Json{{"name", body.name}, {"first_vertex", body.first_vertex}, {"vertex_count", body.vertex_count}});
+    for_each_of<MeshLists>([&]<class List, std::size_t>() {
+      if constexpr (HasRange<List>) {
+        entry[std::string("first_") + List::name] = body.*List::first;
+        entry[std::string(List::name) + "_count"] = body.*List::count;
+      }
+    });
+    entry["fixed"] = body.fixed;
+    entry["body_contact"] = name_of(body.contact);
+    entry["prescribed_vertices"] = prescribed_count(scene, body);
+    entry["material"] = material_json(body.material);
+  }
   return json;
 }
 
 Json scene_json(const Manifest& manifest, const Scene& scene) {
-  return {{"name", manifest.scene_name},
-          {"file", manifest.scene_file},
-          {"vertices", scene.mesh.positions.size()},
-          {"triangles", scene.mesh.triangles.size()},
-          {"loose_edges", scene.mesh.loose_edges.size()},
-          {"tetrahedra", scene.mesh.tetrahedra.size()},
-          {"springs", scene.springs.size()},
-          {"excluded_pairs", scene.excluded_pairs.size()},
-          {"gravity", {{"value", {scene.gravity.x, scene.gravity.y, scene.gravity.z}}, {"unit", "m/s²"}}},
-          {"bodies", bodies_json(scene)}};
+  Json json{{"name", manifest.scene_name}, {"file", manifest.scene_file}, {"vertices", scene.mesh.positions.size()}};
+  for_each_of<MeshLists>([&]<class List, std::size_t>() { json[List::key] = (scene.mesh.*List::list).size(); });
+  for_each_of<SceneLists>([&]<class List, std::size_t>() { json[List::key] = (scene.*List::list).size(); });
+  json["excluded_pairs"] = scene.excluded_pairs.size();
+  json["gravity"] = {{"value", {scene.gravity.x, scene.gravity.y, scene.gravity.z}}, {"unit", "m/s²"}};
+  json["bodies"] = bodies_json(scene);
+  return json;
 }
 
 Json extra_json(const std::string& value) {

@@ -19,11 +19,10 @@
 
 namespace ogc::fast {
 
-/// Features that a scene may require of the sum over a vertex's stencils, one bit each: kinds of elements, volumes,
-/// asks_any_model (bending or damping other than discrete hinges and damping of strains), and asks_any_activation (an
-/// activation other than `ogc`).
-inline constexpr unsigned asks_triangles = 1, asks_hinges = 2, asks_springs = 4, asks_tetrahedra = 8,
-                          asks_segments = 16, asks_volumes = 32, asks_any_model = 64, asks_any_activation = 128;
+/// What a scene asks of the sum over the stencils of a vertex, one bit each: volumes, other models of bending or
+/// damping than the usual ones (discrete hinges, damping of strains), another activation than `ogc`. The bits of the
+/// kinds of elements follow these, in the order of their list (kinds/kinds.hpp).
+inline constexpr unsigned asks_volumes = 1, asks_any_model = 2, asks_any_activation = 4, first_kind_bit = 8;
 
 /// The incidences of a vertex in the stream of a kind of element.
 struct Row {

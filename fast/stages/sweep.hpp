@@ -36,15 +36,15 @@ inline std::vector<float> rest_squared_with_triangles(const compare::Topology& t
   return squared;
 }
 
-/// Returns the kinds of elements that a scene has, one bit each (sweep_view.hpp).
+/// The kinds of elements that a scene has, one bit each (kinds/kinds.hpp).
 template <class... All>
-unsigned kinds_of(KindList<All...>, const RestState& rest) {
-  return ((at_rest<All>(rest).elements().empty() ? 0u : All::asked) | ...);
+unsigned kinds_of(KindList<All...> list, const RestState& rest) {
+  return ((at_rest<All>(rest).elements().empty() ? 0u : list.template bit<All>) | ...);
 }
 /// Returns the kinds whose vertices have few elements, one bit each.
 template <class... All>
-constexpr unsigned curves(KindList<All...>) {
-  return ((All::is_curve ? All::asked : 0u) | ...);
+constexpr unsigned curves(KindList<All...> list) {
+  return ((All::is_curve ? list.template bit<All> : 0u) | ...);
 }
 
 /// Returns the features that a scene needs in the sum over a vertex's stencils, one bit each (sums.hpp).
@@ -193,7 +193,7 @@ class Sweep {
 
   static bool has_only_curves(const RestState& rest) {
     const unsigned kinds = kinds_of(Kinds{}, rest);
-    return (kinds & asks_segments) != 0 && (kinds & ~curves(Kinds{})) == 0;
+    return (kinds & Kinds::bit<SegmentKind>) != 0 && (kinds & ~curves(Kinds{})) == 0;
   }
 
   static bool is_of_volume(const compare::Scene& scene, int body) {

@@ -5,10 +5,15 @@
 
 namespace ogc::reference {
 
-/// Returns the exact answer first. If the angle is near ±π, the answers for the angle minus or plus 2π follow.
+struct RestBuilder;
+
+/// Returns the exact answer; where an angle is near ±π also those on the other side of the cut.
 std::vector<compare::ForceAnswer> bending(const compare::BendingCase& question);
 
 /// Computes all cases, in parallel over them.
 compare::ForceTruth bending(const compare::BendingIn& in);
+
+/// Adds the rest data of hinges (solvers/kinds/rest_state.cpp).
+void add_hinges_at_rest(RestBuilder& to);
 
 }  // namespace ogc::reference

@@ -5,11 +5,15 @@
 
 namespace ogc::reference {
 
-/// Returns the exact answer. For a collapsed triangle of the stable Neo-Hookean model, whose normal is undefined, an
-/// answer that covers every normal follows.
+struct RestBuilder;
+
+/// Returns the exact answer; where the stable Neo-Hookean model has no normal also one that covers every normal.
 std::vector<compare::ForceAnswer> membrane(const compare::MembraneCase& question);
 
 /// Computes all cases, in parallel over them.
 compare::ForceTruth membrane(const compare::MembraneIn& in);
+
+/// Adds the rest data of triangles (solvers/kinds/rest_state.cpp).
+void add_triangles_at_rest(RestBuilder& to);
 
 }  // namespace ogc::reference

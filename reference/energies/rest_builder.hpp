@@ -5,7 +5,7 @@
 
 #include <CGAL/Mpzf.h>
 
-#include "compare/stages/kinds.hpp"
+#include "compare/stages/rest_state.hpp"
 #include "reference/energies/inputs.hpp"
 #include "reference/geometry/formulas.hpp"
 
@@ -62,11 +62,5 @@ struct RestBuilder {
     }
   }
 };
-
-// Adds the elements of one kind, in the order of the contract (compare/stages/rest_state.hpp), and their masses.
-void add_rest(compare::TriangleKind, RestBuilder& to);
-void add_rest(compare::HingeKind, RestBuilder& to);
-void add_rest(compare::TetrahedronKind, RestBuilder& to);
-void add_rest(compare::SegmentKind, RestBuilder& to);
 
 }  // namespace ogc::reference

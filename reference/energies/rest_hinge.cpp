@@ -1,6 +1,7 @@
 // Computes rest data of hinges.
 #include <cmath>
 
+#include "reference/energies/bending.hpp"
 #include "reference/energies/rest_builder.hpp"
 
 namespace ogc::reference {
@@ -92,7 +93,7 @@ void add_hinge(RestBuilder& to, const compare::Hinge& hinge) {
 
 }  // namespace
 
-void add_rest(compare::HingeKind, RestBuilder& to) {
+void add_hinges_at_rest(RestBuilder& to) {
   for (const compare::Hinge& hinge : to.topology.hinges) add_hinge(to, hinge);
 }
 

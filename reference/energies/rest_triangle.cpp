@@ -1,6 +1,7 @@
 // Computes rest data of triangles.
 #include <cmath>
 
+#include "reference/energies/membrane.hpp"
 #include "reference/energies/rest_builder.hpp"
 
 namespace ogc::reference {
@@ -63,7 +64,7 @@ void add_triangle(RestBuilder& to, compare::Index t, compare::Index number_of_bo
 
 }  // namespace
 
-void add_rest(compare::TriangleKind, RestBuilder& to) {
+void add_triangles_at_rest(RestBuilder& to) {
   for (std::size_t b = 0; b < to.scene.bodies.size(); ++b) {
     const compare::Body& body = to.scene.bodies[b];
     if (body.fixed || body.is_solid()) continue;

@@ -2,7 +2,6 @@
 
 #include "reference/energies/inputs.hpp"
 #include "reference/energies/parallel.hpp"
-#include "reference/energies/spring_terms.hpp"
 
 namespace ogc::reference {
 namespace {

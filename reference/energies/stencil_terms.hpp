@@ -11,10 +11,6 @@
 #include "compare/problem/vector.hpp"
 #include "reference/energies/closest_form.hpp"
 #include "reference/energies/contact_activation.hpp"
-#include "reference/energies/hinge_terms.hpp"
-#include "reference/energies/membrane_terms.hpp"
-#include "reference/energies/solid_terms.hpp"
-#include "reference/energies/spring_terms.hpp"
 
 namespace ogc::reference {
 

@@ -8,8 +8,9 @@
 #include "compare/problem/error.hpp"
 #include "reference/energies/mollifier.hpp"
 #include "reference/energies/overlap_share.hpp"
-#include "reference/energies/rest_state.hpp"
 #include "reference/geometry/closest_points.hpp"
+#include "reference/solvers/kinds/kernels.hpp"
+#include "reference/solvers/kinds/rest_state.hpp"
 #include "reference/solvers/potential_batches.hpp"
 
 namespace ogc::reference {

@@ -117,7 +117,7 @@ class MshParser {
   }
 
   void add_element(const MshElementType& type, std::int64_t tag) {
-    std::array<std::int64_t, 4> first{};
+    std::array<std::int64_t, most_msh_nodes> first{};
     for (std::size_t k = 0; k < type.nodes; ++k) {
       const std::int64_t node = lines_.integer("the tag of a node");
       if (k < first.size()) first[k] = node;
@@ -168,19 +168,28 @@ class MshParser {
 PolygonMesh parse_msh(std::string_view text, const std::string& name) { return MshParser(text, name).parse(); }
 
 std::string print_msh(const Mesh& mesh) {
-  const std::string nodes = std::to_string(mesh.positions.size()), elements = std::to_string(mesh.tetrahedra.size());
+  const std::string nodes = std::to_string(mesh.positions.size());
   std::string text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 " + nodes + " 1 " + nodes + "\n3 1 0 " + nodes +
                      "\n";
   for (std::size_t v = 1; v <= mesh.positions.size(); ++v) text += std::to_string(v) + "\n";
   for (const Vec3& x : mesh.positions) text += shortest(x.x) + " " + shortest(x.y) + " " + shortest(x.z) + "\n";
-  text += "$EndNodes\n$Elements\n1 " + elements + " 1 " + elements + "\n3 1 " + std::to_string(msh_tetrahedron) + " " +
-          elements + "\n";
-  std::size_t tag = 0;
-  for (const Tetrahedron& t : mesh.tetrahedra) {
-    text += std::to_string(++tag);
-    for (const Index v : t) text += " " + std::to_string(v + 1);
-    text += "\n";
-  }
+  std::size_t blocks = 0, tag = 0;
+  std::string elements;
+  for_each_of<MeshLists>([&]<class List, std::size_t>() {
+    if constexpr (HasVolume<List>) {
+      const auto& all = mesh.*List::list;
+      if (all.empty()) return;
+      ++blocks;
+      elements += "3 1 " + std::to_string(List::msh_type) + " " + std::to_string(all.size()) + "\n";
+      for (const auto& element : all) {
+        elements += std::to_string(++tag);
+        for (const Index v : element) elements += " " + std::to_string(v + 1);
+        elements += "\n";
+      }
+    }
+  });
+  const std::string count = std::to_string(tag);
+  text += "$EndNodes\n$Elements\n" + std::to_string(blocks) + " " + count + " 1 " + count + "\n" + elements;
   return text + "$EndElements\n";
 }
 

@@ -25,6 +25,15 @@ constexpr std::array<MshElementType, 13> element_types{{{1, 2, 1, "lines"},
                                                         {15, 1, 0, "points"},
                                                         {16, 8, 2, "quadrangles of second order"}}};
 
+/// Returns whether elements of Gmsh's number are read.
+bool is_read(int number) {
+  bool read = false;
+  for_each_of<MeshLists>([&]<class List, std::size_t>() {
+    if constexpr (HasVolume<List>) read = read || number == List::msh_type;
+  });
+  return read;
+}
+
 }  // namespace
 
 MshCollector::MshCollector(const std::string& name, bool is_binary)
@@ -42,7 +51,7 @@ const MshElementType& MshCollector::type_of(std::int64_t number, std::size_t pla
   if (type == element_types.end())
     fail(place,
          "elements of type " + std::to_string(number) + " are not read; mesh the volume with tetrahedra of 4 nodes");
-  if (type->dimension == 3 && type->number != msh_tetrahedron)
+  if (type->dimension == 3 && !is_read(type->number))
     fail(place,
          std::string(type->name) + " are not read; mesh the volume with tetrahedra of 4 nodes (gmsh -3 -order 1)");
   return *type;
@@ -54,11 +63,12 @@ void MshCollector::add_node(std::int64_t tag, std::size_t place, const Vec3& pos
 
 void MshCollector::add_element(const MshElementType& type, std::int64_t tag, std::size_t place,
                                std::span<const std::int64_t> nodes) {
-  if (type.number != msh_tetrahedron) {
+  if (!is_read(type.number)) {
     ++left_out_[static_cast<std::size_t>(&type - element_types.data())];
     return;
   }
-  elements_.push_back({{nodes[0], nodes[1], nodes[2], nodes[3]}, tag, place});
+  Element& element = elements_.emplace_back(Element{type.number, {}, tag, place});
+  std::copy_n(nodes.begin(), type.nodes, element.nodes.begin());
 }
 
 PolygonMesh MshCollector::finish() {
@@ -67,16 +77,25 @@ PolygonMesh MshCollector::finish() {
     throw InputError(name_ + ": has " + elements_left_out() +
                      " and no tetrahedron: mesh the volume (gmsh -3), or give a surface as .obj or .ply");
   place_nodes();
-  for (const Element& element : elements_) {
-    Tetrahedron corners{};
-    for (std::size_t k = 0; k < 4; ++k) corners[k] = number_of(element.nodes[k], element.place);
-    mesh_.tetrahedra.push_back(corners);
-    mesh_.source.tetrahedra.push_back(file_number(element.tag, element.place));
-    if (!is_binary_) mesh_.source.tetrahedron_lines.push_back(element.place);
-  }
+  for (const Element& element : elements_)
+    for_each_of<MeshLists>([&]<class List, std::size_t>() {
+      if constexpr (HasVolume<List>)
+        if (element.type == List::msh_type) add_to<List>(element);
+    });
   if (const std::string others = elements_left_out(); others != "nothing")
     mesh_.notes.push_back(name_ + ": " + others + " were left out: the surface is the boundary of the tetrahedra");
   return std::move(mesh_);
+}
+
+template <class List>
+void MshCollector::add_to(const Element& element) {
+  ElementOf<List> corners{};
+  for (std::size_t k = 0; k < corners.size(); ++k) corners[k] = number_of(element.nodes[k], element.place);
+  (mesh_.*List::list).push_back(corners);
+  if constexpr (requires { List::numbers; }) {
+    (mesh_.source.*List::numbers).push_back(file_number(element.tag, element.place));
+    if (!is_binary_) (mesh_.source.*List::lines).push_back(element.place);
+  }
 }
 
 std::string MshCollector::elements_left_out() const {

@@ -2,6 +2,7 @@
 // of the binary formats share it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -21,8 +22,14 @@ struct MshElementType {
   std::string_view name;  ///< plural, for messages
 };
 
-/// Gmsh's number for tetrahedra of four nodes.
-inline constexpr int msh_tetrahedron = 4;
+/// The most nodes of an element that is read.
+inline constexpr std::size_t most_msh_nodes = [] {
+  std::size_t most = 0;
+  for_each_of<MeshLists>([&]<class List, std::size_t>() {
+    if constexpr (HasVolume<List>) most = std::max(most, std::tuple_size_v<ElementOf<List>>);
+  });
+  return most;
+}();
 
 /// Collects nodes and elements and makes a mesh of them. A `place` is where an item begins in the file: a line or, in a
 /// binary file, a byte.
@@ -52,11 +59,14 @@ class MshCollector {
     Vec3 position;
   };
   struct Element {
-    std::array<std::int64_t, 4> nodes;
+    int type;
+    std::array<std::int64_t, most_msh_nodes> nodes;
     std::int64_t tag;
     std::size_t place;
   };
 
+  template <class List>
+  void add_to(const Element& element);
   std::string elements_left_out() const;
   Index file_number(std::int64_t tag, std::size_t place) const;
   void place_nodes();

@@ -51,6 +51,19 @@ bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   return has_zero_area(a, b, c);
 }
 
+/// Returns whether a mesh has no elements.
+bool is_empty(const Mesh& mesh) {
+  bool empty = true;
+  for_each_of<MeshLists>([&]<class List, std::size_t>() { empty = empty && (mesh.*List::list).empty(); });
+  return empty;
+}
+
+/// Visits all elements of a mesh.
+template <class AnyMesh, class Visit>
+void each_element(AnyMesh& mesh, const Visit& visit) {
+  for_each_of<MeshLists>([&]<class List, std::size_t>() { std::ranges::for_each(mesh.*List::list, visit); });
+}
+
 class MeshMaker {
  public:
   MeshMaker(PolygonMesh polygons, const MeshOptions& options) : in_(std::move(polygons)), options_(options) {}
@@ -65,15 +78,14 @@ class MeshMaker {
     leave_out_degenerate();
     leave_out_doubled();
     if (!options_.keep_unused) turn_inverted();
-    out_.mesh.positions = std::move(in_.positions);
-    out_.mesh.loose_edges = std::move(in_.loose_edges);
-    out_.mesh.tetrahedra = std::move(in_.tetrahedra);
-    if (out_.mesh.triangles.empty() && out_.mesh.loose_edges.empty() && out_.mesh.tetrahedra.empty())
+    in_.triangles = std::move(out_.mesh.triangles);
+    out_.mesh = std::move(static_cast<Mesh&>(in_));
+    if (is_empty(out_.mesh))
       fail("has " + counted(out_.mesh.positions.size(), "vertex position") + " and no face" +
            (in_.face_count() == 0 ? "; give a mesh, not a cloud of points"
                                   : " that has an area; the first that has none: " + face_name(first_left_out_)));
     if (!options_.keep_unused) leave_out_unused();
-    if (!out_.mesh.tetrahedra.empty()) out_.mesh.triangles = boundary_triangles(out_.mesh.tetrahedra);
+    if (has_volume(out_.mesh)) out_.mesh.triangles = surface_triangles(out_.mesh);
     out_.source = std::move(in_.source);
     return std::move(out_);
   }
@@ -116,10 +128,10 @@ class MeshMaker {
     for (std::size_t k = 0; k < kept.size(); ++k) in_.positions[k] = in_.positions[at(kept[k])];
     in_.positions.resize(kept.size());
     for (Index& c : in_.corners) c = renamed[at(c)];
-    for (Tetrahedron& t : in_.tetrahedra)
-      for (Index& c : t) c = renamed[at(c)];
-    for (Edge& e : in_.loose_edges)
-      e = {std::min(renamed[at(e[0])], renamed[at(e[1])]), std::max(renamed[at(e[0])], renamed[at(e[1])])};
+    each_element(in_, [&]<std::size_t corners>(std::array<Index, corners>& element) {
+      for (Index& c : element) c = renamed[at(c)];
+      if (corners == 2) std::ranges::sort(element);
+    });
     note(counted(merged, "corner") + " with exactly the coordinates of another " + (merged == 1 ? "was" : "were") +
          " merged with it: " + std::to_string(kept.size()) + " vertices are left");
   }
@@ -322,12 +334,9 @@ class MeshMaker {
 
   void leave_out_unused() {
     std::vector<Index> renamed(out_.mesh.positions.size(), -1);
-    const auto use = [&](const auto& face) {
-      for (const Index v : face) renamed[at(v)] = 0;
-    };
-    std::ranges::for_each(out_.mesh.triangles, use);
-    std::ranges::for_each(out_.mesh.loose_edges, use);
-    std::ranges::for_each(out_.mesh.tetrahedra, use);
+    each_element(out_.mesh, [&](const auto& element) {
+      for (const Index v : element) renamed[at(v)] = 0;
+    });
     const auto first = static_cast<Index>(std::ranges::find(renamed, -1) - renamed.begin());
     const auto unused = static_cast<std::size_t>(std::ranges::count(renamed, -1));
     if (unused == 0) return;
@@ -349,12 +358,9 @@ class MeshMaker {
       numbers.push_back(in_.source.vertices.empty() ? static_cast<Index>(v) : in_.source.vertices[v]);
       if (!in_.source.first_faces.empty()) faces.push_back(in_.source.first_faces[v]);
     }
-    const auto rename = [&](auto& face) {
-      for (Index& v : face) v = used[at(v)];
-    };
-    std::ranges::for_each(out_.mesh.triangles, rename);
-    std::ranges::for_each(out_.mesh.loose_edges, rename);
-    std::ranges::for_each(out_.mesh.tetrahedra, rename);
+    each_element(out_.mesh, [&](auto& element) {
+      for (Index& v : element) v = used[at(v)];
+    });
     out_.mesh.positions = std::move(positions);
     in_.source.vertices = std::move(numbers);
     in_.source.first_faces = std::move(faces);
@@ -380,7 +386,7 @@ void PolygonMesh::add_face(std::span<const Index> face) {
 
 void keep_solid(PolygonMesh& mesh) {
   const std::size_t faces = mesh.face_count(), edges = mesh.loose_edges.size();
-  if (mesh.tetrahedra.empty() || faces + edges == 0) return;
+  if (!has_volume(mesh) || faces + edges == 0) return;
   mesh.notes.push_back(mesh.source.file + ": " + counted(faces, "face") + " and " + counted(edges, "line") +
                        " were left out: the surface is the boundary of the tetrahedra");
   mesh.corners.clear();

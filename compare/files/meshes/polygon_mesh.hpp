@@ -8,17 +8,15 @@
 #include <vector>
 
 #include "compare/problem/element_names.hpp"
-#include "compare/problem/mesh.hpp"
+#include "compare/problem/scene.hpp"
 
 namespace ogc::compare {
 
-/// A mesh of polygons. All indices are valid; positions are finite.
-struct PolygonMesh {
-  std::vector<Vec3> positions;            ///< [m]
-  std::vector<Index> corners;             ///< of all faces, one after the other, each face in its own order
-  std::vector<Index> face_ends{};         ///< end of each face's corners
-  std::vector<Edge> loose_edges;          ///< edges that belong to no face
-  std::vector<Tetrahedron> tetrahedra{};  ///< vertex numbers
+/// A mesh of polygons. All indices are valid; positions are finite. Its polygons take the place of triangles, of which
+/// it has none.
+struct PolygonMesh : Mesh {
+  std::vector<Index> corners;        ///< of all faces, one after the other, each face in its own order
+  std::vector<Index> face_ends{};    ///< end of each face's corners
   MeshSource source;                 ///< file, first number, lines; its numbers of vertices and faces are the file's
   std::vector<std::string> notes{};  ///< contents of the file that the mesh lacks
 

@@ -159,8 +159,11 @@ class SceneReader {
                          "rounding to single precision bends edges; move the scene's meshes near 0"));
     object.optional("motions",
                     [&](const JsonNode& node) { each(node, [&](const JsonNode& motion) { read_motion(motion); }); });
-    object.optional("springs",
-                    [&](const JsonNode& node) { each(node, [&](const JsonNode& spring) { read_spring(spring); }); });
+    for_each_of<SceneLists>([&]<class List, std::size_t>() {
+      object.optional(List::key, [&](const JsonNode& node) {
+        each(node, [&](const JsonNode& element) { read_element<List>(element); });
+      });
+    });
     object.optional("excluded_pairs",
                     [&](const JsonNode& node) { each(node, [&](const JsonNode& pairs) { read_excluded(pairs); }); });
     object.optional("body_pairs", [&](const JsonNode& node) {
@@ -255,9 +258,10 @@ class SceneReader {
     std::optional<PolygonMesh> other = read_polygons(node);
     if (!other) return {};
     const PolygonMesh& own = mesh.polygons;
-    if (other->positions.size() != own.positions.size() || other->corners != own.corners ||
-        other->face_ends != own.face_ends || other->loose_edges != own.loose_edges ||
-        other->tetrahedra != own.tetrahedra) {
+    bool same = other->positions.size() == own.positions.size() && other->corners == own.corners &&
+                other->face_ends == own.face_ends;
+    for_each_of<MeshLists>([&]<class List, std::size_t>() { same = same && (*other).*List::list == own.*List::list; });
+    if (!same) {
       node.fail("has other vertices, faces, edges or tetrahedra than the body's mesh", "write both from one mesh");
       return {};
     }
@@ -322,18 +326,18 @@ class SceneReader {
     scene_.motions.push_back(std::move(motion));
   }
 
-  void read_spring(const JsonNode& node) {
+  template <class List>
+  void read_element(const JsonNode& node) {
     JsonObject object(node);
-    Spring spring;
-    object.required("first", [&](const JsonNode& end) { spring.first = read_end(end); });
-    object.required("second", [&](const JsonNode& end) { spring.second = read_end(end); });
-    object.required_value("stiffness", spring.stiffness);
-    object.optional_value("rest_length", spring.rest_length);
-    object.optional_value("damping", spring.damping);
-    object.optional("third", [&](const JsonNode& end) { spring.third = read_end(end); });
-    object.optional_value("ratio", spring.ratio);
+    auto& element = (scene_.*List::list).emplace_back();
+    for (const auto& field : List::fields) {
+      const auto read = [&](const JsonNode& value) {
+        if (field.vertex != nullptr) element.*field.vertex = read_end(value);
+        if (field.number != nullptr) value.read(element.*field.number);
+      };
+      field.is_required ? object.required(field.name, read) : object.optional(field.name, read);
+    }
     object.finish();
-    scene_.springs.push_back(spring);
   }
 
   void read_orientations_file(const JsonNode& node) {

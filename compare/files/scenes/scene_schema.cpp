@@ -143,27 +143,20 @@ Json motion_schema() {
   return object(properties, {"name", "vertices"});
 }
 
-Json spring_schema() {
+template <class List>
+Json elements_schema() {
   const Json end = object({{"body", value("string", "name of a body")},
                            {"index", value("integer", "vertex in the body's mesh file, from 0")}},
                           {"body", "index"});
-  const auto number = [](const std::string& description) {
-    Json json = value("number", description);
-    json["minimum"] = 0;
-    return json;
-  };
-  Json ratio = number("s of the point (1 − s) second + s third that the spring holds instead of second [1]; default 0");
-  ratio["maximum"] = 1;
-  const Json properties = {
-      {"first", end},
-      {"second", end},
-      {"third", end},
-      {"ratio", ratio},
-      {"stiffness", number("[N/m]")},
-      {"rest_length", number("[m]; default 0")},
-      {"damping", number("stiffness-proportional [s]; default 0")},
-  };
-  return object(properties, {"first", "second", "stiffness"});
+  Json properties = Json::object();
+  std::vector<std::string> required;
+  for (const auto& field : List::fields) {
+    if (field.is_required) required.emplace_back(field.name);
+    Json& row = properties[field.name] = field.vertex != nullptr ? end : value("number", field.meaning);
+    if (field.number != nullptr) row["minimum"] = 0;
+    if (field.maximum) row["maximum"] = *field.maximum;
+  }
+  return array(object(properties, required), List::meaning);
 }
 
 Json excluded_schema() {
@@ -183,21 +176,22 @@ Json excluded_schema() {
 }  // namespace
 
 std::string scene_schema() {
-  const Json properties = {
+  Json properties = {
       {"format_version", {{"type", "integer"}, {"minimum", 1}, {"maximum", scene_format_version}}},
       {"name", value("string", "letters, digits, _ and -; default: that of this file")},
       {"gravity", vector("[m/s²]; default [0, -9.81, 0]")},
       {"settings", settings_schema()},
       {"bodies", array(body_schema(), "in the order of their vertices")},
       {"motions", array(motion_schema(), "prescribed motions")},
-      {"springs",
-       array(spring_schema(), "between a vertex and another, or a point between two others; no part of contact")},
+  };
+  for_each_of<SceneLists>([&]<class List, std::size_t>() { properties[List::key] = elements_schema<List>(); });
+  properties.update(Json{
       {"excluded_pairs", array(excluded_schema(),
                                "two faces are no contact, and not audited, where a vertex of one and a vertex of the "
                                "other are such a pair")},
       {"body_pairs",
        {{"type", "array"}, {"maxItems", 0}, {"description", "reserved for materials of pairs of bodies"}}},
-  };
+  });
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "OGC Testbed scene"}};
   schema.update(object(properties, {"format_version", "bodies"}));
   return schema.dump(2) + "\n";

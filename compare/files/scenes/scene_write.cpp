@@ -58,17 +58,16 @@ Mesh body_mesh(const Scene& scene, const Body& body, const std::vector<Vec3>& va
   Mesh mesh;
   const Index first = body.first_vertex, end = first + body.vertex_count;
   mesh.positions.assign(values.begin() + first, values.begin() + end);
-  for (Index t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t) {
-    const auto& [a, b, c] = scene.mesh.triangles[static_cast<std::size_t>(t)];
-    mesh.triangles.push_back({a - first, b - first, c - first});
-  }
-  for (const auto& [a, b] : scene.mesh.loose_edges) {
-    if (a >= first && a < end) mesh.loose_edges.push_back({a - first, b - first});
-  }
-  for (Index t = body.first_tetrahedron; t < body.first_tetrahedron + body.tetrahedron_count; ++t) {
-    const auto& [a, b, c, d] = scene.mesh.tetrahedra[static_cast<std::size_t>(t)];
-    mesh.tetrahedra.push_back({a - first, b - first, c - first, d - first});
-  }
+  for_each_of<MeshLists>([&]<class List, std::size_t>() {
+    std::span<const ElementOf<List>> all(scene.mesh.*List::list);
+    if constexpr (HasRange<List>)
+      all = all.subspan(static_cast<std::size_t>(body.*List::first), static_cast<std::size_t>(body.*List::count));
+    for (ElementOf<List> element : all) {
+      if (element[0] < first || element[0] >= end) continue;
+      for (Index& v : element) v -= first;
+      (mesh.*List::list).push_back(element);
+    }
+  });
   return mesh;
 }
 
@@ -147,22 +146,23 @@ Json motion_json(const std::filesystem::path& folder, const Scene& scene, const 
   return json;
 }
 
-Json springs_json(const Scene& scene) {
+template <class List>
+Json elements_json(const Scene& scene) {
   const std::vector<Index> owner = body_of_vertex(scene);
   const auto end = [&](Index v) -> Json {
     const Body& body = scene.bodies[static_cast<std::size_t>(owner[static_cast<std::size_t>(v)])];
     return {{"body", body.name}, {"index", v - body.first_vertex}};
   };
-  Json springs = Json::array();
-  for (const Spring& spring : scene.springs) {
-    springs.push_back({{"first", end(spring.first)},
-                       {"second", end(spring.second)},
-                       {"stiffness", as_typed(spring.stiffness)},
-                       {"rest_length", as_typed(spring.rest_length)},
-                       {"damping", as_typed(spring.damping)}});
-    if (spring.third >= 0) springs.back().update({{"third", end(spring.third)}, {"ratio", as_typed(spring.ratio)}});
+  Json elements = Json::array();
+  for (const auto& element : scene.*List::list) {
+    Json& json = elements.emplace_back(Json::object());
+    for (const auto& field : List::fields) {
+      if (!has_field(element, field)) continue;
+      if (field.vertex != nullptr) json[field.name] = end(element.*field.vertex);
+      if (field.number != nullptr) json[field.name] = as_typed(element.*field.number);
+    }
   }
-  return springs;
+  return elements;
 }
 
 void print(const Json& value, const std::string& indent, std::string& text) {
@@ -215,7 +215,7 @@ std::filesystem::path write_scene(const std::filesystem::path& folder, const Sce
   for (const Body& body : scene.bodies) json["bodies"].push_back(body_json(folder, scene, body));
   json["motions"] = Json::array();
   for (const PrescribedMotion& motion : scene.motions) json["motions"].push_back(motion_json(folder, scene, motion));
-  json["springs"] = springs_json(scene);
+  for_each_of<SceneLists>([&]<class List, std::size_t>() { json[List::key] = elements_json<List>(scene); });
   if (!scene.excluded_pairs.empty()) json["excluded_pairs"] = excluded_pairs_json(scene.bodies, scene.excluded_pairs);
   std::string text;
   print(json, "", text);

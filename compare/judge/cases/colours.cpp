@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "compare/problem/rods.hpp"
-#include "compare/stages/kinds.hpp"
+#include "compare/stages/rest_state.hpp"
 
 namespace ogc::compare {
 

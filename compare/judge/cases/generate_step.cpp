@@ -154,7 +154,7 @@ struct StepBuilder {
     Body body;
     body.name = "body_" + std::to_string(scene.bodies.size());
     body.fixed = fixed;
-    body.material = mesh.tetrahedra.empty() ? material() : solid_material();
+    body.material = has_volume(mesh) ? solid_material() : material();
     append_body(scene, body, mesh);
     std::fill(scene.velocities.begin() + static_cast<std::ptrdiff_t>(first), scene.velocities.end(), velocity);
   }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "compare/contestant.hpp"
-#include "compare/stages/kinds.hpp"
+#include "compare/stages/rest_state.hpp"
 #include "compare/stages/step.hpp"
 
 namespace ogc::compare {

@@ -45,13 +45,14 @@ Json body_to_json(const Body& body) {
   for (const MaterialInfo& info : material_table()) material[std::string(info.name)] = body.material.*info.field;
   if (body.material.rod)
     for (const RodInfo& info : rod_table()) material["rod"][std::string(info.name)] = (*body.material.rod).*info.field;
-  return {{"name", body.name},
-          {"vertices", {body.first_vertex, body.vertex_count}},
-          {"triangles", {body.first_triangle, body.triangle_count}},
-          {"tetrahedra", {body.first_tetrahedron, body.tetrahedron_count}},
-          {"fixed", body.fixed},
-          {"body_contact", name_of(body.contact)},
-          {"material", material}};
+  Json all{{"name", body.name}, {"vertices", {body.first_vertex, body.vertex_count}}};
+  for_each_of<MeshLists>([&]<class List, std::size_t>() {
+    if constexpr (HasRange<List>) all[List::key] = {body.*List::first, body.*List::count};
+  });
+  all["fixed"] = body.fixed;
+  all["body_contact"] = name_of(body.contact);
+  all["material"] = material;
+  return all;
 }
 
 Body to_body(const Json& json) {
@@ -59,18 +60,19 @@ Body to_body(const Json& json) {
   body.name = json.at("name").get<std::string>();
   body.first_vertex = json.at("vertices").at(0).get<Index>();
   body.vertex_count = json.at("vertices").at(1).get<Index>();
-  body.first_triangle = json.at("triangles").at(0).get<Index>();
-  body.triangle_count = json.at("triangles").at(1).get<Index>();
   body.fixed = json.at("fixed").get<bool>();
   if (json.contains("body_contact"))
     body.contact = to_model<BodyContact>(json.at("body_contact"), choice_names<BodyContact>);
   const Json& material = json.at("material");
   body.material.membrane = to_model<MembraneModel>(material.at("membrane"), choice_names<MembraneModel>);
   body.material.bending = to_model<BendingModel>(material.at("bending"), choice_names<BendingModel>);
-  if (json.contains("tetrahedra")) {
-    body.first_tetrahedron = json.at("tetrahedra").at(0).get<Index>();
-    body.tetrahedron_count = json.at("tetrahedra").at(1).get<Index>();
-  }
+  for_each_of<MeshLists>([&]<class List, std::size_t>() {
+    if constexpr (HasRange<List>) {
+      if (!json.contains(List::key)) return;
+      body.*List::first = json.at(List::key).at(0).template get<Index>();
+      body.*List::count = json.at(List::key).at(1).template get<Index>();
+    }
+  });
   // A saved case may be older than a constant of the table; that constant keeps its default.
   for (const MaterialInfo& info : material_table())
     body.material.*info.field = material.value(std::string(info.name), body.material.*info.field);
@@ -111,17 +113,32 @@ PrescribedMotion to_motion(const Json& json) {
   return motion;
 }
 
-Json spring_to_json(const Spring& s) {
-  Json json{s.first, s.second, s.stiffness, s.rest_length, s.damping};
-  if (s.third >= 0) json.push_back(s.third), json.push_back(s.ratio);
+/// Writes the elements of a scene's list as rows of their fields.
+template <class List>
+Json elements_to_json(const Scene& scene) {
+  Json json = Json::array();
+  for (const auto& element : scene.*List::list) {
+    Json& row = json.emplace_back(Json::array());
+    for (const auto& field : List::fields) {
+      if (!has_field(element, field)) continue;
+      if (field.vertex != nullptr) row.push_back(element.*field.vertex);
+      if (field.number != nullptr) row.push_back(element.*field.number);
+    }
+  }
   return json;
 }
 
-Spring to_spring(const Json& json) {
-  Spring spring{json.at(0).get<Index>(), json.at(1).get<Index>(), json.at(2).get<double>(), json.at(3).get<double>(),
-                json.at(4).get<double>()};
-  if (json.size() > 5) spring.third = json.at(5).get<Index>(), spring.ratio = json.at(6).get<double>();
-  return spring;
+template <class List>
+void to_elements(const Json& json, Scene& scene) {
+  for (const Json& row : json) {
+    auto& element = (scene.*List::list).emplace_back();
+    for (std::size_t k = 0; k < List::fields.size(); ++k) {
+      const auto& field = List::fields[k];
+      if (field.goes_with != nullptr && k >= row.size()) continue;
+      if (field.vertex != nullptr) element.*field.vertex = row.at(k).template get<Index>();
+      if (field.number != nullptr) element.*field.number = row.at(k).template get<double>();
+    }
+  }
 }
 
 std::vector<Vec3f> to_vertices(const Json& json, std::size_t count) {
@@ -150,21 +167,24 @@ std::vector<Quaternion> to_orientations(const Json& json) {
 }  // namespace
 
 Json scene_to_json(const Scene& scene) {
-  Json json{{"name", scene.name},
-            {"triangles", scene.mesh.triangles},
-            {"loose_edges", scene.mesh.loose_edges},
-            {"positions", vectors_to_json(scene.mesh.positions)},
-            {"rest_positions", vectors_to_json(scene.rest_positions)},
-            {"velocities", vectors_to_json(scene.velocities)},
-            {"bodies", Json::array()},
-            {"motions", Json::array()},
-            {"springs", Json::array()},
-            {"gravity", to_json(scene.gravity)}};
+  Json json{{"name", scene.name}};
+  for_each_of<MeshLists>([&]<class List, std::size_t>() {
+    if constexpr (!HasVolume<List>) json[List::key] = scene.mesh.*List::list;
+  });
+  json.update(Json{{"positions", vectors_to_json(scene.mesh.positions)},
+                   {"rest_positions", vectors_to_json(scene.rest_positions)},
+                   {"velocities", vectors_to_json(scene.velocities)},
+                   {"bodies", Json::array()},
+                   {"motions", Json::array()}});
   for (const Body& body : scene.bodies) json["bodies"].push_back(body_to_json(body));
   for (const PrescribedMotion& motion : scene.motions) json["motions"].push_back(motion_to_json(motion));
-  for (const Spring& spring : scene.springs) json["springs"].push_back(spring_to_json(spring));
+  for_each_of<SceneLists>([&]<class List, std::size_t>() { json[List::key] = elements_to_json<List>(scene); });
+  json["gravity"] = to_json(scene.gravity);
   if (!scene.excluded_pairs.empty()) json["excluded_pairs"] = scene.excluded_pairs;
-  if (!scene.mesh.tetrahedra.empty()) json["tetrahedra"] = scene.mesh.tetrahedra;
+  for_each_of<MeshLists>([&]<class List, std::size_t>() {
+    if constexpr (HasVolume<List>)
+      if (!(scene.mesh.*List::list).empty()) json[List::key] = scene.mesh.*List::list;
+  });
   if (!scene.orientations.empty()) json["orientations"] = orientations_to_json(scene.orientations);
   for (const SettingInfo& info : setting_table())
     json["settings"][std::string(info.name)] = setting_text(scene.settings, info);
@@ -174,14 +194,17 @@ Json scene_to_json(const Scene& scene) {
 Scene to_scene(const Json& json) {
   Scene scene;
   scene.name = json.at("name").get<std::string>();
-  scene.mesh = {to_vectors(json.at("positions")), json.at("triangles").get<std::vector<Triangle>>(),
-                json.at("loose_edges").get<std::vector<Edge>>()};
-  if (json.contains("tetrahedra")) scene.mesh.tetrahedra = json.at("tetrahedra").get<std::vector<Tetrahedron>>();
+  scene.mesh.positions = to_vectors(json.at("positions"));
+  for_each_of<MeshLists>([&]<class List, std::size_t>() {
+    if (!HasVolume<List> || json.contains(List::key)) json.at(List::key).get_to(scene.mesh.*List::list);
+  });
   scene.rest_positions = to_vectors(json.at("rest_positions"));
   scene.velocities = to_vectors(json.at("velocities"));
   for (const Json& body : json.at("bodies")) scene.bodies.push_back(to_body(body));
   for (const Json& motion : json.at("motions")) scene.motions.push_back(to_motion(motion));
-  for (const Json& spring : json.at("springs")) scene.springs.push_back(to_spring(spring));
+  for_each_of<SceneLists>([&]<class List, std::size_t>() {
+    if (json.contains(List::key)) to_elements<List>(json.at(List::key), scene);
+  });
   if (json.contains("excluded_pairs"))
     scene.excluded_pairs = json.at("excluded_pairs").get<std::vector<std::array<Index, 2>>>();
   if (json.contains("orientations")) scene.orientations = to_orientations(json.at("orientations"));

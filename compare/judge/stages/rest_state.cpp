@@ -13,7 +13,7 @@
 #include "compare/problem/material_table.hpp"
 #include "compare/problem/names.hpp"
 #include "compare/problem/rods.hpp"
-#include "compare/stages/kinds.hpp"
+#include "compare/stages/rest_state.hpp"
 
 namespace ogc::compare {
 
@@ -427,13 +427,13 @@ std::vector<Vec3> to_wide_points(const Json& json) {
 }
 
 Json body_to_json(const Body& body) {
-  Json json{{"name", body.name},
-            {"vertices", body.vertex_count},
-            {"triangles", body.triangle_count},
-            {"tetrahedra", body.tetrahedron_count},
-            {"fixed", body.fixed},
-            {"membrane", name_of(body.material.membrane)},
-            {"bending", name_of(body.material.bending)}};
+  Json json{{"name", body.name}, {"vertices", body.vertex_count}};
+  for_each_of<MeshLists>([&]<class List, std::size_t>() {
+    if constexpr (HasRange<List>) json[List::key] = body.*List::count;
+  });
+  json["fixed"] = body.fixed;
+  json["membrane"] = name_of(body.material.membrane);
+  json["bending"] = name_of(body.material.bending);
   for (const MaterialInfo& info : material_table())
     json[std::string(info.name)] = hexadecimal(static_cast<float>(body.material.*info.field));
   if (body.material.rod)
@@ -446,14 +446,15 @@ Json body_to_json(const Body& body) {
 Body to_body(const Json& json, const Scene& scene) {
   Body body;
   body.name = json.at("name").get<std::string>();
-  if (!scene.bodies.empty()) {
-    body.first_vertex = scene.bodies.back().first_vertex + scene.bodies.back().vertex_count;
-    body.first_triangle = scene.bodies.back().first_triangle + scene.bodies.back().triangle_count;
-    body.first_tetrahedron = scene.bodies.back().first_tetrahedron + scene.bodies.back().tetrahedron_count;
-  }
+  const Body before = scene.bodies.empty() ? Body{} : scene.bodies.back();
+  body.first_vertex = before.first_vertex + before.vertex_count;
   body.vertex_count = json.at("vertices").get<Index>();
-  body.triangle_count = json.at("triangles").get<Index>();
-  body.tetrahedron_count = json.value("tetrahedra", Index{0});
+  for_each_of<MeshLists>([&]<class List, std::size_t>() {
+    if constexpr (HasRange<List>) {
+      body.*List::first = before.*List::first + before.*List::count;
+      body.*List::count = json.value(List::key, Index{0});
+    }
+  });
   body.fixed = json.at("fixed").get<bool>();
   body.material.membrane = static_cast<MembraneModel>(number_of(json.at("membrane"), choice_names<MembraneModel>));
   body.material.bending = static_cast<BendingModel>(number_of(json.at("bending"), choice_names<BendingModel>));
@@ -475,7 +476,7 @@ struct RestState : MeshStage<RestState, &Contestant::rest_state, &Authority::res
   static constexpr StageInfo info{.name = "rest_state",
                                   .question = "masses, stencils, rest angles, meeting stiffness of a scene",
                                   .unit = "vertex",
-                                  .reference = "reference/energies/rest_state.cpp",
+                                  .reference = "reference/solvers/kinds/rest_state.cpp",
                                   .kind = CaseKind::mesh,
                                   .has_boundary = false,
                                   .determinism = Determinism::cpu_to_gpu};
@@ -512,22 +513,21 @@ struct RestState : MeshStage<RestState, &Contestant::rest_state, &Authority::res
     for (const Body& body : scene.bodies) bodies.push_back(body_to_json(body));
     for (const PrescribedMotion& motion : scene.motions)
       held.push_back({{"name", motion.name}, {"vertices", motion.vertices}});
-    return {{"rest_positions", wide_points_to_json(scene.rest_positions)},
-            {"positions", wide_points_to_json(scene.mesh.positions)},
-            {"triangles", scene.mesh.triangles},
-            {"loose_edges", scene.mesh.loose_edges},
-            {"tetrahedra", scene.mesh.tetrahedra},
-            {"bodies", bodies},
-            {"motions", held}};
+    Json json{{"rest_positions", wide_points_to_json(scene.rest_positions)},
+              {"positions", wide_points_to_json(scene.mesh.positions)}};
+    for_each_of<MeshLists>([&]<class List, std::size_t>() { json[List::key] = scene.mesh.*List::list; });
+    json["bodies"] = bodies;
+    json["motions"] = held;
+    return json;
   }
   static Case read(const Json& data) {
     Scene scene;
     scene.name = "rest";
     scene.rest_positions = to_wide_points(data.at("rest_positions"));
     scene.mesh.positions = to_wide_points(data.at("positions"));
-    scene.mesh.triangles = data.at("triangles").get<std::vector<Triangle>>();
-    scene.mesh.loose_edges = data.at("loose_edges").get<std::vector<Edge>>();
-    if (data.contains("tetrahedra")) scene.mesh.tetrahedra = data.at("tetrahedra").get<std::vector<Tetrahedron>>();
+    for_each_of<MeshLists>([&]<class List, std::size_t>() {
+      if (data.contains(List::key)) data.at(List::key).get_to(scene.mesh.*List::list);
+    });
     scene.velocities.resize(scene.mesh.positions.size());
     for (const Json& body : data.at("bodies")) scene.bodies.push_back(to_body(body, scene));
     for (const Json& json : data.at("motions")) {

@@ -10,7 +10,7 @@
 #include "compare/judge/engine/volume_question.hpp"
 #include "compare/judge/stages/mesh_case.hpp"
 #include "compare/judge/stages/verdict.hpp"
-#include "compare/stages/kinds.hpp"
+#include "compare/stages/rest_state.hpp"
 
 namespace ogc::compare {
 

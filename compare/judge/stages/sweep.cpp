@@ -20,7 +20,7 @@
 #include "compare/judge/stages/stage_of.hpp"
 #include "compare/problem/rods.hpp"
 #include "compare/problem/volumes.hpp"
-#include "compare/stages/kinds.hpp"
+#include "compare/stages/rest_state.hpp"
 
 namespace ogc::compare {
 

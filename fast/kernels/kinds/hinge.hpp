@@ -31,9 +31,11 @@ struct HingeEnergy {
   }
 };
 
-/// Describes hinges as a kind of element (kind.hpp). The vertices with roles 0 and 1 are the ends of the edge, those
-/// with roles 2 and 3 are opposite to it.
+struct Hinges;
+
+/// The kind. Roles 0 and 1 are the ends of the edge, 2 and 3 the opposite vertices.
 struct HingeKind : ElementKind<HingeRest, HingeIncidence> {
+  using Whole = Hinges;
   using Beside = IsometricStencil;
   using RestBeside = HingeWeights;
   using Start = float;  ///< θᵗ [rad]; 0 for a collapsed hinge
@@ -41,7 +43,6 @@ struct HingeKind : ElementKind<HingeRest, HingeIncidence> {
   struct View {
     StreamView<HingeIncidence, IsometricStencil, float, NoData, false> hinges;
   };
-  static constexpr unsigned asked = asks_hinges;
   static constexpr int row_in_vertex = 1;
   /// By role of a vertex: the roles of the other vertices, in the order of HingeIncidence::index. At the second end and
   /// at the second opposite vertex x0 and x1 are exchanged, and o0 and o1; this keeps the angle
@@ -186,7 +187,8 @@ struct AddAnyHinge {
 
 /// Makes the part of a vertex's sum that adds discrete hinges with damping of strains.
 struct UsualHinges {
-  static constexpr unsigned gives = asks_hinges;
+  template <class All>
+  static constexpr unsigned gives = All::template bit<HingeKind>;
 
   template <class View>
   OGC_HD static Part<LoadFrom<HingeIncidence>, AddDiscreteHinge> part_of(const View& view, int slot,
@@ -200,7 +202,8 @@ struct UsualHinges {
 };
 /// Makes the part of a vertex's sum that adds hinges with any bending model and any form of damping.
 struct Hinges {
-  static constexpr unsigned gives = asks_hinges | asks_any_model;
+  template <class All>
+  static constexpr unsigned gives = All::template bit<HingeKind> | asks_any_model;
 
   template <class View>
   OGC_HD static Part<LoadAnyHinge, AddAnyHinge> part_of(const View& view, int slot, const SweepVertex& vertex,

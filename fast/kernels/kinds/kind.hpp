@@ -3,16 +3,16 @@
 //
 //   Rest, Incidence     an element at rest; the element as one of its vertices sees it
 //   Beside, Start, ByBody, RestBeside
-//                       more data (see StreamView), `NoData` if the kind needs none; RestBeside extends Rest
-//   stream(view)        returns the kind's stream in a SweepView; `View` is the part of SweepView that holds the stream
-//   asked               the kind's bit among the features that a scene requires of a sum
-//   row_in_vertex       index of the kind's row in SweepVertex::rows; −1: its rows are a separate array
-//   is_curve            whether vertices have few elements, so that a narrow team suffices
-//   count, vertices     return the number of an element's vertices, and these vertices
-//   seen, beside        return Incidence and Beside for a vertex; its role is its place among the element's vertices
-//   begin               returns Start of an element, computed from xᵗ
-//   add_energy          adds an element's energy
-//   flop, damping_flop  operations of an incidence, and the operations that damping adds (fast/work.cpp)
+//                     further data, `NoData` where there are none: StreamView says what; `RestBeside` belongs to Rest
+//   stream(view)      its stream in a SweepView, and `View`, the part of SweepView that holds it
+//   Whole             its part of a sum, for all of its models
+//   row_in_vertex     its place in SweepVertex::rows; −1: its rows are an array of their own
+//   is_curve          whether vertices have few elements, so that a narrow team serves them
+//   count, vertices   how many vertices an element has, and which
+//   seen, beside      the incidence of a vertex by its role, that is by its place among the vertices
+//   begin             Start of an element, from xᵗ
+//   add_energy        an element's energy
+//   flop, damping_flop  operations of an incidence, and what damping adds (fast/work.cpp)
 #pragma once
 
 #include "fast/kernels/models/damping.hpp"

@@ -1,6 +1,8 @@
 // Lists the kinds of elements. Code that treats all kinds alike iterates over this list.
 #pragma once
 
+#include <type_traits>
+
 #include "fast/kernels/kinds/hinge.hpp"
 #include "fast/kernels/kinds/segment.hpp"
 #include "fast/kernels/kinds/spring.hpp"
@@ -15,7 +17,17 @@ struct KindList {
   /// The streams of all kinds.
   struct Views : Kinds::View... {};
 
-  /// Calls use(kind) for each kind, in the order of the list.
+  /// The bit of a kind among what a scene asks of a sum: that of its place in the list.
+  template <class Kind>
+  static constexpr unsigned bit = [] {
+    unsigned next = first_kind_bit, own = 0;
+    ((own |= std::is_same_v<Kind, Kinds> ? next : 0u, next *= 2), ...);
+    return own;
+  }();
+  /// The bits of all kinds.
+  static constexpr unsigned bits = (bit<Kinds> | ...);
+
+  /// use(kind) for each, in order.
   template <class Use>
   static void for_each(const Use& use) {
     (use(Kinds{}), ...);

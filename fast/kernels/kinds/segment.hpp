@@ -18,15 +18,18 @@ struct RodStream : StreamView<RodIncidence, NoData, NoData, float, true> {  // b
   bool as_published = false;  ///< true: quaternions are updated as Hsu et al. 2025 do, with μ = σ + ‖b‖
 };
 
-/// Describes segments as a kind of element (kind.hpp). There is no add_energy: fast/kernels/sums/rod_sums.hpp sums
-/// their energy.
+template <bool is_there>
+struct AnySegments;
+using Segments = AnySegments<false>;
+
+/// The kind. A segment's energy is summed up beside the extremes of rods (fast/kernels/sums/rod_sums.hpp).
 struct SegmentKind : ElementKind<SegmentRest, RodIncidence> {
+  using Whole = Segments;
   using ByBody = float;
   /// The kind's part of SweepView.
   struct View {
     RodStream rods;
   };
-  static constexpr unsigned asked = asks_segments;
   static constexpr bool is_curve = true;
   /// Operations by term at one end (fast/kernels/models/rod.hpp): difference 3, division by the length 5, turned
   /// director 30, strain 3, force 6, block 4.
@@ -72,7 +75,8 @@ struct AddRod {
 /// segments.
 template <bool is_there>
 struct AnySegments {
-  static constexpr unsigned gives = asks_segments | asks_any_model;
+  template <class All>
+  static constexpr unsigned gives = All::template bit<SegmentKind> | asks_any_model;
 
   template <class View>
   OGC_HD static Part<LoadFrom<RodIncidence>, AddRod> part_of(const View& view, int slot, const SweepVertex& vertex,
@@ -83,6 +87,5 @@ struct AnySegments {
   }
 };
 using UsualSegments = AnySegments<true>;
-using Segments = AnySegments<false>;
 
 }  // namespace ogc::fast

@@ -1,30 +1,88 @@
-// Adds springs and stitches to the sums of sweeps and reports.
+// Springs, seen from one of their ends: k_s/2 (l − l₀)², damping (k_d/h) k_s/2 (l − lᵗ)², l = ‖x₀ − (1 − s) x₁ − s
+// x₂‖ (compare/stages/spring.hpp).
 #pragma once
 
+#include <cmath>
+
+#include "fast/kernels/arithmetic/accumulator.hpp"
+#include "fast/kernels/arithmetic/qualifiers.hpp"
+#include "fast/kernels/arithmetic/vector.hpp"
 #include "fast/kernels/kinds/kind.hpp"
-#include "fast/kernels/models/spring.hpp"
 #include "fast/kernels/sum_columns.hpp"
 
 namespace ogc::fast {
 
-/// A spring as one of its ends sees it. `index` holds all ends, encoded as in sweep_view.hpp.
+/// A spring or stitch at rest.
+struct SpringRest {
+  int end[3] = {-1, -1, -1};             ///< vertices; the third equals the second if s = 0
+  float stiffness = 0, rest_length = 0;  ///< k_s [N/m], l₀ [m]
+  float damping = 0;                     ///< k_d/h [1]
+  float ratio = 0;                       ///< s [1]
+};
+
+/// Returns the number of ends that feel the spring.
+inline int end_count(const SpringRest& spring) { return spring.ratio > 0 ? 3 : 2; }
+
+/// Returns x₀ − (1 − s) x₁ − s x₂.
+OGC_HD inline Vec spring_apart(const SpringRest& spring, const Vec* end) {
+  const Vec apart = end[0] - end[1];
+  return spring.ratio > 0 ? apart - spring.ratio * (end[2] - end[1]) : apart;
+}
+
+/// Returns w of an end: 1, s − 1, −s.
+OGC_HD inline float spring_weight(const SpringRest& spring, int end) {
+  return end == 0 ? 1.0f : end == 1 ? spring.ratio - 1.0f : -spring.ratio;
+}
+
+/// Returns l [m]; 0 if the squared length is not a normal number.
+OGC_HD inline float spring_length(const Vec& apart) {
+  const float squared = dot(apart, apart);
+  return squared >= 0x1p-126f ? sqrtf(squared) : 0.0f;
+}
+
+/// Adds force and block of the end with weight w. `apart`: the result of spring_apart; `length_start`: lᵗ.
+OGC_HD inline void add_spring(const SpringRest& spring, float weight, float damping, const Vec& apart,
+                              float length_start, ForceAndBlock& sum) {
+  const float length = spring_length(apart), stiffness = weight * weight * spring.stiffness;
+  // no direction: w² k_s I majorises the energy for every l₀; for a stitch, a length that was lost to rounding may
+  // exceed l₀ = 0
+  if (!(length > 0)) {
+    sum.add_identity(stiffness);
+    return;
+  }
+  const float stretched = 1.0f - spring.rest_length / length, across = stretched > 0 ? stretched : 0.0f,
+              resistance = damping * stiffness;
+  const float pull = spring.stiffness * stretched + damping * spring.stiffness * ((length - length_start) / length);
+  sum.add_force(-(weight * pull), apart);
+  sum.add_identity(stiffness * across);
+  sum.add_outer(stiffness * (1.0f - across) + resistance, (1.0f / length) * apart);
+}
+
+/// Returns the energy [J], in double: energies are only reported.
+OGC_HD inline double spring_energy(const SpringRest& spring, float length) {
+  const double change = static_cast<double>(length) - spring.rest_length;
+  return 0.5 * spring.stiffness * change * change;
+}
+
+/// A spring as its end `own` sees it. `index` names all ends, encoded as sweep_view.hpp says.
 struct SpringIncidence {
   int index[3] = {0, 0, 0};
   int own = 0;          ///< number of the end that sees it, 0 … 2
   SpringRest spring{};  ///< rest data, the same at each end
 };
 
-/// Describes springs as a kind of element (kind.hpp).
+struct Springs;
+
+/// The kind.
 struct SpringKind : ElementKind<SpringRest, SpringIncidence> {
+  using Whole = Springs;
   /// The kind's part of SweepView.
   struct View {
     StreamView<SpringIncidence, NoData, NoData, NoData, true> springs;
   };
-  static constexpr unsigned asked = asks_springs;
   static constexpr bool is_curve = true;
-  /// Operations by term for a stitch (fast/kernels/models/spring.hpp). Now and at the start of the step: differences 9
-  /// + 9, squares 5 + 5, roots 1 + 1. Once: stiffness 2, stretch 2, resistance 1, pull 6, force 1 + 6, block 4 + 3 + 4
-  /// + 15.
+  /// Of a stitch: now and at the start of the step differences 9 + 9, squares 5 + 5,
+  /// roots 1 + 1; stiffness 2, stretch 2, resistance 1, pull 6, force 1 + 6, block 4 + 3 + 4 + 15.
   static constexpr double flop = 74;
 
   template <class AnyView>
@@ -75,7 +133,8 @@ struct AddSpring {
 
 /// Makes the part of a vertex's sum that adds springs with any form of damping; empty if the scene has no springs.
 struct Springs {
-  static constexpr unsigned gives = asks_springs | asks_any_model;
+  template <class All>
+  static constexpr unsigned gives = All::template bit<SpringKind> | asks_any_model;
 
   template <class View>
   OGC_HD static Part<LoadFrom<SpringIncidence>, AddSpring> part_of(const View& view, int slot,

@@ -28,14 +28,16 @@ struct MembraneEnergy {
   }
 };
 
-/// Describes triangles as a kind of element (kind.hpp).
+struct Triangles;
+
+/// The kind.
 struct TriangleKind : ElementKind<TriangleRest, MembraneIncidence> {
-  using Start = Symmetric2;  ///< Gᵗ of damping
+  using Whole = Triangles;
+  using Start = Symmetric2;  ///< Gᵗ
   /// The kind's part of SweepView.
   struct View {
     StreamView<MembraneIncidence, NoData, Symmetric2, NoData, false> triangles;
   };
-  static constexpr unsigned asked = asks_triangles;
   static constexpr int row_in_vertex = 0;
   /// Operations by term (fast/kernels/models/st_venant_kirchhoff.hpp): differences 6, F 18, ∇N_a 2, G 20, S 10, its
   /// rate 3 + 10, pulls 14, force 9 + 6, F∇N_a 9, weights 7, blocks 17 + 30, geometric 9 + 4.
@@ -156,7 +158,8 @@ struct AddAnyTriangle {
 
 /// Makes the part of a vertex's sum that adds triangles with any membrane model and damping of strains.
 struct UsualTriangles {
-  static constexpr unsigned gives = asks_triangles;
+  template <class All>
+  static constexpr unsigned gives = All::template bit<TriangleKind>;
 
   template <class View>
   OGC_HD static Part<LoadFrom<MembraneIncidence>, AddTriangle> part_of(const View& view, int slot,
@@ -170,7 +173,8 @@ struct UsualTriangles {
 };
 /// Makes the part of a vertex's sum that adds triangles with any membrane model and either form of damping.
 struct Triangles {
-  static constexpr unsigned gives = asks_triangles | asks_any_model;
+  template <class All>
+  static constexpr unsigned gives = All::template bit<TriangleKind> | asks_any_model;
 
   template <class View>
   OGC_HD static Part<LoadFrom<MembraneIncidence>, AddAnyTriangle> part_of(const View& view, int slot,

@@ -15,10 +15,10 @@ namespace ogc::fast {
 /// of the features that it computes (`gives`) and a function `part_of` that makes the part of a vertex.
 template <class Activation, class... Parts>
 struct Gather {
-  /// number of parts, and so of warps in a block if each part has its own warp (fast/cuda/team.cuh)
-  static constexpr int parts = sizeof...(Parts) + 2;
-  /// Features that this sum computes (bits of sweep_view.hpp). It has asks_any_model only if all parts have it.
-  static constexpr unsigned gives = ((Parts::gives | ...) & ~asks_any_model) | (Parts::gives & ... & asks_any_model) |
+  static constexpr int parts = sizeof...(Parts) + 2;  ///< warps of a block where teams are spread (fast/cuda/team.cuh)
+  /// All that a scene may ask of this sum. It has other models than the usual ones only where all of its parts do.
+  static constexpr unsigned gives = ((Parts::template gives<Kinds> | ...) & ~asks_any_model) |
+                                    (Parts::template gives<Kinds> & ... & asks_any_model) |
                                     (std::is_same_v<Activation, AnyActivation> ? asks_any_activation : 0u);
   /// Whether the sum adds contacts with volumes.
   static constexpr bool has_volumes = (gives & asks_volumes) != 0;
@@ -48,7 +48,17 @@ struct Gather {
   }
 };
 
-/// The sum for any scene.
-using GatherAll = Gather<AnyActivation, Triangles, Hinges, Springs, Tetrahedra, VolumeContacts, Segments>;
+/// The sum of the whole parts of a list of kinds; contacts with volumes stand before the last of them.
+template <class Kinds, class... Before>
+struct WholeSum;
+template <class Last, class... Before>
+struct WholeSum<KindList<Last>, Before...> {
+  using Sum = Gather<AnyActivation, Before..., VolumeContacts, typename Last::Whole>;
+};
+template <class Next, class... More, class... Before>
+struct WholeSum<KindList<Next, More...>, Before...> : WholeSum<KindList<More...>, Before..., typename Next::Whole> {};
+
+/// The sum that any scene can take.
+using GatherAll = WholeSum<Kinds>::Sum;
 
 }  // namespace ogc::fast

@@ -72,6 +72,7 @@ struct AddVolumeContact {
 
 /// Makes the part of a vertex's sum that adds contacts with volumes; empty if the scene has no volumes.
 struct VolumeContacts {
+  template <class All>
   static constexpr unsigned gives = asks_volumes | asks_any_model;
 
   OGC_HD static Part<LoadVolumeContact, AddVolumeContact> part_of(const SweepShared& view, int slot,

@@ -5,6 +5,7 @@
 
 #include "compare/problem/rods.hpp"
 #include "reference/energies/rest_builder.hpp"
+#include "reference/energies/rods/rod.hpp"
 #include "reference/energies/rods/rod_terms.hpp"
 
 namespace ogc::reference {
@@ -187,6 +188,6 @@ class Rods {
 
 }  // namespace
 
-void add_rest(compare::SegmentKind, RestBuilder& to) { Rods(to).add(); }
+void add_segments_at_rest(RestBuilder& to) { Rods(to).add(); }
 
 }  // namespace ogc::reference

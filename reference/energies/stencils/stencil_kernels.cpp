@@ -5,11 +5,7 @@
 
 namespace ogc::reference {
 
-const StencilKernels OGC_FOR_LANES(stencil_kernels){&SideBySide<ByDifferences<MembraneTermOf, 3>>::differentiate,
-                                                    &SideBySide<ByDifferences<HingeTermOf, 4>>::differentiate,
-                                                    &SideBySide<ByWeights<SpringTermOf>>::differentiate,
-                                                    &SideBySide<ByDifferences<TetrahedronTermOf, 4>>::differentiate,
-                                                    &SideBySide<ByDifferences<PlacedContactOf, 2>>::differentiate,
+const StencilKernels OGC_FOR_LANES(stencil_kernels){&SideBySide<ByDifferences<PlacedContactOf, 2>>::differentiate,
                                                     &SideBySide<ByDifferences<PlacedContactOf, 3>>::differentiate,
                                                     &SideBySide<ByDifferences<PlacedContactOf, 4>>::differentiate,
                                                     &SideBySide<ByWeights<PlacedContactOf>>::differentiate,

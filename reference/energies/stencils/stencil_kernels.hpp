@@ -62,14 +62,11 @@ struct PlacedContactOf {
 /// A contact over doubles.
 using PlacedContact = PlacedContactOf<double>;
 
-/// One function for each kind of stencil, compiled for one machine.
+/// One function for each kind of stencil of contacts, compiled for one machine; solvers/kinds/kernels.hpp has those of
+/// elements.
 struct StencilKernels {
   template <class Term, std::size_t Count>
   using Function = void (*)(const Batch<Term, Count>& batch, HessianProjection projection);
-  Function<MembraneTerm, 3> membranes;
-  Function<HingeTerm, 4> hinges;
-  Function<SpringTerm, 4> springs;  ///< by Σ wᵢ xᵢ, like weighted contacts
-  Function<TetrahedronTerm, 4> tetrahedra;
   Function<PlacedContact, 2> contacts_of_2;  ///< by the vertices of their forms
   Function<PlacedContact, 3> contacts_of_3;
   Function<PlacedContact, 4> contacts_of_4;

@@ -25,6 +25,15 @@ std::array<Triple<double>, Count> gathered(const Vertices& vertex, const State& 
   return corners;
 }
 
+/// How many vertices an element of a kind has.
+template <class Kind>
+constexpr std::size_t corner_count =
+    std::tuple_size_v<decltype(Kind::corners(std::declval<typename Kind::Term>(), std::declval<State>()))>;
+
+/// Differentiates a batch of elements on this machine (kernels.hpp).
+template <class Kind>
+void differentiate_batch(const Batch<typename Kind::Term, corner_count<Kind>>& batch, HessianProjection projection);
+
 /// All elements of a kind, in the order of the rest state.
 template <class Kind>
 class Elements {
@@ -65,12 +74,11 @@ class Elements {
   /// with the number of each stencil, on the thread that did it.
   template <class Finished>
   void differentiate(const State& x, HessianProjection projection, StencilDerivatives* to, Finished finished) const {
-    constexpr std::size_t count = std::tuple_size_v<decltype(Kind::corners(terms_[0], x))>;
     tbb::parallel_for(std::size_t{0}, (size() + batch_width - 1) / batch_width, [&](std::size_t number) {
       const std::size_t begin = number * batch_width, end = std::min(size(), begin + batch_width);
-      Batch<Term, count> batch;
+      Batch<Term, corner_count<Kind>> batch;
       for (std::size_t i = begin; i < end; ++i) batch.add(terms_[i], Kind::corners(terms_[i], x), to[i]);
-      (stencil_kernels().*Kind::kernel)(batch, projection);
+      differentiate_batch<Kind>(batch, projection);
       for (std::size_t i = begin; i < end; ++i) finished(i);
     });
   }

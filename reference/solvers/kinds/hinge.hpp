@@ -1,21 +1,24 @@
 // Hinges with a bending energy.
 #pragma once
 
-#include "compare/stages/kinds.hpp"
+#include "compare/stages/rest_state.hpp"
 #include "compare/stages/sweep.hpp"
 #include "reference/energies/bending.hpp"
+#include "reference/energies/hinge_terms.hpp"
 #include "reference/solvers/kinds/elements.hpp"
 
 namespace ogc::reference {
 
 /// See kinds.hpp.
 struct HingeKind : compare::HingeKind {
-  /// One element, in double.
+  /// One element, over any number type and in double.
+  template <class Number>
+  using TermOf = HingeTermOf<Number>;
   using Term = HingeTerm;
   /// All elements of a scene.
   using List = Elements<HingeKind>;
-  /// Derivatives of a batch.
-  static constexpr auto kernel = &StencilKernels::hinges;
+  /// Adds the rest data of a scene.
+  static void add_at_rest(RestBuilder& to) { add_hinges_at_rest(to); }
   /// Tolerances of the kind's stage, in units of u · scale.
   static constexpr double force_tolerance = compare::bending_force_tolerance,
                           block_tolerance = compare::bending_block_tolerance;

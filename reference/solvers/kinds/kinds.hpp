@@ -3,8 +3,9 @@
 //
 //     List                    all elements in double, Elements<Kind> or what has its members
 //     elements, vertices      of compare::Kind, its base; `pulled`, where an element does not move all of its vertices
-//     term, begin, corners,   of Elements: a term of the rest state, its start of a step, the positions that it reads,
-//     kernel                  and its batched derivatives
+//     add_at_rest             adds the rest data of a scene, where a rest state has elements of the kind
+//     TermOf, term, begin,    of Elements: one element over any number type, how it is made of the rest state, its
+//     corners                 start of a step, and the positions that it reads
 //     add                     force and block of one vertex, in double
 //     question, answers,      the same as a question of the kind's stage, with the stage's tolerances
 //     force_tolerance, block_tolerance

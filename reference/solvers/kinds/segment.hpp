@@ -1,7 +1,7 @@
 // Segments of rods, whose list has frames beside vertices (solvers/rods/rod_system.hpp).
 #pragma once
 
-#include "compare/stages/kinds.hpp"
+#include "compare/stages/rest_state.hpp"
 #include "compare/stages/sweep.hpp"
 #include "reference/energies/rods/rod.hpp"
 #include "reference/solvers/rods/rod_system.hpp"
@@ -13,6 +13,8 @@ namespace ogc::reference {
 struct SegmentKind : compare::SegmentKind {
   /// All elements of a scene.
   using List = RodSystem;
+  /// Adds the rest data of a scene.
+  static void add_at_rest(RestBuilder& to) { add_segments_at_rest(to); }
   /// Tolerances of the kind's stage, in units of u · scale.
   static constexpr double force_tolerance = compare::rod_force_tolerance,
                           block_tolerance = compare::rod_block_tolerance;

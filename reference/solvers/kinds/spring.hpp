@@ -1,7 +1,7 @@
 // Springs between two vertices, or a vertex and a point between two others.
 #pragma once
 
-#include "compare/stages/kinds.hpp"
+#include "compare/stages/rest_state.hpp"
 #include "compare/stages/sweep.hpp"
 #include "reference/energies/spring.hpp"
 #include "reference/solvers/kinds/elements.hpp"
@@ -10,12 +10,12 @@ namespace ogc::reference {
 
 /// See kinds.hpp.
 struct SpringKind : compare::SpringKind {
-  /// One element, in double.
+  /// One element, over any number type and in double.
+  template <class Number>
+  using TermOf = SpringTermOf<Number>;
   using Term = SpringTerm;
   /// All elements of a scene.
   using List = Elements<SpringKind>;
-  /// Derivatives of a batch.
-  static constexpr auto kernel = &StencilKernels::springs;
   /// Tolerances of the kind's stage, in units of u · scale.
   static constexpr double force_tolerance = compare::spring_force_tolerance,
                           block_tolerance = compare::spring_block_tolerance;

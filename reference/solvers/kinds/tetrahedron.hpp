@@ -1,7 +1,7 @@
 // Tetrahedra of solids.
 #pragma once
 
-#include "compare/stages/kinds.hpp"
+#include "compare/stages/rest_state.hpp"
 #include "compare/stages/sweep.hpp"
 #include "reference/energies/tetrahedron.hpp"
 #include "reference/solvers/kinds/elements.hpp"
@@ -10,12 +10,14 @@ namespace ogc::reference {
 
 /// See kinds.hpp.
 struct TetrahedronKind : compare::TetrahedronKind {
-  /// One element, in double.
+  /// One element, over any number type and in double.
+  template <class Number>
+  using TermOf = TetrahedronTermOf<Number>;
   using Term = TetrahedronTerm;
   /// All elements of a scene.
   using List = Elements<TetrahedronKind>;
-  /// Derivatives of a batch.
-  static constexpr auto kernel = &StencilKernels::tetrahedra;
+  /// Adds the rest data of a scene.
+  static void add_at_rest(RestBuilder& to) { add_tetrahedra_at_rest(to); }
   /// Tolerances of the kind's stage, in units of u · scale.
   static constexpr double force_tolerance = compare::tetrahedron_force_tolerance,
                           block_tolerance = compare::tetrahedron_block_tolerance;

@@ -1,21 +1,24 @@
 // Triangles with a membrane.
 #pragma once
 
-#include "compare/stages/kinds.hpp"
+#include "compare/stages/rest_state.hpp"
 #include "compare/stages/sweep.hpp"
 #include "reference/energies/membrane.hpp"
+#include "reference/energies/membrane_terms.hpp"
 #include "reference/solvers/kinds/elements.hpp"
 
 namespace ogc::reference {
 
 /// See kinds.hpp.
 struct TriangleKind : compare::TriangleKind {
-  /// One element, in double.
+  /// One element, over any number type and in double.
+  template <class Number>
+  using TermOf = MembraneTermOf<Number>;
   using Term = MembraneTerm;
   /// All elements of a scene.
   using List = Elements<TriangleKind>;
-  /// Derivatives of a batch.
-  static constexpr auto kernel = &StencilKernels::membranes;
+  /// Adds the rest data of a scene.
+  static void add_at_rest(RestBuilder& to) { add_triangles_at_rest(to); }
   /// Tolerances of the kind's stage, in units of u · scale.
   static constexpr double force_tolerance = compare::membrane_force_tolerance,
                           block_tolerance = compare::membrane_block_tolerance;

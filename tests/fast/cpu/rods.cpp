@@ -267,9 +267,9 @@ TEST_CASE("yarn tied by springs has the bits that it has beside a triangle that 
   for (const auto damping : {compare::DampingForm::strain, compare::DampingForm::per_vertex}) {
     const compare::Scene alone = scene_with(true, false, damping), beside = scene_with(true, true, damping),
                          untied = scene_with(false, false, damping);
-    CHECK(asked(untied) == asks_segments);
-    CHECK(asked(alone) == (asks_segments | asks_springs));
-    CHECK(asked(beside) == (asks_segments | asks_springs | asks_triangles));
+    CHECK(asked(untied) == Kinds::bit<SegmentKind>);
+    CHECK(asked(alone) == (Kinds::bit<SegmentKind> | Kinds::bit<SpringKind>));
+    CHECK(asked(beside) == (Kinds::bit<SegmentKind> | Kinds::bit<SpringKind> | Kinds::bit<TriangleKind>));
     REQUIRE(colours(alone) == colours(beside));  // otherwise the order of the sweep differs
     const auto one = start_cpu(alone, {}), other = start_cpu(beside, {}), without = start_cpu(untied, {});
     const std::vector<compare::StepMetrics> rows = one->advance(80);

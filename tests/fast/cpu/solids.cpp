@@ -183,17 +183,17 @@ TEST_CASE("a scene asks of its sum what it has: kinds, volumes, other models, an
   const auto asked = [](const compare::Scene& scene) {
     return asked_of_sum(build_rest_state(scene, build_topology(scene)), scene);
   };
-  const unsigned sheet = asks_triangles | asks_hinges;
-  CHECK(asked(drop_scene(false)) == asks_tetrahedra);
-  CHECK(asked(drop_scene(true)) == (asks_tetrahedra | sheet));
+  const unsigned sheet = Kinds::bit<TriangleKind> | Kinds::bit<HingeKind>;
+  CHECK(asked(drop_scene(false)) == Kinds::bit<TetrahedronKind>);
+  CHECK(asked(drop_scene(true)) == (Kinds::bit<TetrahedronKind> | sheet));
   compare::Scene with_volume = drop_scene(true);
   with_volume.bodies.back().contact = compare::BodyContact::volume;
   CHECK((asked(with_volume) & asks_volumes) != 0);
   compare::Scene other = drop_scene(false);
   other.settings.damping = compare::DampingForm::per_vertex;
-  CHECK(asked(other) == (asks_tetrahedra | asks_any_model));
+  CHECK(asked(other) == (Kinds::bit<TetrahedronKind> | asks_any_model));
   other.settings.contact_activation = compare::ContactActivation::quadratic;
-  CHECK(asked(other) == (asks_tetrahedra | asks_any_model | asks_any_activation));
+  CHECK(asked(other) == (Kinds::bit<TetrahedronKind> | asks_any_model | asks_any_activation));
 }
 
 TEST_CASE("the work of a sweep counts a tetrahedron once for each of its free corners", "[unit]") {

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "compare/problem/rods.hpp"
-#include "reference/energies/rest_state.hpp"
 #include "reference/solvers/initial_guess.hpp"
+#include "reference/solvers/kinds/rest_state.hpp"
 #include "tests/catch.hpp"
 
 using namespace ogc;

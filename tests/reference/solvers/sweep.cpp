@@ -6,9 +6,9 @@
 #include <limits>
 #include <random>
 
-#include "reference/energies/rest_state.hpp"
 #include "reference/geometry/detect_edge_edge.hpp"
 #include "reference/geometry/detect_vertex_facet.hpp"
+#include "reference/solvers/kinds/rest_state.hpp"
 #include "tests/catch.hpp"
 
 using namespace ogc;

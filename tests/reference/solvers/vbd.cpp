@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/energies/rest_state.hpp"
 #include "reference/simulation.hpp"
 #include "reference/solvers/colouring.hpp"
+#include "reference/solvers/kinds/rest_state.hpp"
 #include "tests/catch.hpp"
 #include "tests/reference/solvers/sheets.hpp"
 

@@ -13,7 +13,7 @@ std::vector<unsigned> gives(SumList<Sums...>) {
   return {Sums::gives...};
 }
 
-constexpr unsigned everything = 2 * asks_any_activation - 1;
+constexpr unsigned everything = Kinds::bits | (first_kind_bit - 1);
 
 }  // namespace
 

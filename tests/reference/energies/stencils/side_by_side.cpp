@@ -140,7 +140,7 @@ void check_projection() {
 TEST_CASE("stencils side by side have the derivatives of each alone, to the bit, whatever branches the others take",
           "[property]") {
   Draw draw(11);
-  for (const StencilKernels* kernels : kernels_of_this_machine()) {
+  for (const MachineKernels& kernels : kernels_of_this_machine()) {
     for (int round = 0; round < 30; ++round) {
       std::vector<MembraneTerm> membranes;
       std::vector<HingeTerm> hinges;
@@ -165,8 +165,8 @@ TEST_CASE("stencils side by side have the derivatives of each alone, to the bit,
              .weight = {30, 70, -60, -40},
              .model = other() ? compare::BendingModel::isometric_quadratic : compare::BendingModel::discrete_hinge});
       }
-      check_against_alone<3>(kernels->membranes, membranes, triangles, alone<3>());
-      check_against_alone<4>(kernels->hinges, hinges, folds, alone<4>());
+      check_against_alone<3>(kernels.of<TriangleKind>(), membranes, triangles, alone<3>());
+      check_against_alone<4>(kernels.of<HingeKind>(), hinges, folds, alone<4>());
     }
   }
 }
@@ -175,7 +175,7 @@ TEST_CASE("contacts side by side have the derivatives of each alone, to the bit,
           "[property]") {
   Draw draw(12);
   const double r = 5e-3;
-  for (const StencilKernels* kernels : kernels_of_this_machine())
+  for (const MachineKernels& kernels : kernels_of_this_machine())
     for (int round = 0; round < 60; ++round) {
       std::vector<PlacedContact> points, lines, planes;
       std::vector<Corners<2>> of_2;
@@ -204,9 +204,9 @@ TEST_CASE("contacts side by side have the derivatives of each alone, to the bit,
         of_3.push_back({x[0], x[1], x[2]});
         of_4.push_back(x);
       }
-      check_against_alone<2>(kernels->contacts_of_2, points, of_2, alone<2>());
-      check_against_alone<3>(kernels->contacts_of_3, lines, of_3, alone<3>());
-      check_against_alone<4>(kernels->contacts_of_4, planes, of_4, alone<4>());
+      check_against_alone<2>(kernels.contacts_of_2, points, of_2, alone<2>());
+      check_against_alone<3>(kernels.contacts_of_3, lines, of_3, alone<3>());
+      check_against_alone<4>(kernels.contacts_of_4, planes, of_4, alone<4>());
     }
 }
 
@@ -217,7 +217,7 @@ TEST_CASE("what depends on one weighted sum has the derivatives of the energy ov
           "[property]") {
   Draw draw(13);
   const double r = 5e-3;
-  for (const StencilKernels* kernels : kernels_of_this_machine())
+  for (const MachineKernels& kernels : kernels_of_this_machine())
     for (int round = 0; round < 30; ++round) {
       std::vector<FrictionTerm> frictions;
       std::vector<PlacedContact> contacts;
@@ -254,21 +254,22 @@ TEST_CASE("what depends on one weighted sum has the derivatives of the energy ov
         CHECK(a.energy == Approx(b.energy).epsilon(1e-13).margin(1e-300));
       };
       for (const auto projection : {HessianProjection::none, HessianProjection::clamp, HessianProjection::absolute}) {
-        const auto rubbed = differentiated<4>(kernels->frictions, frictions, corners, projection);
-        const auto pushed = differentiated<4>(kernels->weighted_contacts, contacts, corners, projection);
-        const auto pulled = differentiated<4>(kernels->springs, springs, corners, projection);
+        const auto rubbed = differentiated<4>(kernels.frictions, frictions, corners, projection);
+        const auto pushed = differentiated<4>(kernels.weighted_contacts, contacts, corners, projection);
+        const auto pulled = differentiated<4>(kernels.of<SpringKind>(), springs, corners, projection);
         for (std::size_t i = 0; i < batch_width; ++i) {
           nearly(rubbed[i], alone<4>()(frictions[i], corners[i], projection));
           const auto over_weights = [&](const auto& x) {
             return contacts[i].energy_between(separation(contacts[i].weight, x));
           };
           nearly(pulled[i], alone<4>()(springs[i], corners[i], projection));
-          CHECK(same_bits(pulled[i], differentiated<4>(kernels->springs, {springs[i]}, {corners[i]}, projection)[0]));
+          CHECK(same_bits(pulled[i],
+                          differentiated<4>(kernels.of<SpringKind>(), {springs[i]}, {corners[i]}, projection)[0]));
           nearly(pushed[i], stencil_derivatives<4>(corners[i], projection, over_weights));
           CHECK(
-              same_bits(rubbed[i], differentiated<4>(kernels->frictions, {frictions[i]}, {corners[i]}, projection)[0]));
+              same_bits(rubbed[i], differentiated<4>(kernels.frictions, {frictions[i]}, {corners[i]}, projection)[0]));
           CHECK(same_bits(pushed[i],
-                          differentiated<4>(kernels->weighted_contacts, {contacts[i]}, {corners[i]}, projection)[0]));
+                          differentiated<4>(kernels.weighted_contacts, {contacts[i]}, {corners[i]}, projection)[0]));
         }
       }
     }

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "reference/energies/stencils/stencil_kernels.hpp"
+#include "reference/solvers/kinds/kernels.hpp"
 #include "tests/catch.hpp"
 
 namespace ogc::tests {
@@ -11,9 +11,13 @@ namespace ogc::tests {
 template <std::size_t N>
 using Corners = std::array<reference::Triple<double>, N>;
 
-inline std::vector<const reference::StencilKernels*> kernels_of_this_machine() {
-  std::vector<const reference::StencilKernels*> all{&reference::stencil_kernels_baseline};
-  if (&reference::stencil_kernels() != all[0]) all.push_back(&reference::stencil_kernels());
+/// Kernels of contacts and of elements for one machine.
+struct MachineKernels : reference::StencilKernels, reference::KindKernels {};
+
+inline std::vector<MachineKernels> kernels_of_this_machine() {
+  std::vector<MachineKernels> all{{reference::stencil_kernels_baseline, reference::kind_kernels_baseline}};
+  if (&reference::stencil_kernels() != &reference::stencil_kernels_baseline)
+    all.push_back({reference::stencil_kernels(), reference::kind_kernels()});
   return all;
 }
 

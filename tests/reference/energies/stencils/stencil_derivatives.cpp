@@ -4,6 +4,7 @@
 
 #include "reference/energies/mollifier.hpp"
 #include "reference/energies/stencil_terms.hpp"
+#include "reference/solvers/kinds/kinds.hpp"
 #include "tests/catch.hpp"
 #include "tests/reference/energies/stencils.hpp"
 

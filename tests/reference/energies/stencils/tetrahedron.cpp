@@ -6,8 +6,8 @@
 #include "reference/energies/stencil_terms.hpp"
 #include "reference/energies/stencils/stencil_derivatives.hpp"
 #include "tests/catch.hpp"
-#include "tests/reference/energies/stencils/side_by_side.hpp"
 #include "tests/reference/energies/stencils.hpp"
+#include "tests/reference/energies/stencils/side_by_side.hpp"
 
 using namespace ogc;
 using namespace ogc::reference;
@@ -127,10 +127,11 @@ TEST_CASE("tetrahedra side by side give the bits of tetrahedra alone", "[propert
       terms.back().volume *= draw.between(0.5, 2);
       corners.push_back(shape(draw, static_cast<int>(i) % 5));
     }
-    for (const StencilKernels* kernels : kernels_of_this_machine())
-      check_against_alone<4>(
-          kernels->tetrahedra, terms, corners, [](const auto& term, const Corners<4>& x, HessianProjection projection) {
-            return stencil_derivatives<4>(x, projection, [&](const auto& at) { return term.energy(at); });
-          });
+    for (const MachineKernels& kernels : kernels_of_this_machine())
+      check_against_alone<4>(kernels.of<TetrahedronKind>(), terms, corners,
+                             [](const auto& term, const Corners<4>& x, HessianProjection projection) {
+                               return stencil_derivatives<4>(x, projection,
+                                                             [&](const auto& at) { return term.energy(at); });
+                             });
   }
 }

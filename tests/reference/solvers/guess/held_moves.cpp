@@ -5,9 +5,9 @@
 #include <cmath>
 #include <random>
 
-#include "reference/energies/rest_state.hpp"
 #include "reference/solvers/detection.hpp"
 #include "reference/solvers/guess_contacts.hpp"
+#include "reference/solvers/kinds/rest_state.hpp"
 #include "tests/catch.hpp"
 #include "tests/reference/solvers/sheets.hpp"
 

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "compare/problem/rods.hpp"
-#include "reference/energies/rest_state.hpp"
 #include "reference/simulation.hpp"
+#include "reference/solvers/kinds/rest_state.hpp"
 #include "reference/solvers/rods/rod_system.hpp"
 #include "tests/catch.hpp"
 

@@ -7,10 +7,10 @@
 
 #include "compare/problem/error.hpp"
 #include "compare/problem/readers.hpp"
-#include "reference/energies/rest_state.hpp"
 #include "reference/simulation.hpp"
 #include "reference/solvers/colouring.hpp"
 #include "reference/solvers/detection.hpp"
+#include "reference/solvers/kinds/rest_state.hpp"
 #include "reference/solvers/potential_batches.hpp"
 #include "reference/solvers/variants/contact_sets.hpp"
 #include "tests/catch.hpp"

@@ -1,6 +1,7 @@
-#include "reference/energies/rest_state.hpp"
+#include "reference/solvers/kinds/rest_state.hpp"
 
 #include "reference/energies/rest_builder.hpp"
+#include "reference/solvers/kinds/kinds.hpp"
 
 namespace ogc::reference {
 namespace {
@@ -30,7 +31,9 @@ void add_meeting(compare::RestStateTruth& truth, const compare::Material& a, con
 
 compare::RestStateTruth rest_state(const compare::RestStateIn& in) {
   RestBuilder to{*in.scene, *in.topology};
-  compare::for_each_of<compare::RestKinds>([&]<class Kind, std::size_t>() { add_rest(Kind(), to); });
+  for_each_kind([&]<class Kind, std::size_t>() {
+    if constexpr (compare::InRestState<Kind>) Kind::add_at_rest(to);
+  });
   for (std::size_t v = 0; v < to.mass.size(); ++v) {
     to.truth.exact.mass.push_back(static_cast<float>(to.mass[v]));
     to.truth.mass.push_back(static_cast<double>(to.mass[v]));

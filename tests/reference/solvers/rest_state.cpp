@@ -1,6 +1,6 @@
-// Tests rest data by partitions and identities that hold for every mesh, and by shapes whose numbers are known in
-// closed form.
-#include "reference/energies/rest_state.hpp"
+// Tests rest data by partitions and identities that hold for every mesh, and by shapes whose numbers can be written
+// down.
+#include "reference/solvers/kinds/rest_state.hpp"
 
 #include <cmath>
 #include <numbers>

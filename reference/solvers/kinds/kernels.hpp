@@ -1,0 +1,49 @@
+// Derivatives of elements for Newton's method, several of one kind side by side, as in
+// energies/stencils/stencil_kernels.hpp.
+#pragma once
+
+#include "reference/energies/stencils/stencil_kernels.hpp"
+#include "reference/solvers/kinds/kinds.hpp"
+
+namespace ogc::reference {
+
+/// The function of a kind, compiled for one machine; a kind whose list differentiates itself has none.
+template <class Kind>
+struct KernelOf {};
+template <class Kind>
+requires requires { typename Kind::Term; }
+struct KernelOf<Kind> {
+  StencilKernels::Function<typename Kind::Term, corner_count<Kind>> kernel;  ///< differentiates a batch
+};
+
+/// The functions of all kinds.
+template <class Kinds>
+struct KernelsOf;
+template <class... Kinds>
+struct KernelsOf<std::tuple<Kinds...>> : KernelOf<Kinds>... {
+  /// Returns the function of a kind.
+  template <class Kind>
+  auto of() const {
+    return static_cast<const KernelOf<Kind>&>(*this).kernel;
+  }
+};
+/// Those of the list.
+using KindKernels = KernelsOf<ElementKinds>;
+
+/// Kernels for any machine, and for one with AVX2.
+extern const KindKernels kind_kernels_baseline, kind_kernels_avx2;
+
+/// Returns the kernels for this machine.
+inline const KindKernels& kind_kernels() {
+#ifdef __x86_64__
+  if (has_avx2()) return kind_kernels_avx2;
+#endif
+  return kind_kernels_baseline;
+}
+
+template <class Kind>
+void differentiate_batch(const Batch<typename Kind::Term, corner_count<Kind>>& batch, HessianProjection projection) {
+  kind_kernels().of<Kind>()(batch, projection);
+}
+
+}  // namespace ogc::reference
