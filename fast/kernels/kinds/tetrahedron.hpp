@@ -8,8 +8,8 @@
 
 namespace ogc::fast {
 
-/// A tetrahedron as one of its corners sees it. `index` holds the other three corners, encoded as in sweep_view.hpp, in
-/// an order such that this corner followed by them has a positive volume at rest.
+/// A tetrahedron as one of its corners sees it. `index` holds the other three corners, encoded as in sweep_view.hpp.
+/// They are ordered so that this corner and they, in this order, have a positive volume at rest.
 struct alignas(16) TetrahedronIncidence {
   int index[3] = {0, 0, 0};      ///< a, b, c of models/tetrahedron.hpp
   int tetrahedron = -1;          ///< number in RestState::tetrahedra
@@ -27,7 +27,7 @@ struct TetrahedronKind : ElementKind<TetrahedronRest, TetrahedronIncidence> {
   };
   static constexpr unsigned asked = asks_tetrahedra;
   static constexpr bool reports_state = true;  ///< each step reports the number of inverted tetrahedra
-  /// By corner: the other corners, in the order of TetrahedronIncidence::index.
+  /// For each corner: the other corners, in the order of TetrahedronIncidence::index.
   static constexpr int others[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   /// Index of each pair of corners in TetrahedronRest::weight.
   static constexpr int pair[4][4] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
