@@ -25,9 +25,9 @@ using namespace placement;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Takes the legal part of a mesh; enlarges a tiny mesh 2¹⁰ times, and reduces a vast one (edges up to 2²⁰ m at twice
-/// the size) to an eighth. Coordinates that are too small become 0; faces that are too short, flat or repeated are left
-/// out, and vertices without a face with them.
+/// Makes a legal mesh: enlarges a tiny mesh 2¹⁰ times, and reduces a vast one to an eighth (at twice the size its edges
+/// may have up to 2²⁰ m). Sets coordinates below the least legal length to 0. Leaves out faces that are too short, flat
+/// or repeated, and vertices that then have no face.
 class Cleaner {
  public:
   explicit Cleaner(const MeshCase& mesh) : mesh_(mesh) {
@@ -100,7 +100,7 @@ Material material_of(Random& random) {
   return material;
 }
 
-/// Prescribes vertices without mass, and in one of three bodies some more.
+/// Prescribes the vertices without mass. In one of three bodies also prescribes a quarter of the others.
 void hold(Random& random, Scene& scene, const Body& body) {
   std::vector<bool> has_triangle(at(body.vertex_count));
   for (Index t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t)
