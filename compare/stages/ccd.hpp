@@ -37,7 +37,7 @@ struct CcdTruth {
   /// do
   std::vector<double> impact;
   /// a time until which the faces stay farther apart than ccd_gap_left of their first distance plus ccd_resolution · u
-  /// S; conservative advancement of at most ccd_fewest_steps steps finds it
+  /// S (S: see ccd_resolution); conservative advancement of at most ccd_fewest_steps steps finds it
   std::vector<double> early;
 };
 

@@ -13,9 +13,9 @@
 
 namespace ogc::compare {
 
-/// Returns the input of stage truncate for a vertex with these planes that no force but inertia acts on; empty if
-/// `planes` is empty. `is_prescribed` means that the vertex does not slide. With bounds=dat (planes of *Divide and
-/// Truncate*) no vertex slides, and `current` is X_prev.
+/// Returns the input of stage truncate for a vertex with these planes, with the H of inertia alone; empty if `planes`
+/// is empty. `is_prescribed` means that the vertex does not slide. With bounds=dat (planes of *Divide and Truncate*) no
+/// vertex slides, and `current` is X_prev.
 inline HalfSpacesIn half_spaces_of(std::span<const VertexPlane> planes, const Vec3f& current, bool is_prescribed) {
   if (planes.empty()) return {};
   HalfSpacesIn all{.offsets = {0, static_cast<Index>(planes.size())},

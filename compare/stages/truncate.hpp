@@ -19,7 +19,7 @@ struct HalfSpace {
   double offset = 0;  ///< o [m] times the length of n
 };
 
-/// H of a vertex on which no force but inertia acts, which slides along the shortest way.
+/// The identity: H of a vertex on which no force but inertia acts. The vertex then slides along the shortest way.
 inline constexpr std::array<float, 6> inertia_block{1, 0, 0, 1, 0, 1};
 
 /// Half-spaces, and how a vertex slides along them. All arrays are empty if no case has any.

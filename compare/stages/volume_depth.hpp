@@ -76,8 +76,8 @@ struct VolumeAnswer {
   double depth_scale = 0;           ///< max(‖x − c‖, Σ ‖δ‖) + r [m]
 };
 
-/// What is accepted for a group of sheets of a part of tetrahedra at one point that cannot be told apart with
-/// certainty. Mostly the group is one sheet.
+/// Sheets of a part of tetrahedra at one point, and what is accepted for them. Sheets that cannot be told apart with
+/// certainty form a group; mostly a group is one sheet.
 struct VolumeSheetTruth {
   int exact = 0;                       ///< number of sheets of the group in the exact answer
   bool is_certain = false;             ///< true if there is exactly one sheet, whatever grey decisions give
@@ -144,7 +144,8 @@ inline constexpr double volume_depth_tolerance = 12;
 /// Largest error in units of u · weight_scale, counted as in closest_face.
 inline constexpr double volume_weight_tolerance = 12;
 /// Largest error in units of u · direction_scale. Rounding errors of a normal: two differences (1), a cross product
-/// (3), a length and a quotient (4 + 1). Of a vector to a closest point: those of the depth and a quotient, 12 at most.
+/// (3), a length and a quotient (4 + 1). Rounding errors of a vector to a closest point: those of the depth and a
+/// quotient, 12 at most.
 inline constexpr double volume_direction_tolerance = 12;
 
 }  // namespace ogc::compare
