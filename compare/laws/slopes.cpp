@@ -15,7 +15,7 @@
 // friction's impulse misses up to n h μ m g cos α. That is a share n h/T of the velocity that friction changes, and a
 // share 2 n h/T of the way that it changes. Sweeps end with an error of λ; they are required to reach force_left of the
 // weight. An error e of λ changes the acceleration by the share e μ cos α over (sin α − μ cos α). Without friction
-// nothing acts along the floor but truncation: the guess loop may end while γ_e = 1 % of the vertices are cut.
+// nothing acts along the floor but truncation: the guess loop may end with up to γ_e = 1 % of the vertices cut.
 #include <cmath>
 
 #include "compare/laws/groups.hpp"

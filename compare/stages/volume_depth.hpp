@@ -51,11 +51,11 @@ struct VolumeContact {
 /// 8–10, the outer half) x lies nearer than r.
 ///
 /// Part of tetrahedra: those with positive volume form a complex. A sheet is a point of this complex that lies at x,
-/// named by the simplex whose interior contains it; tetrahedra are closed. A way is a segment from x to the closest
-/// point of a boundary triangle whose tetrahedron is positive. The complex must be traversable along it, from one
-/// tetrahedron to another that shares the segment's point with it. The contact of a sheet is at the end of its shortest
-/// way; of equally short ways the one to the lowest-dimensional, then the lowest-numbered face counts. Ways of two
-/// sheets to one face are one contact. A sheet without a way has no contact. Without a sheet x is outside.
+/// named by the simplex whose interior contains it; tetrahedra are closed. A way leads straight from x to the closest
+/// point of a boundary triangle whose tetrahedron is positive. The way must stay in the complex: it passes from one
+/// tetrahedron to another only at a point of the way that both share. The contact of a sheet is at the end of its
+/// shortest way. Of equally short ways the one to the lowest-dimensional, then the lowest-numbered face counts. Ways of
+/// two sheets to one face are one contact. A sheet without a way has no contact. Without a sheet x is outside.
 ///
 /// If x is a vertex of the volume, sheets of tetrahedra and faces that contain this vertex are left out. Outside, at a
 /// face with a triangle of a tetrahedron without positive volume, either side is right, since the surface is folded
