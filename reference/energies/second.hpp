@@ -35,8 +35,8 @@ class Second {
  public:
   /// number of second derivatives; each pair of inputs counts once
   static constexpr std::size_t bends = N * (N + 1) / 2;
-  Number value;                                          ///< value of the expression
-  std::array<Number, N> slope;                           ///< by input
+  Number value;                 ///< value of the expression
+  std::array<Number, N> slope;  ///< by input
 
   Second() : Second(Number(0.0)) {}
   Second(const Number& constant) : value(constant), slope{} {}

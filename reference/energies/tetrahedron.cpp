@@ -53,8 +53,8 @@ double length_of(const Triple<Input>& v) { return std::hypot(v[0].value, v[1].va
 /// - The edges of the face opposite to the own corner are rounded separately. So the face's normal (6 roundings) has
 ///   an error of 6 u (u = 2⁻²⁴) times the product of the two longest edges. The condition is smaller if one corner is
 ///   far from the two others. J has this error times the longest distance to the face.
-///  - If J − 1 (12 roundings) and the normal (6) nearly vanish together, the product of their errors remains
-///    (compare/stages/tetrahedron.hpp).
+/// - If J − 1 (12 roundings) and the normal (6) nearly vanish together, the product of their errors remains
+///   (compare/stages/tetrahedron.hpp).
 /// With damping by vertex, `resisted` is k ‖moved‖, and the block is `grown` times the elastic block.
 compare::ForceAnswer with_rounded_edges(const Elastic& elastic, compare::ForceAnswer answer, double resisted = 0,
                                         double grown = 1) {
