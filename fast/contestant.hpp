@@ -14,7 +14,7 @@ enum class Backend { cpu, cuda };
 /// Sets how launches are divided into blocks. No result depends on it. Tests of determinism use it to launch on one
 /// device with the shape of another device.
 struct LaunchShape {
-  /// threads of a block: 32, 64, 96 or 128; in launches with one thread, or for some searches one warp, for each item
+  /// threads of a block: 32, 64, 96 or 128; teams, scans and sorts have other sizes
   int block_threads = 128;
   int multiprocessors = 0;  ///< multiprocessors for which launches are divided; 0: those of the device
 };

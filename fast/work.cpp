@@ -1,7 +1,7 @@
 // Counts the work of an iteration from the source. Operations: each +, −, ×, ÷ and root of fast/kernels on the path of
 // the default models counts one. Comparisons, negations and the additions that join team lanes do not count. Of several
-// branches the longest one that generic input takes counts. Bytes: the sizes of the structs that are read, each once an
-// iteration, even if a cache serves them, because no order of work can avoid these. The searches' work depends on the
+// branches, the longest one that generic input takes is counted. Bytes: each struct that is read counts once an
+// iteration, even if a cache serves it, because no order of work can avoid this read. The searches' work depends on the
 // state, so their nodes, candidates and distances are counted during a detection.
 #include "fast/contestant.hpp"
 
@@ -55,7 +55,7 @@ constexpr double edge_distance_flop = 96 + 161 + 6;
 /// squares 21, size 8, limits 3, sides 69, from three edges 67); is_pair and meet 6.
 constexpr double facet_distance_flop = 158 + 192 + 6;
 /// Bytes of a candidate edge: its ends, and its two positions if the distance is computed. The next line has the same
-/// of a candidate facet.
+/// numbers for a candidate facet.
 constexpr double edge_bytes = sizeof(EdgeEnds), edge_position_bytes = 2 * sizeof(PaddedVec);
 constexpr double facet_bytes = sizeof(Facet::corner), facet_position_bytes = 3 * sizeof(PaddedVec);
 

@@ -122,7 +122,7 @@ void Hdf5File::append_packed(const std::string& name, const PackedArray& array) 
   if (!dataset.release() || !written) refuse_write(name);
 }
 
-// 256 B a chunk for its entry in the index, as in largest_size.
+// Counts 256 B for each chunk's entry in the index, as largest_size does.
 std::size_t Hdf5File::growth(const PackedArray& array) { return array.byte_count() + 256 * array.chunks.size(); }
 
 void Hdf5File::reserve(std::size_t from, std::size_t to) const { compare::reserve(path_, from, to); }

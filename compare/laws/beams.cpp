@@ -13,7 +13,8 @@
 //
 //     H⁻¹ m g,   H = μ V ‖∇N‖² I + (λ + μ) V ∇N ∇Nᵀ,                                                         (2)
 //
-// where ∇N is its gradient. The term with μ is Σ w_k over the other corners, since all gradients add up to 0.
+// where ∇N is the gradient of the free corner's shape function. −Σ w_k of method.md §8.1 is V ‖∇N‖² here, since the
+// gradients of all four corners add up to 0.
 //
 // Bar. With λ = 0 tetrahedra have E = 2 μ and G = μ. The mean deflection of a clamped bar of side t under its weight is
 // (Euler and Bernoulli, and shear with 5/6 of the area)
@@ -23,6 +24,7 @@
 // The deflection minimises energy minus work, and linear tetrahedra allow only some of all displacements. So their mean
 // deflection is less. If the cells are halved, it grows, since the small cells allow all displacements of the large
 // ones.
+//
 // Pendulum. A triangle that hangs from a corner moves as a rigid body, except for a small strain. Implicit Euler takes
 // the rotation nearest, in the norm of masses, to y = 2 x_n − x_{n−1} + h² g. In the plane, with x = r e^{iθ},
 //
@@ -45,8 +47,8 @@
 // elastic force. The work of f during the motion is then below a hundredth of U, and U stays below the largest kinetic
 // energy. So N sweeps need no limit, and neither does Newton. D = 1 + h² q, where q is a third of the trace of a
 // vertex's stiffness over its mass. The trace of a membrane's corner is A (λ + 3μ) ‖∇N‖², which adds up to 4 (λ + 3μ)
-// for a vertex of a lattice of spacing a. That of a hinge's corner is c ‖∇θ‖²: up to 18 k_b/a² for each of two sides
-// and 48 k_b/a² for a diagonal.
+// for a vertex of a lattice of spacing a. The trace of a hinge's corner is c ‖∇θ‖²: up to 18 k_b/a² for each of two
+// sides and 48 k_b/a² for a diagonal.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -129,7 +131,7 @@ std::vector<Scene> tetrahedron_scenes(LawSize) {
   return {scene};
 }
 
-/// Reads the free corner, which is a above the plane x = 0: ∇N = (1/a, 0, 0), so H is diagonal.
+/// Reads the free corner at the distance a from the plane x = 0. There ∇N = (1/a, 0, 0), so H is diagonal.
 std::vector<Reading> read_tetrahedron(std::span<const Trajectory> runs) {
   const Trajectory& run = runs[0];
   const double a = tetrahedron_side, volume = a * a * a / 6, m = masses(run.scene)[1];
@@ -313,7 +315,7 @@ double work_left(const Trajectory& run, std::size_t n) {
 }
 
 Reading read_energy(const Trajectory& run) {
-  // The largest rise, and the sum of (5) over the steps of this rise.
+  // Finds the largest rise of the energy, and the sum of (5) over the steps of this rise.
   double least = std::numeric_limits<double>::infinity(), rise = 0, largest = 0, done = 0, done_at_least = 0, work = 0;
   for (std::size_t n = 1; n < run.states.size(); ++n) {
     const StepMetrics& row = run.rows[n - 1];

@@ -1,11 +1,14 @@
-// Tests bodies that friction holds or drags. A sheet of n vertices between two plates, at the depth δ on either side,
-// creeps under its weight as derived in slopes.cpp,
+// Tests bodies that friction holds or drags. Gravity pulls a sheet of mass M and n vertices along the gap between two
+// plates. Each plate presses on each vertex with k_c δ, so that friction can balance the weight. The sheet only creeps,
+// with the velocity v of slopes.cpp:
 //
 //     f₁(v/ε_v) = M g/(2 n μ k_c δ).
 //
-// A floor that moves with velocity u drags a body: w = v − u obeys w' = w − h μ g f₁(|w'|/ε_v) sign w'.
+// A floor that moves with velocity u drags a body of velocity v. Let w = v − u. A step changes w to w' with
 //
-// Tolerances are derived in slopes.cpp. The depth has the rounding error of r.
+//     w' = w − h μ g f₁(|w'|/ε_v) sign w'.
+//
+// Tolerances are derived in slopes.cpp. The depth δ has the rounding error of r.
 #include <cmath>
 
 #include "compare/laws/groups.hpp"
@@ -69,8 +72,8 @@ std::vector<Reading> read_conveyor(std::span<const Trajectory> runs) {
     relative = slid(relative, 0, mu * standard_gravity, run.scene.settings.friction_velocity, h);
     way += h * (relative + belt);
   }
-  // The relative error by a lag of one step and by the error of λ that sweeps leave (slopes.cpp). It applies to the way
-  // by which the belt is ahead of the body.
+  // Both terms of `share` are derived in slopes.cpp: friction lags, and sweeps leave an error of λ. The share applies
+  // to the way by which the belt is ahead of the body.
   const double ahead = belt * h * static_cast<double>(run.rows.size()) - way;
   const double dragged = belt / (mu * standard_gravity), share = 2 * lagged_steps(run) * h / dragged + force_left(run);
   return {{.what = "way",

@@ -45,8 +45,8 @@ Exchange exchanged(const Trajectory& run) {
   return sum;
 }
 
-/// Returns the rounding error of Σ m v. Velocities (x' − x)/h are off by 2 u |x|/h in each of n steps, in the worst
-/// case with one sign. Multiplied by the lever |x| it is the error of Σ m x × v.
+/// Returns the rounding error of Σ m v. Velocities (x' − x)/h are off by 2 u |x|/h, u = 2⁻²⁴, in each step; in the
+/// worst case all errors have one sign. This times the lever |x| is the error of Σ m x × v.
 double momentum_rounding(const Trajectory& run) {
   const double x = largest_coordinate(run), steps = static_cast<double>(run.rows.size());
   double mass = 0;

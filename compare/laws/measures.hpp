@@ -41,9 +41,9 @@ double kinetic_energy(const Scene& scene, const LawState& state);
 /// Returns the largest coordinate of any state [m].
 double largest_coordinate(const Trajectory& run);
 
-/// Returns the largest error of positions in single precision after n steps of free flight [m]. Each step rounds x by u
-/// |x|, and v = (x' − x)/h by 2 u |x|/h. Errors of v accumulate: n + 2 (1 + … + n) roundings, in the worst case all of
-/// one sign.
+/// Returns the largest error of positions in single precision after n steps of free flight [m]. With u = 2⁻²⁴ each step
+/// rounds x by u |x|, and v = (x' − x)/h by 2 u |x|/h. Errors of v accumulate: n + 2 (1 + … + n) roundings, in the
+/// worst case all of one sign.
 double flight_rounding(std::int64_t n, double largest_coordinate);
 
 /// Returns the velocity v' after a step of implicit Euler of a body that slides with velocity v against friction
@@ -51,9 +51,9 @@ double flight_rounding(std::int64_t n, double largest_coordinate);
 /// unique.
 double slid(double velocity, double drive, double brake, double friction_velocity, double time_step);
 
-/// `bounced` returns the state after a step of implicit Euler of a mass at height x above a plane at 0. The plane
-/// repels below r with k_c (r − x), x ≥ r/2: x' minimises ‖x' − y‖²/(2h²) + (k_c/m)/2 max(0, r − x')², y = x + h v + h²
-/// a.
+/// `bounced` returns height and velocity of a mass after a step of implicit Euler from height x. A plane at 0 repels
+/// the mass below r with k_c (r − x); x must be at least r/2. x' minimises ‖x' − y‖²/(2h²) + (k_c/m)/2 max(0, r − x')²,
+/// where y = x + h v + h² a.
 struct Height {
   double x = 0, v = 0;  ///< [m], [m/s]
 };

@@ -8,10 +8,11 @@
 //
 //     x' = y where y ≥ r, otherwise (y + κ r)/(1 + κ), κ = h² k_c/m                 (law_measures::bounced).   (1)
 //
-// With a convex potential U implicit Euler loses at least (v' − v)²/2 in each step, so m v²/2 + m g x + U never rises.
-// That requires that a contact is listed in the step in which its distance falls below r. But a detection lists
-// contacts below r at the start of the step. So the step of the impact goes as deep as h v without paying k_c (h v)²/2,
-// and the bounce gains up to that energy. With v² = 2 g H after a fall of H the gain is a share κ of the fall's energy.
+// With a convex potential U implicit Euler loses at least m (v' − v)²/2 in each step, so m v²/2 + m g x + U never
+// rises. That requires that a contact is listed in the step in which its distance falls below r. But a detection lists
+// only contacts that are below r at the start of the step. So in the step of the impact the triangle enters by up to h
+// v without the work k_c (h v)²/2, and the bounce gains up to that energy. With v² = 2 g H after a fall of H the gain
+// is a share κ of the fall's energy.
 // This limit is derived, and `contact_margin` changes it.
 #include <algorithm>
 #include <cmath>

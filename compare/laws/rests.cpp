@@ -1,11 +1,12 @@
 // Tests rest. A floor of one triangle has no edge and no vertex near a body. So each vertex of a sheet above it has one
-// contact with it, a spring k_c (r − d) along the normal with d its height. At rest the contacts balance the weight,
+// contact with it, a spring of force k_c (r − d) along the normal, where d is the vertex's height. At rest the contacts
+// balance the weight,
 //
 //     Σ k_c (r − d_v) = M g,
 //
 // however bodies are stacked, and nothing moves along the normal. Along the floor sticking vertices may creep
-// (slopes.cpp). A sheet that is dropped by a fifth of r also comes to rest: implicit Euler takes at least (v' − v)²/2
-// from it in each step.
+// (slopes.cpp). A sheet that is dropped by a fifth of r also comes to rest, because implicit Euler loses at least m (v'
+// − v)²/2 in each step.
 //
 // Tolerances are law_measures::force_left of the weight. This remaining force changes a vertex's velocity by that share
 // of g h in a step, and its energy by the square of the share.

@@ -1,7 +1,7 @@
-// Tests slopes: gravity is tilted by α over a level floor, so that x points down the slope. A body in contact has the
-// normal force m g cos α at rest. A body that moves along the floor has it in the mean over time, since its momentum
-// along the normal is bounded. So along the slope its centre obeys Coulomb's law, smoothed as in method.md §4.4.
-// Implicit Euler turns that into one equation for each step (law_measures::slid):
+// Tests slopes: gravity is tilted by α over a level floor, so that x points down the slope. A body at rest in contact
+// has the normal force m g cos α. A body that moves along the floor has the same normal force in the mean over time,
+// since its momentum along the normal is bounded. So along the slope its centre obeys Coulomb's law, smoothed as in
+// method.md §4.4. Implicit Euler turns this law into one equation for each step (law_measures::slid):
 //
 //     v' = v + h (g sin α − μ g cos α f₁(v'/ε_v)),   x' = x + h v',   f₁(y) = 2 y − y² for y < 1, else 1.
 //
@@ -11,11 +11,11 @@
 //     v = ε_v (1 − √(1 − tan α/μ)).
 //
 // Tolerances. The normal force λ of friction lags by up to one solve or sweep. Barriers have no force at the start of a
-// motion, so their λ lags by another step (law_measures::lagged_steps). If λ lags by n steps, friction misses up to n h
-// m g cos α over a slide of T, a velocity of n μ g cos α h. That is a share n h/T of friction's velocity change, and 2
-// n h/T of its share of the way. Sweeps end with an error of λ; they are required to reach force_left of the weight. An
-// error e of λ changes the acceleration by the share e μ cos α over (sin α − μ cos α). Without friction nothing acts
-// along the floor but cuts that the guess loop may leave when it ends, at γ_e = 1 % of the vertices.
+// motion, so their λ lags by another step (law_measures::lagged_steps). If λ lags by n steps of a slide of duration T,
+// friction's impulse misses up to n h μ m g cos α. That is a share n h/T of the velocity that friction changes, and a
+// share 2 n h/T of the way that it changes. Sweeps end with an error of λ; they are required to reach force_left of the
+// weight. An error e of λ changes the acceleration by the share e μ cos α over (sin α − μ cos α). Without friction
+// nothing acts along the floor but truncation: the guess loop may end with up to γ_e = 1 % of the vertices cut.
 #include <cmath>
 
 #include "compare/laws/groups.hpp"

@@ -10,17 +10,18 @@
 //
 // Tolerances. Inside a row masses and forces are not distributed equally over the vertices, because diagonals
 // alternate. With n rows this changes the extension by a share of less than (1/n)².
-// Sweeps: at rest a step starts from y, which is h² g too low, and moves towards the step's solution. The solution is a
-// = (m/h²)/(m/h² + k₁) times as far from rest as the step's start. N sweeps leave a share ρᴺ of the way. So the strip
-// comes to rest where z = a z + ρᴺ (z + h² g − a z), which is too low by
 //
-//     z = (4/π) h² g ρᴺ/((1 − ρᴺ)(1 − a)),    ρ = (2 k cos q/(m/h² + 2 k))²,   q = π/(2 n + 1),   k₁ = 2 k (1 − cos q),
+// Sweeps. Let the strip be z too low at the start of a step. The sweeps start from y, which is z + h² g too low. The
+// step's solution is a z too low, a = (m/h²)/(m/h² + k₁), and N sweeps leave a share ρᴺ of the way from y to the
+// solution. So the strip comes to rest where z = a z + ρᴺ (z + h² g − a z). For the longest wave, which is the part 4/π
+// of a uniform load, this is
 //
-// with the mass m of a row, the stiffness k = E w/a between two rows of distance a, the factor ρ by which Gauss–Seidel
-// reduces the longest wave of a chain, the stiffness k₁ of that wave, and its part 4/π of a uniform load. A vertex's
-// block also has the shear stiffness, E/4 for each E along the strip. So N sweeps of the strip are at least as good as
-// N/2 sweeps of the chain, and z with N/2 is the limit.
-// the limit.
+//     z = (4/π) h² g ρᴺ/((1 − ρᴺ)(1 − a)),    ρ = (2 k cos q/(m/h² + 2 k))²,   q = π/(2 n + 1),   k₁ = 2 k (1 − cos q).
+//
+// Here m is the mass of a row, k = E w/ℓ the stiffness between two rows at the distance ℓ, k₁ the stiffness of the
+// longest wave of a chain, and ρ the factor by which Gauss–Seidel reduces this wave. A vertex's block also has the
+// shear stiffness, E/4 for each E along the strip. So N sweeps of the strip are at least as good as N/2 sweeps of the
+// chain, and z with N/2 is the limit.
 #include <algorithm>
 #include <cmath>
 

@@ -31,7 +31,7 @@ class MotionAuditor {
   /// Returns the number of vertices and edges, each of which searches for partners.
   std::size_t asking() const { return at(topology_.vertex_count) + topology_.edges.size(); }
 
-  /// Returns the meetings of every `stride`-th of these vertices and edges.
+  /// Returns the meetings of every `stride`-th vertex or edge.
   MeetingsResult run(std::size_t stride = 1) const {
     tbb::enumerable_thread_specific<MeetingsResult> shares;
     const std::size_t count = (asking() + stride - 1) / stride;

@@ -22,7 +22,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Corners = std::array<Vec3, 3>;
 constexpr double unreached = std::numeric_limits<double>::infinity();
 
-/// Returns the sign of the area of (a, b, x + (ε, ε²)) seen along the x axis.
+/// Returns the sign of the area of the triangle (a, b, x + (0, ε, ε²)), seen along the x axis.
 int side_seen(const Vec3& a, const Vec3& b, const Vec3& x) {
   const int exact = CGAL::orientation(Kernel::Point_2(a.y, a.z), Kernel::Point_2(b.y, b.z), Kernel::Point_2(x.y, x.z));
   if (exact != 0) return exact;

@@ -22,9 +22,9 @@ struct Shell {
   double volume = 0;  ///< enclosed volume, times any positive factor; 0 if the shell has rims or encloses no volume
 };
 
-/// Returns, for each shell of one body, the number of the shell whose cavity it is, or −1. A shell of negative volume
-/// is a cavity of the shell of positive volume that winds around all of its vertices. If several shells do, the shell
-/// of least volume is taken. If another cavity of the same shell also winds around it, it is no cavity. Positions [m]
+/// Returns for each shell of one body the number of the shell in which it is a cavity, or −1. A shell of negative
+/// volume is a cavity in the shell of positive volume that winds around all of its vertices; of several, in the one of
+/// least volume. If another cavity of that shell winds around the vertices, too, the shell is no cavity. Positions [m]
 /// are rounded to single precision; then all is decided exactly. A vertex on a shell is treated as if it were beside
 /// the shell.
 std::vector<int> enclosing_shells(const Mesh& mesh, std::span<const Shell> shells);

@@ -53,7 +53,7 @@ const ElementNames::NamedBody& ElementNames::body_at(Index vertex) const {
 }
 
 // A body without triangles has the same first triangle as the next body. upper_bound finds the last body with this
-// first triangle, which is the one that has the triangle.
+// first triangle, which is the only one that has triangles.
 const ElementNames::NamedBody& ElementNames::body_of_triangle(Index t) const {
   static const NamedBody none;
   const auto after = std::ranges::upper_bound(bodies_, t, {}, &NamedBody::first_triangle);

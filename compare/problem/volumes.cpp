@@ -151,7 +151,7 @@ bool is_usable(const Scene& scene, const Body& body) {
   });
 }
 
-/// Returns for each shell of a volume of triangles the shell whose cavity it is, or −1.
+/// Returns for each shell of a volume of triangles the number of the shell in which it is a cavity, or −1.
 std::vector<int> cavities_among(const Scene& scene, const std::vector<VolumePart>& shells) {
   std::vector<Shell> asked;
   if (shells.size() < 2 || !is_usable(scene, scene.bodies[shells[0].body])) return std::vector<int>(shells.size(), -1);

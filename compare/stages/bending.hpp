@@ -37,17 +37,20 @@ struct BendingIn {
 };
 
 /// Largest error of the force in units of u · scale, u = 2⁻²⁴. Rounding errors on the way from the vertices to the
-/// force:
+/// force, 36 in all:
 ///
-/// - ∇θ: a difference of vertices (1), the normal and its square (6), the edge's length (4), a closest point on the
-///   edge (4), a quotient (2), two products of these and their sum (3): 20.
-/// - θ: 4 u of at most π, against a scale of at least 1 (12). Moment and force (4).
+/// - ∇θ, 20: a difference of vertices (1), the normal and its square (6), the edge's length (4), a closest point on the
+///   edge (4), a quotient (2), two products of these and their sum (3)
+/// - θ, 12: a relative error of 4 u, and |θ| ≤ π, while the scale is at least 1
+/// - the moment and the force, 4
 inline constexpr double bending_force_tolerance = 36;
 /// Largest error of the gradient ∇θ, as counted above.
 inline constexpr double bending_gradient = 20;
-/// Largest error of the block in units of u · scale: ∇θ twice, a factor (2) and an outer product (2). The scale of a
-/// block also contains the square of the gradient's error, bending_gradient · u · c (1 + k) · cond(∇θ)², which remains
-/// if ∇θ vanishes. The scale of a force contains the product of the errors of ∇θ and of the moment, 16 u · cond.
+/// Largest error of the block in units of u · scale. Rounding errors: ∇θ twice, a factor (2), an outer product (2).
+///
+/// Scales also contain terms of second order, which remain where a first derivative vanishes. cond(f) is Σ ‖∂f/∂q‖ ‖q‖
+/// over the inputs q. The block's scale contains bending_gradient · u · c (1 + k) · cond(∇θ)²; the force's scale
+/// contains the product of the errors of ∇θ and of the moment, 16 u · cond of the moment.
 inline constexpr double bending_block_tolerance = 2 * bending_gradient + 4;
 /// A hinge is grey if its angle, now or at the start, is within this many units of u · scale of ±π. Then the answers
 /// for the angle plus and minus 2π are accepted as well.
@@ -56,10 +59,10 @@ inline constexpr double bending_grey = 16;
 /// times u. The normal of rounded differences has an error of 4 u. A kernel may treat sines below eight times this
 /// error, 32 u, as 0. Twice 32 u also covers the rounding of its test.
 inline constexpr double bending_needle = 64;
-/// Largest errors of the isometric quadratic model without damping, in units of u · scale. (Its scales are multiplied
-/// by the ratio of these to the tolerances above, which the judge applies.) Rounding errors of the force: a difference
-/// (1), a product (1), two sums (2), the weight of x0 (2), c w (1), the product (1). Of the block: the weight of x0
-/// twice (4), a square (1), c (1).
+/// Largest errors of the isometric quadratic model without damping, in units of u · scale. (The judge applies the
+/// tolerances above, so this model's scales are multiplied by the ratio of these to those.) Rounding errors of the
+/// force: a difference (1), a product (1), two sums (2), the weight of x0 (2), c w (1), the product (1). Of the block:
+/// the weight of x0 twice (4), a square (1), c (1).
 inline constexpr double isometric_force_tolerance = 8;
 inline constexpr double isometric_block_tolerance = 6;
 

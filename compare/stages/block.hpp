@@ -17,9 +17,9 @@ struct BlockQuestion {
     /// x is vertex `of`. U_a is the block of Eq. 8 for a vertex, of Eq. 9 for an edge, including its end planes, and of
     /// Eq. 10 for a triangle.
     vertex_in_surface,
-    /// x is the point of edge `of` closest to a. U_a is that of Eq. 14 or 15 for an edge or vertex of the edge-only
-    /// manifold. x is unique unless both are parallel edges, so nearly parallel edges (‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖²) are
-    /// illegal here; compare/stages/detect_edge_edge.hpp defines their contacts.
+    /// x is the point of edge `of` closest to a. U_a is the block of Eq. 14 or 15 for an edge or vertex of the
+    /// edge-only manifold. x is unique unless a and `of` are parallel edges, so nearly parallel edges (‖e×e'‖² <
+    /// 10⁻⁶‖e‖²‖e'‖²) are illegal here; compare/stages/detect_edge_edge.hpp defines their contacts.
     edge_in_edges,
   };
   Kind kind = Kind::vertex_in_surface;  ///< whether `of` numbers a vertex or an edge

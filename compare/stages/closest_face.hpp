@@ -42,10 +42,10 @@ struct ClosestFaceTruth {
   std::vector<double> weight_condition;
 };
 
-/// Largest error accepted in `distance`, in units of u · distance, u = 2⁻²⁴. Rounding errors: a difference, a closest
-/// point, another difference and a norm, 3 + 4 + 1 + 4, half of them systematic. This holds for differences of
-/// coordinates of similar size. Otherwise errors are amplified by Σ|δ|/distance, where δ are the coordinates relative
-/// to the first corner, so the judge multiplies by max(1, Σ|δ|/distance).
+/// Largest error accepted in `distance`, in units of u · distance, u = 2⁻²⁴. Rounding errors: a difference (3), a
+/// closest point (4), another difference (1), a norm (4). This holds for differences of coordinates of similar size.
+/// Otherwise errors are amplified by Σ|δ|/distance, where δ are the coordinates relative to the first corner, so the
+/// judge multiplies by max(1, Σ|δ|/distance).
 inline constexpr double closest_face_distance_tolerance = 12;
 /// Largest error accepted in a weight, in units of u · weight_condition, by the same count.
 inline constexpr double closest_face_weight_tolerance = 12;

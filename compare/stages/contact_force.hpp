@@ -73,8 +73,8 @@ inline constexpr double contact_force_tolerance = 47;
 inline constexpr double contact_block_tolerance = 51;
 /// Largest error of a distance in units of u · scale. Rounding errors: a difference (1), a product and two sums (3),
 /// squares (3), a root (1); twice that, since the weights are not quite those of the closest points. A contact is grey
-/// if its distance is within this error of another feature, of touching or, with ogc_as_printed, of the jump at τ. If
-/// it cannot be told from touching, n is unknown as well, and any answer up to that at d = 2⁻²³ r is accepted.
+/// if this error could change the closest feature, make d = 0 or, with ogc_as_printed, move d across the jump at τ. If
+/// d may be 0, n is unknown as well, and any answer up to the one at d = 2⁻²³ r is accepted.
 inline constexpr double contact_grey = 16;
 
 }  // namespace ogc::compare

@@ -52,8 +52,8 @@ inline constexpr double membrane_force_tolerance = 24;
 /// Largest error of the block. Rounding errors: F (3), twice; its products with ∇N₀ (1 + 2), twice; an outer product
 /// (2), a factor (3), three sums.
 inline constexpr double membrane_block_tolerance = 20;
-/// Largest error of the force of the stable Neo-Hookean model. (Its scales are multiplied by the ratio of this to the
-/// tolerance above, which the judge applies.) Rounding errors, 38 in all:
+/// Largest error of the force of the stable Neo-Hookean model. (The judge applies the tolerance above, so this model's
+/// scales are multiplied by the ratio of this to that.) Rounding errors, 38 in all:
 ///
 /// - (λ + μ)(J − 1) − μ: the normal of two edges (two differences, a product, a difference: 4), its length (2 · 4 + 3
 ///   halved by the root, the root: 7), the density ∇N₁ × ∇N₂ (2), J (10 with these), the rest (4): 14.

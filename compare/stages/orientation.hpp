@@ -85,8 +85,8 @@ inline constexpr double orientation_sign_grey = 20;
 /// - k_s: σ, made of two lengths and three products (4 + 18 + 3).
 inline constexpr double orientation_tolerance = 45;
 /// Largest residual ‖(I − q qᵀ)(M q + b)‖ in units of u · energy_scale. Rounding errors: b (45); M by the counts above
-/// for D, c and k_s, without q (5 + 30 + 25); the answer's own 7 times eigenvalues that are 2 σ apart (14). The larger
-/// sum, that of M, decides.
+/// for D (5), c (30) and k_s (25), and the answer's own 7 times eigenvalues that are 2 σ apart (14). The larger sum,
+/// that of M and the answer, decides.
 inline constexpr double orientation_residual_tolerance = 74;
 /// Largest excess over the least energy, in units of u · energy_scale. If q is known, the excess is of second order. If
 /// b is smaller than its own error, q may lie on the wrong half of the circle of minimisers, which costs 2 · 45.

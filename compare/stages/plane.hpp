@@ -13,9 +13,9 @@
 
 namespace ogc::compare {
 
-/// Returns the input of stage truncate for a vertex with these planes that no force but inertia acts on; empty if
-/// `planes` is empty. `is_prescribed` means that the vertex does not slide. With bounds=dat (planes of *Divide and
-/// Truncate*) no vertex slides, and `current` is X_prev.
+/// Returns the input of stage truncate for a vertex with these planes, with the H of inertia alone; empty if `planes`
+/// is empty. `is_prescribed` means that the vertex does not slide. With bounds=dat (planes of *Divide and Truncate*) no
+/// vertex slides, and `current` is X_prev.
 inline HalfSpacesIn half_spaces_of(std::span<const VertexPlane> planes, const Vec3f& current, bool is_prescribed) {
   if (planes.empty()) return {};
   HalfSpacesIn all{.offsets = {0, static_cast<Index>(planes.size())},
@@ -106,9 +106,9 @@ struct PlaneFreedom {
   /// half-spaces of a separated pair allow less, in units of u · max(d, Σ|δ|).
   double narrowing = 0;
   PrimitivePair narrowest;  ///< the pair of `narrowing`
-  /// Only with displacements. The room of one side of a separated pair is its offset minus its farthest vertex along n;
-  /// it should be 2γ_p s d. This is the largest difference from that in units of u · (max(d, Σ|δ|) + d W/(a + b)). With
-  /// the answer's n,
+  /// Only with displacements. The room of one side of a separated pair is its offset minus its farthest vertex along n.
+  /// It should be 2γ_p s d, where s is the side's share. This is the largest deviation in units of u · (max(d, Σ|δ|) +
+  /// d W/(a + b)). With the answer's n,
   ///
   ///   a = max(0, largest n·w of the first side),  b = max(0, largest −n·w of the second),
   ///   s = a/(a + b) of the first side, b/(a + b) of the second, at least `least_division`; 1/2 if a = b = 0,
@@ -130,16 +130,17 @@ struct PlaneTruth {
 };
 
 /// Largest narrowing in units of u · max(d, Σ|δ|): 2γ_p < 1 times the sum of three errors, each at most 1. The first is
-/// that of n's direction, by which points other than the closest ones face each other. The second is that of n's
-/// length. The third comes from the offsets and from the judge's arithmetic in double. A direction computed in single
-/// precision exceeds this.
+/// the error of n's direction, since along a turned n other points than the closest ones face each other. The second is
+/// the error of n's length. The third comes from the offsets and from the judge's arithmetic in double. A direction
+/// computed in single precision exceeds this.
 inline constexpr double plane_narrowing_tolerance = 3;
-/// Largest division in units of u · (max(d, Σ|δ|) + d W/(a + b)): the room's own error (3, as above) and that of s, at
-/// most 1. a and b are sums of three products in single precision and err by 4 u W. So s errs by 4 u W/(a + b), in a
-/// product with 2γ_p d < d.
+/// Largest division in units of u · (max(d, Σ|δ|) + d W/(a + b)): the room's own error (3, as above) and the error of s
+/// (at most 1). a and b are sums of three products in single precision and err by 4 u W. So s errs by 4 u W/(a + b), in
+/// a product with 2γ_p d < d.
 inline constexpr double plane_division_tolerance = 4;
-/// Largest ball shortfall in units of u γ_p · max(d, Σ|δ|): that of a smallest distance (`detect_below_tolerance`), and
-/// of a product rounded down (2) in a kernel that may round to nearest and step down once more (2).
+/// Largest ball shortfall in units of u γ_p · max(d, Σ|δ|): the error of a smallest distance
+/// (`detect_below_tolerance`), of a product rounded down (2), and of a kernel that rounds to nearest and then steps
+/// down once more (2).
 inline constexpr double plane_ball_tolerance = detect_below_tolerance + 4;
 
 }  // namespace ogc::compare

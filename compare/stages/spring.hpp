@@ -33,7 +33,7 @@ struct SpringIn {
 
 /// Largest error of a spring's force in units of u · scale, u = 2⁻²⁴. Rounding errors:
 ///
-/// - without damping: a difference of vertices (1), its length (3: those of a square and the difference, 1 + 2 + 2 · 1,
+/// - without damping: a difference of vertices (1), its length (3: a square with sums and difference, 1 + 2 + 2 · 1,
 ///   halved by the root, and the root), l₀/l and 1 − l₀/l (2), k_s (1), the product with the vector (1 + 1): 9
 /// - with damping in addition: the second length, its change, two products, a quotient, a sum: 12
 inline constexpr double spring_force_tolerance = 12;

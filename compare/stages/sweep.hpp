@@ -47,7 +47,8 @@ struct SweepIn {
   /// `point` is the vertex, `triangle` and `face` are numbers of the scene; canonical order. Forces act with the frozen
   /// weights and direction on the point and on free corners; `inside`, `face` and `depth` are not read.
   std::span<const VolumeContact> volumes{};
-  /// Colour by segment, in the order of RestStateOut::segments, from 0; −1: held. Neighbours have different colours
+  /// Colour by segment, in the order of RestStateOut::segments, from 0; −1: fixed or prescribed. Neighbours have
+  /// different colours
   std::span<const Index> segment_colour{};
   std::span<const Quaternion> orientation{}, orientation_start{};  ///< q, qᵗ
 };
@@ -88,8 +89,8 @@ inline constexpr double sweep_input_tolerance = 2;
 /// four parts (membrane), and the largest part is at most √(3/2) of the whole (friction's identity before the normal is
 /// subtracted): less than 5. The force is added once.
 inline constexpr double sweep_block_additions = 5;
-/// Error of the inertia: of the force, u w ‖y − x‖ times difference (1), weight w = m/h² (1), product (1); of the
-/// block, u w √3.
+/// Error of the inertia's force in units of u w ‖y − x‖, w = m/h²: a difference (1), w (1), a product (1). The
+/// inertia's block errs by u w √3.
 inline constexpr double sweep_inertia_tolerance = 3;
 /// Backward error of the 3×3 solve in units of u ‖H‖₂: |E| ≤ γ₁₀ |L||D||Lᵀ| for the factors of Cholesky or LDLᵀ and
 /// both substitutions (3n + 1, n = 3; two more for the divisions of LDLᵀ). The norm of |L||D||Lᵀ| is at most n ‖H‖₂.

@@ -19,7 +19,7 @@ struct HalfSpace {
   double offset = 0;  ///< o [m] times the length of n
 };
 
-/// H of a vertex on which no force but inertia acts, which slides along the shortest way.
+/// The identity: H of a vertex on which no force but inertia acts. The vertex then slides along the shortest way.
 inline constexpr std::array<float, 6> inertia_block{1, 0, 0, 1, 0, 1};
 
 /// Half-spaces, and how a vertex slides along them. All arrays are empty if no case has any.
@@ -63,8 +63,8 @@ struct TruncateOut {
 
 /// The exact answer.
 struct TruncateTruth {
-  /// grey: either flag is accepted, because the only deciding margin is too small: that of the ball is in the grey
-  /// zone, or that of a half-space is at most `half_space_slack` (Σ|n_k x_k| + |o|)
+  /// grey: either flag is accepted, because only one margin decides, and it is too small. The ball's margin is in the
+  /// grey zone, or a half-space's margin is at most `half_space_slack` (Σ|n_k x_k| + |o|)
   std::vector<std::uint8_t> cut, grey;
   std::vector<std::uint8_t> near;  ///< 1 where a margin lies within near_factor
   std::vector<Vec3> position;      ///< exact result, rounded to double

@@ -51,11 +51,11 @@ struct VolumeContact {
 /// 8–10, the outer half) x lies nearer than r.
 ///
 /// Part of tetrahedra: those with positive volume form a complex. A sheet is a point of this complex that lies at x,
-/// named by the simplex whose interior contains it; tetrahedra are closed. A way is a segment from x to the closest
-/// point of a boundary triangle whose tetrahedron is positive. The complex must be traversable along it, from one
-/// tetrahedron to another that shares the segment's point with it. The contact of a sheet is at the end of its shortest
-/// way; of equally short ways the one to the lowest-dimensional, then the lowest-numbered face counts. Ways of two
-/// sheets to one face are one contact. A sheet without a way has no contact. Without a sheet x is outside.
+/// named by the simplex whose interior contains it; tetrahedra are closed. A way leads straight from x to the closest
+/// point of a boundary triangle whose tetrahedron is positive. The way must stay in the complex: it passes from one
+/// tetrahedron to another only at a point of the way that both share. The contact of a sheet is at the end of its
+/// shortest way. Of equally short ways the one to the lowest-dimensional, then the lowest-numbered face counts. Ways of
+/// two sheets to one face are one contact. A sheet without a way has no contact. Without a sheet x is outside.
 ///
 /// If x is a vertex of the volume, sheets of tetrahedra and faces that contain this vertex are left out. Outside, at a
 /// face with a triangle of a tetrahedron without positive volume, either side is right, since the surface is folded
@@ -76,8 +76,8 @@ struct VolumeAnswer {
   double depth_scale = 0;           ///< max(‖x − c‖, Σ ‖δ‖) + r [m]
 };
 
-/// What is accepted for a group of sheets of a part of tetrahedra at one point that cannot be told apart with
-/// certainty. Mostly the group is one sheet.
+/// Sheets of a part of tetrahedra at one point, and what is accepted for them. Sheets that cannot be told apart with
+/// certainty form a group; mostly a group is one sheet.
 struct VolumeSheetTruth {
   int exact = 0;                       ///< number of sheets of the group in the exact answer
   bool is_certain = false;             ///< true if there is exactly one sheet, whatever grey decisions give
@@ -144,7 +144,8 @@ inline constexpr double volume_depth_tolerance = 12;
 /// Largest error in units of u · weight_scale, counted as in closest_face.
 inline constexpr double volume_weight_tolerance = 12;
 /// Largest error in units of u · direction_scale. Rounding errors of a normal: two differences (1), a cross product
-/// (3), a length and a quotient (4 + 1). Of a vector to a closest point: those of the depth and a quotient, 12 at most.
+/// (3), a length and a quotient (4 + 1). Rounding errors of a vector to a closest point: those of the depth and a
+/// quotient, 12 at most.
 inline constexpr double volume_direction_tolerance = 12;
 
 }  // namespace ogc::compare

@@ -371,8 +371,9 @@ ListSizes first_capacities(const QuestionSizes& sizes) {
 
 // Returns limits: the first capacities plus the largest numbers of pairs at each detection. Contacts are at most all
 // vertices with all triangles and all ordered pairs of edges; contacts with a volume, all points with all faces. Planes
-// are at most one for each vertex of each pair. The added guess lets the judge recognise contacts that are listed twice
-// in a small mesh. Products of two sizes fit into 64 bits, because sizes fit into 31; 2^40 limits them.
+// are at most one for each vertex of each pair. The first capacities leave room for contacts that are listed twice in a
+// small mesh, so that the judge recognises them. Products of two sizes fit into 64 bits, because sizes fit into 31;
+// 2^40 limits them.
 ListSizes most_entries(const QuestionSizes& sizes) {
   constexpr std::int64_t most = std::int64_t{1} << 40;
   ListSizes entries = first_capacities(sizes);

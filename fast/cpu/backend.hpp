@@ -72,8 +72,8 @@ template <class F>
 F on_packs(const F& f) {
   return f;
 }
-/// Returns the functor that computes the same sums in packs (fast/cpu/pack.hpp), for functors with the sum of all kinds
-/// of stencils.
+/// Returns the functor that computes the same sums in packs (fast/cpu/pack.hpp). Only functors that sum stencils of all
+/// kinds (GatherAll) have one.
 inline UpdateVertex<GatherPacked> on_packs(const UpdateVertex<GatherAll>& f) {
   return {f.view, f.first_slot, f.asks_late};
 }

@@ -79,7 +79,7 @@ struct PackOf {
 
   PackOf() = default;
   PackOf(Numbers packed) : value(packed) {}                    // NOLINT: formulas mix packs with constants
-  PackOf(float everywhere) : value(everywhere - Numbers{}) {}  // NOLINT: less +0 keeps even a zero's sign
+  PackOf(float everywhere) : value(everywhere - Numbers{}) {}  // NOLINT: subtracting +0 keeps the sign of a zero
   explicit PackOf(const float* from) { std::memcpy(&value, from, sizeof value); }
   /// Returns number(k) in lane k.
   template <class F>

@@ -53,8 +53,8 @@ const PackKernels& pack_kernels();
 /// Updates segments begin … end − 1 of a loop in this thread.
 inline void run_range(const UpdateSegment& f, int begin, int end) { pack_kernels().update_segments(f, begin, end); }
 
-/// Computes the same sum as a Gather. Parts with packs for their models are computed in packs, other parts item by
-/// item. With an activation other than `ogc`, or fewer than 4 team lanes, all parts are computed item by item.
+/// Computes the same sum as Gather<AnyActivation, Parts...>. If the activation is `ogc` and W ≥ 4, parts that packs can
+/// compute (has_packs) are computed in packs. All other parts are computed item by item.
 template <class All>
 struct PackedGather;
 template <class... Parts>

@@ -43,14 +43,14 @@ inline constexpr int cuda_block_size = 128;
 /// Loops over a counted number of items cost little even if the capacity is large.
 inline constexpr int threads_per_multiprocessor = 2 * 2048;
 
-/// From this number of team lanes a multiprocessor on, teams are SerialLaneTeams (measured: fast/PERFORMANCE.md). Both
-/// kinds of teams have the same terms and the same order of sums. If the compiler contracts operations, it may do so
-/// differently in the two kernels.
+/// If a launch has at least this number of team lanes for each multiprocessor, its teams are SerialLaneTeams (measured:
+/// fast/PERFORMANCE.md). Both kinds of teams have the same terms and the same order of sums. If the compiler contracts
+/// operations, it may do so differently in the two kernels.
 inline constexpr int serial_lanes_per_multiprocessor = 350;
 
-/// Up to this number of blocks of SerialLaneTeams a multiprocessor, which run at once, warps are strided (see
-/// run_serial_teams). Beyond it blocks run one after the other anyway, and neighbours in one block share more of their
-/// reads (measured: fast/PERFORMANCE.md).
+/// If a launch has at most this number of blocks of SerialLaneTeams for each multiprocessor, all blocks run at once and
+/// warps are strided (see run_serial_teams). Blocks of larger launches run one after the other anyway, and neighbours
+/// in one block share more of their reads (measured: fast/PERFORMANCE.md).
 inline constexpr int strided_blocks_per_multiprocessor = 5;
 
 /// Returns F::resident_blocks, the number of blocks that a multiprocessor should run at once; the compiler limits

@@ -18,13 +18,13 @@ constexpr std::size_t alignment = 256;  // the alignment of cudaMalloc, which CU
 std::size_t aligned(std::size_t bytes) { return (bytes + alignment - 1) / alignment * alignment; }
 
 constexpr int scan_threads = 512, scan_items = 4, scan_tile = scan_threads * scan_items;
-/// Number of items of the longest short scan. Its last block reads them all in 2 µs, at a multiprocessor's rate from
-/// the second-level cache (64 B a cycle).
+/// Largest number of items of a short scan. The last block reads them all in 2 µs, because a multiprocessor reads 64 B
+/// a cycle from the second-level cache.
 constexpr int longest_short_scan = 1 << 16;
 
-// Scans without communication between blocks. Each block adds everything before its tile: in a short scan item by item,
-// otherwise the tiles' sums in `sums`. CUB's scan would take two launches for each scan, and neither could begin early.
-// The first blocks run the first scan, the others the second.
+// Runs scans without communication between blocks. Each block adds everything before its tile: in a short scan item by
+// item, otherwise the tiles' sums in `sums`. CUB's scan would take two launches for each scan, and neither could begin
+// early. The first blocks run the first scan, the others the second.
 __global__ void __launch_bounds__(scan_threads)
     scan_tiles(Scan first_scan, int first_blocks, Scan second_scan, const int* sums) {
   follow_launch();

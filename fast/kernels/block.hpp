@@ -19,8 +19,8 @@ OGC_HD inline bool in_vertex_block(const Vec& x, int v, const SurfaceView& surfa
   return true;
 }
 
-/// Returns whether x lies in U_e, apart from its distance: on the far side of every triangle at e (Eq. 9). x must lie
-/// between the planes that end e.
+/// Returns whether x lies in U_e, apart from its distance: on the far side of every triangle at e (Eq. 9). x must
+/// project into the interior of e.
 OGC_HD inline bool in_edge_block(const Vec& x, int e, const SurfaceView& surface, PaddedVecs positions) {
   const EdgeEnds& ends = surface.edges[e];
   const Rows& rows = surface.opposites;
@@ -42,19 +42,21 @@ OGC_HD inline bool in_vertex_block(const EdgeEnds& other, int v, const SurfaceVi
 }
 
 // The functions below reject pairs of edges for which single precision proves that they are no contact, however near
-// they are. If edges are shorter than r, this is nearly every pair within r: in a rod all edges with their next but
-// one, between two crossing rods all pairs but the nearest.
+// they are. If edges are shorter than r, this is nearly every pair within r: in a rod, each edge with its second
+// neighbour; between two crossing rods, all pairs but the nearest.
 //
 // Let v be an end of an edge, v + g its other end, c the point of the other edge nearest to v, and d = c − v. The
 // distance between a point of one edge and a point of the other is convex. At (v, c) no move of c reduces it. If d·g <
-// 0, every move of v increases it, so v is the only closest point of its edge. A contact of the two edges is then a
-// contact of v, with c in the block of v. But c is not in this block if d·(w − v) > 0 for a neighbour w of v: if c is
-// inside its edge, Receding is < 0, and if c is an end, End is > 0 (predicates.hpp), so in_vertex_block returns false.
-// Nearly parallel edges that overlap may have contacts elsewhere (method.md §1.4), so they are never rejected.
+// 0, every move of v increases it, so v is the only closest point of its edge. A contact of the two edges would then be
+// a contact of v, which requires that c is in the block of v. But c is not in this block if d·(w − v) > 0 for a
+// neighbour w of v: if c is inside its edge, Receding is < 0, and if c is an end, End is > 0 (predicates.hpp), so
+// in_vertex_block returns false. Nearly parallel edges that overlap may have contacts elsewhere (method.md §1.4), so
+// they are never rejected.
 //
 // Rounding: let u = 2⁻²⁴, F the edge of c, and S the sum of the 1-norms of F and of the vector from v to the start of
 // F. A difference errs by u of itself, a dot product by 6 u of the product of the lengths. So the parameter of c times
-// ‖F‖ errs by 16 u S, d by 24 u S, d·g by 32 u S ‖g‖₁. The code uses 64 u S ‖g‖₁, plus more than underflow can take.
+// ‖F‖ errs by 16 u S, d by 24 u S, d·g by 32 u S ‖g‖₁. The code uses 64 u S ‖g‖₁, plus a limit of the error that
+// underflow causes.
 
 /// Exceeds the error that underflow causes in a sum of products of two lengths, if squared edges are above 2⁻¹⁰⁰ [m²].
 inline constexpr float lost_to_underflow = 0x1p-120F;
@@ -82,8 +84,8 @@ OGC_HD inline bool is_passed_over(int v, int inner, const EdgeEnds& other, const
   return false;
 }
 
-/// Returns whether two edges without a common vertex certainly have no contact; p is the lower-numbered one. If it
-/// returns false, they may have one or not.
+/// Returns whether two edges without a common vertex certainly have no contact; p is the lower-numbered one. If the
+/// result is false, they may still have none.
 OGC_HD inline bool is_surely_no_contact(const EdgeEnds& p, const EdgeEnds& q, const SurfaceView& surface,
                                         PaddedVecs x) {
   const Vec a = x[p.a], e = x[p.b] - a, f = x[q.b] - x[q.a], w = x[q.a] - a;

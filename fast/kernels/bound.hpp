@@ -9,7 +9,8 @@ namespace ogc::fast {
 /// b_v of a vertex that is not on the surface, and so has no bound.
 inline constexpr float largest_float = 0x1.fffffep127f;
 
-/// Sets all smallest distances to r_q before a query, which finds no larger ones. Index up to the largest count.
+/// Sets all smallest distances to r_q before a query, which only lowers them. Runs once for each index of a vertex, an
+/// edge or a triangle.
 struct ResetDistances {
   const float* query_radius;  ///< r_q [m], on the backend
   const int* overflow;        ///< on the backend; if it is not 0 a list was too small, and nothing is written
@@ -24,7 +25,7 @@ struct ResetDistances {
   }
 };
 
-/// Computes b_v: γ_p times the smallest of the distances of v, its edges and its triangles. Index over vertices.
+/// Computes b_v: γ_p times the smallest of the distances of v, its edges and its triangles. Runs once for each vertex.
 struct ConservativeBound {
   SurfaceView surface;
   /// smallest distances by vertex, edge and triangle, at most r_q (Eq. 22, 24, 26) [m]

@@ -54,8 +54,8 @@ OGC_HD inline float squared_gap(const Box& a, const Box& b) {
 /// covers the rounding errors of the gap (2.5 u), the root (u) and this product (u), u = 2⁻²⁴.
 OGC_HD inline float gap_below(float squared) { return mul(square_root(squared), 1 - 0x1p-21F); }
 
-/// Returns the limit for squared gaps that belongs to a reach: boxes with a larger squared gap have gap_below ≥ reach.
-/// With u = 2⁻²⁴ the factor is 1 + 64 u; 20 u for gap_below and 2 u for the two products here would suffice.
+/// Returns the limit of squared gaps for a reach: boxes with a larger squared gap have gap_below ≥ reach. With u = 2⁻²⁴
+/// the factor is 1 + 64 u; 20 u for gap_below and 2 u for the two products here would suffice.
 OGC_HD inline float gap_limit(float reach) { return mul(mul(reach, reach), 1 + 0x1p-18F); }
 
 /// Holds a box, the gap limit of its reach and, in level 0, its primitive. A device reads it in two loads of 16 B.
@@ -181,8 +181,8 @@ OGC_HD void for_each_near(const Tree& tree, const Box& box, int from, const floa
 }
 
 /// Computes the reach of primitives: the smaller of r_q and an upper bound of the primitive's smallest distance. The
-/// bound is the distance between a vertex and an edge nearby in the mesh (SurfaceView's seeds). These belong to a pair
-/// that the query must find, so the smallest distance is at most this bound.
+/// bound is the distance between a vertex and an edge nearby in the mesh (SurfaceView's seeds). The query must find a
+/// pair that contains this vertex and this edge, so the smallest distance is at most this bound.
 struct Reach {
   SurfaceView surface;
   const Vec* positions;       ///< by vertex [m]
@@ -221,8 +221,7 @@ struct Reach {
     nearest.squared = smaller(nearest.squared, squared_to_segment(u, e));
     nearest.size = larger(nearest.size, add(norm_1(u), norm_1(e)));
   }
-  /// Returns the reach, rounded up. It adds four times 2⁻⁴⁸ (norm_1(u) + norm_1(e)), the error of the root of
-  /// squared_to_segment.
+  /// Returns the reach, rounded up. It adds 2⁻⁴⁶ `size`, four times the error of the root of squared_to_segment.
   OGC_HD float above(const Nearest& nearest) const {
     return smaller(*query_radius, round_up(add(square_root(nearest.squared), mul(0x1p-46, nearest.size))));
   }
@@ -232,11 +231,11 @@ struct Reach {
 /// node of empty children, so the result is at least 1.
 OGC_HD inline int level_size(int count, int level) { return count > 0 ? ((count - 1) >> (2 * level + 2)) + 1 : 1; }
 
-/// Computes the boxes and gap limits of all primitives and nodes, and the gap limits of vertices. Index: places of
-/// facets, then places of edges, each padded to a multiple of 32, then vertices. A thread climbs from its primitive to
-/// the root. At each node only the last thread that completes one of its 16 grandchildren continues, so one launch
-/// refits the whole tree. No bit depends on which thread continues. The 32 threads of a warp must call this together,
-/// because they exchange the lowest two levels in registers.
+/// Computes the boxes and gap limits of all primitives and nodes, and the gap limits of vertices. Runs once for each
+/// place of facets, then for each place of edges, then for each vertex; each of the three groups is padded to a
+/// multiple of 32. A thread climbs from its primitive to the root. At each node only the last thread that completes one
+/// of its 16 grandchildren continues, so one launch refits the whole tree. No bit depends on which thread continues.
+/// The 32 threads of a warp must call this together, because they exchange the lowest two levels in registers.
 struct RefitTrees {
   Reach reach;
   TreeView facets, edges;               ///< in the order of the last sort; boxes and gap limits are written
@@ -285,8 +284,8 @@ struct RefitTrees {
 
   static constexpr unsigned everyone = 0xffffffffU;
 
-  /// Returns the union of four threads' children to all four threads. The lanes of these threads are `apart` from each
-  /// other.
+  /// Returns the union of four threads' children to all four threads. The lane numbers of these threads differ by
+  /// `apart`, 2 `apart` and 3 `apart`.
   OGC_HD static Child of_four(Child child, int apart) {
     for (int step = apart; step <= 2 * apart; step *= 2) {
       const auto other = [step](float number) { return __shfl_xor_sync(everyone, number, step); };
@@ -338,7 +337,7 @@ struct RefitTrees {
     }
   }
 
-  /// Returns a node in the form of a child of the node above it.
+  /// Returns the box and the reach of a node as a child of the node above it.
   OGC_HD static Child whole(const Quad& quad) {
     const Box box = quad.whole();
     return {box.lower, quad.whole_reach(), box.upper, -1};

@@ -104,10 +104,10 @@ struct EdgeParameters {
   double first = 0, second = 0;
 };
 
-/// Returns one end of the overlap of two nearly parallel edges, as parameters on p and on the line of q. It is the end
-/// `end` of q or, if this lies beyond p, an end of p. At an end of q the parameter of q is computed relative to this
-/// end: relative to p's end, it would be a difference rounded at the size of p, 10⁷ roundings if q is 10⁻⁷ times as
-/// long.
+/// Returns one end of the overlap of two nearly parallel edges, as parameters on p and on the line of q. This is the
+/// end `end` of q or, if that end projects beyond p, an end of p. For an end of q, the parameter on q is computed
+/// relative to this end. Relative to an end of p it would have the rounding error of p's length, 10⁷ times as large if
+/// q is 10⁻⁷ times as long as p.
 OGC_HD inline EdgeParameters overlap_end(const Ends& p, const Ends& q, int end) {
   const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), u = difference<Rounded>(q[end], p.a);
   const double along = dot(u, e).value, ee = squared(e), ff = squared(f);

@@ -6,15 +6,16 @@
 
 namespace ogc::fast {
 
-/// Enters in the lists the contacts that noted pairs generate. Index over these pairs.
+/// Enters the contacts of noted pairs in the lists. Runs once for each noted pair.
 struct CollectContacts {
-  /// limits a thread to 128 registers; 6 blocks would spill more than the added warps gain (fast/PERFORMANCE.md)
+  /// limits a thread to 128 registers; with 6 blocks, spilled registers cost more than the added warps gain
+  /// (fast/PERFORMANCE.md)
   static constexpr int resident_blocks = 4;
   CollectVertexFacet vertex_facet;  ///< decides pairs whose first number is ~vertex, and so negative
   /// decides pairs of edges
   CollectEdgeEdge edge_edge;
   ListsView lists;  ///< contacts are entered here; nothing is done if the overflow flag is set
-  /// by noted pair, rounded down [m]; set if pairs beyond r are noted, too, for their planes
+  /// distance of each noted pair, rounded down [m]; null unless pairs beyond r are noted, too, for their planes
   const float* distances = nullptr;
 
   OGC_HD void operator()(int i) const {

@@ -83,8 +83,9 @@ OGC_HD inline TriangleWeights on_ab(float t) { return {1.0f - t, t, 0.0f}; }
 /// edge replaces the triangle.
 ///
 /// A point that does not project into the interior lies beyond one edge or two. Beyond one edge, the closest point is
-/// on this edge. Beyond two, it is on the edge on which the point's foot is not their common corner. Signs decide this,
-/// not distances: far above a corner the distances to both edges agree in all digits, although the feet differ.
+/// on this edge. Beyond two edges, it is on the edge whose point closest to x[0] is not the common corner of both.
+/// Signs decide this, not distances: far above a corner the distances to both edges agree in all digits, although their
+/// closest points differ.
 OGC_HD inline TriangleWeights closest_on_triangle(const Vec* x) {
   const PointAndTriangle<float> at(x);
   if (at.is_inside()) return at.weights();
@@ -133,15 +134,16 @@ struct TwoSegments {
     const Vector<T> normal = cross(first, second);
     sine = dot(normal, normal), to_start = dot(first, between);
   }
-  /// Returns whether the segments are nearly parallel: ‖e × e'‖² < 10⁻⁶ ‖e‖² ‖e'‖².
+  /// Returns whether the segments are nearly parallel: ‖first × second‖² < 10⁻⁶ ‖first‖² ‖second‖².
   OGC_HD Mask<T> is_parallel() const { return sine < 1e-6f * aa * bb; }
   /// Returns whether `parameters` is valid: both segments have a length, and they are not nearly parallel.
   OGC_HD Mask<T> is_usual() const { return aa > T(0.0f) && bb > T(0.0f) && !is_parallel(); }
   OGC_HD SegmentParametersOf<T> parameters() const { return beside(on_first()); }
   /// Returns the parameter of the point of the first line closest to the second line, clamped to the first segment.
   OGC_HD T on_first() const { return clamp_unit(dot(cross(between, second), cross(first, second)) / sine); }
-  /// Returns the parameter s on the first segment, and the parameter of the closest point of the second segment. If
-  /// this point is an end, s is replaced by the parameter of the point of the first segment closest to this end.
+  /// Returns `s` and the parameter of the point of the second segment closest to the point of the first segment at `s`.
+  /// If this closest point is an end, `s` is replaced by the parameter of the point of the first segment closest to
+  /// this end.
   OGC_HD SegmentParametersOf<T> beside(const T& s) const {
     const T t = (s * ab - dot(second, between)) / bb;
     const Mask<T> is_inside = t > T(0.0f) && t < T(1.0f);
@@ -260,8 +262,8 @@ OGC_HD T add_contact(const Activation& activation, const ContactShapeOf<T>& shap
   return -at.slope;
 }
 
-/// Returns the mollifier e_k of two edges (method.md §4.3). With ε = 10⁻³ ‖ē‖²‖ē'‖² from the rest lengths and q = ‖e ×
-/// e'‖²/ε, it is q(2 − q) for q < 1, else 1.
+/// Returns the mollifier e_k of two edges (method.md §4.3). With ε = 10⁻³ times the product of their squared rest
+/// lengths and q = ‖first × second‖²/ε, it is q(2 − q) for q < 1, else 1.
 OGC_HD inline float mollifier(const Vec& first, const Vec& second, float rest_squared_first,
                               float rest_squared_second) {
   const Vec normal = cross(first, second);

@@ -106,7 +106,8 @@ OGC_HD inline std::uint8_t slot_of_role(bool edge_edge, ContactKind kind, int ro
   return static_cast<std::uint8_t>(shifted ? role + 1 : role);
 }
 
-/// Writes each vertex's row of the stream. Index over slots. `Item` is a type of incidence; a row may be in any order.
+/// Writes each vertex's row of the stream. Runs once for each slot. `Item` is a type of incidence; a row may be in any
+/// order.
 template <class Item>
 struct CopyContactRows {
   const int* incidence_offsets;  ///< by vertex, vertices + 1
@@ -124,8 +125,8 @@ struct CopyContactRows {
   }
 };
 
-/// Writes the contact of an incidence to its place in the stream. The index is this place. step_detection.hpp passes
-/// the incidence, too; otherwise it is read from view.incidences.
+/// Writes the contact of an incidence to its place in the stream, which is the index. step_detection.hpp passes the
+/// incidence, too; otherwise it is read from view.incidences.
 struct ResolveContact {
   ContactView view;  ///< records of the detection
   ContactTables tables;
@@ -161,7 +162,7 @@ OGC_HD inline double contact_energy(const ContactIncidence& contact, const Vec* 
   return activation.energy(activation_distance(shape.distance, contact_radius), contact_radius, contact.stiffness);
 }
 
-/// Adds the energies of the vertex–facet contacts. Index over their records.
+/// Adds the energies of the vertex–facet contacts. Runs once for each of their records.
 struct VertexFacetTerm {
   ContactView view;
   ContactTables tables;  ///< of the last detection, which gives e_k
@@ -175,7 +176,7 @@ struct VertexFacetTerm {
   }
 };
 
-/// Adds the energies of the edge–edge contacts. Index over their records.
+/// Adds the energies of the edge–edge contacts. Runs once for each of their records.
 struct EdgeEdgeTerm {
   ContactView view;
   ContactTables tables;  ///< of the last detection, which gives e_k

@@ -99,7 +99,7 @@ struct StepControl {
 
 /// Returns whether a detection is due because of cuts, and resets the counts. It is due if at least `least_cut`
 /// vertices were cut, or one while a vertex is deep inside a volume. It is also due if prescribed vertices lag and one
-/// of them has moved since the last detection; if none has moved, only once a step.
+/// of them has moved since the last detection. If none of them has moved, it is due only once in a step.
 OGC_HD inline bool take_request(StepControl& c, int least_cut) {
   const bool lag_asks = c.lagging > 0 && (c.advanced > 0 || c.lag_asked == 0),
              asks = c.cut >= least_cut || (c.cut > 0 && c.deep_inside > 0);

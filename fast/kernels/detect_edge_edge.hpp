@@ -52,7 +52,7 @@ struct DetectEdgeEdge {
   }
 
   /// Returns whether the distance of a pair is not needed: it lowers no smallest distance, and the pair is no contact.
-  /// `apart` is a lower bound of it [m].
+  /// `apart` is a lower bound of the distance [m].
   OGC_HD bool is_idle(const Search& search, const Offer& offer, float apart) const {
     const float own = atomic_load(&d_min_edge[search.owner]), theirs = atomic_load(&d_min_edge[offer.primitive]);
     const float lowering = larger(smaller(search.reach, gap_limit(own)), smaller(offer.reach, gap_limit(theirs)));
@@ -137,10 +137,10 @@ struct CollectEdgeEdge {
     return (v < 0 || is_end_hit(v, w < 0, w, q)) && (w < 0 || is_end_hit(w, v < 0, v, p));
   }
 
-  /// Returns whether is_hit is true at another place of two nearly parallel edges: for a pair of ends, or for an end
-  /// that projects into the other edge. If edges are exactly parallel, these places include both ends of the overlap.
-  /// If is_hit is true there, no points of the edges are nearer, because each block also has a condition for its own
-  /// edge.
+  /// Returns whether is_hit is true for another pair of faces of two nearly parallel edges: for two ends, or for an end
+  /// that projects into the interior of the other edge. If the edges are exactly parallel, these pairs include both
+  /// ends of the overlap. If is_hit is true for such a pair, no points of the edges are nearer, because the block of an
+  /// end excludes all points that project onto its own edge.
   OGC_HD bool is_hit_beside(const EdgeEnds& p, const EdgeEnds& q) const {
     for (int i = 0; i < 2; ++i) {
       const auto end = static_cast<EdgeFeature>(i);

@@ -1,6 +1,6 @@
 // Runs Algorithm 1. A pair's distance is taken as the larger of its computed lower bound and the gap of its boxes,
 // which never exceeds the exact distance. If this gap reaches the smallest distances found so far, the pair cannot
-// lower them by one bit. So it may be skipped, whatever the order in which searches find smallest distances.
+// lower them. So it may be skipped, whatever the order in which searches find smallest distances.
 //
 // A search computes the smallest distances and notes each pair that may be nearer than r. Afterwards, one thread for
 // each noted pair decides whether it is a contact, and with which face (collect_contacts.hpp). Few pairs need this

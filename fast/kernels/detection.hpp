@@ -10,7 +10,7 @@
 namespace ogc::fast {
 
 /// Copies positions into aligned vectors, clears the lists, sets smallest distances to r_q, and refits the trees. The
-/// four operations are independent of each other. Index over count(), in whole warps.
+/// four operations are independent of each other. Runs once for each index below count(), in whole warps.
 struct BeginDetection {
   const Vec* positions;  ///< by vertex [m]
   PaddedVec* padded;     ///< the same positions in aligned vectors, written

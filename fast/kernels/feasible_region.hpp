@@ -37,8 +37,8 @@ OGC_HD inline Excess excess(const Vec& n, double offset, const Vec& x) {
 
 /// Returns whether n·x ≤ o is certain. The three products of floats are exact in double. Let S = Σ|n_k x_k| + |o|. The
 /// two sums and the difference err by at most 2⁻⁵³ S each, and the computed S is too small by at most 3 roundings:
-/// under 2⁻⁵¹ S together. Adding this to the value cannot change the sign by rounding. Returns false if x is not
-/// finite.
+/// under 2⁻⁵¹ S together. The sum of the value and this limit is rounded, too, which cannot change its sign. Returns
+/// false if x is not finite.
 OGC_HD inline bool is_behind(const HalfSpace& plane, const Vec& x) {
   const Excess e = excess(plane.normal, plane.offset, x);
   return add(e.value, mul(0x1p-51, e.size)) <= 0;

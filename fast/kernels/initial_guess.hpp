@@ -14,7 +14,7 @@
 namespace ogc::fast {
 
 /// Sets x = xᵗ and y for each vertex, and finds the largest move. For a prescribed vertex y is the target of this step,
-/// for a fixed vertex its position. Index over all vertices.
+/// for a fixed vertex its position. Runs once for each vertex.
 struct BeginVertex {
   const Vec* start;               ///< xᵗ
   const Vec* velocity;            ///< vᵗ
@@ -51,14 +51,14 @@ struct BeginVertex {
 
 /// Checks before a detection, in double on stored positions, that each vertex is in its old region; then sets X_prev ←
 /// x. Before the first detection of a step it checks nothing, because the end of the previous step checked the old
-/// regions. Index over all vertices.
+/// regions. Runs once for each vertex.
 struct BeginRegions {
   const Vec* position;    ///< x by vertex [m]
   FeasibleRegions ended;  ///< regions of the last detection
   Vec* previous;          ///< X_prev by vertex [m], written
   StepControl* control;   ///< on the backend; vertices outside their region are counted
-  /// w by vertex [m], written: y − x if `target` is set, else x − X_prev; null if no gaps are divided by speed (only
-  /// bounds=dat)
+  /// w by vertex [m], written: y − x if `target` is set, else x − X_prev; null unless planes divide gaps by speed
+  /// (bounds=dat)
   Vec* displacement = nullptr;
   const Vec* target = nullptr;  ///< y by vertex in the guess loop, later null; read only if `displacement` is set
 
@@ -72,12 +72,12 @@ struct BeginRegions {
 
 /// Sets x to y, truncated to the region. Before this, contacts may shorten the move of a free vertex. The truncation
 /// slides it along half-spaces with the metric of inertia. From the second round on, a prescribed vertex that touches
-/// others stays, because only the sweeps move its neighbours out of its way. Index over all vertices.
+/// others stays, because only the sweeps move its neighbours out of its way. Runs once for each vertex.
 struct GuessVertex {
   const Vec* target;        ///< y by vertex [m]
   FeasibleRegions regions;  ///< about X_prev
-  /// reads one half of the double buffer `taken`: in even rounds the first, in odd rounds the second; `taken` below
-  /// gets the other
+  /// reads the first half of the double buffer `taken` in even rounds, the second half in odd rounds; the kernel writes
+  /// the other half
   GuessContacts contacts;
   int vertex_count;              ///< length of one half of `taken`
   Vec* taken;                    ///< both halves: what contacts removed from each vertex's move [m], written
@@ -117,12 +117,12 @@ struct GuessVertex {
 };
 
 /// Copies xᵗ and x after the guess loop into the buffers of the sweep. Both position buffers get x, because the sweep
-/// never writes fixed vertices. Index over all vertices.
+/// never writes fixed vertices. Runs once for each vertex.
 struct BeginSweep {
   const Vec* start;         ///< xᵗ by vertex [m]
   const Vec* position;      ///< x by vertex [m]
   PaddedVec* padded_start;  ///< xᵗ by vertex [m], written
-  PaddedVec* padded;        ///< x by vertex, in the old buffer and in the fresh one behind it, written [m]
+  PaddedVec* padded;        ///< x by vertex, in the old buffer and in the fresh buffer behind it, written [m]
   int vertex_count;         ///< length of one buffer
 
   OGC_HD void operator()(int v) const {

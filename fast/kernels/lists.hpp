@@ -205,7 +205,7 @@ struct ListsView {
   }
 };
 
-/// Clears the contacts, but not the noted pairs. Index over the larger number of buckets and vertices.
+/// Clears the contacts, but not the noted pairs. Runs once for each index of a bucket or a vertex.
 struct ForgetContacts {
   ListsView lists;
   int vertices;
@@ -218,7 +218,7 @@ struct ForgetContacts {
   }
 };
 
-/// Clears the noted pairs. One item.
+/// Clears the noted pairs. Runs once.
 struct ForgetNoted {
   ListsView lists;
 
@@ -227,7 +227,7 @@ struct ForgetNoted {
   }
 };
 
-/// Clears all lists at the start of a detection. Index over the larger number of buckets and vertices.
+/// Clears all lists at the start of a detection. Runs once for each index of a bucket or a vertex.
 struct PrepareLists {
   ListsView lists;
   int vertices;
@@ -252,8 +252,8 @@ struct CheckCapacity {
 
 /// Moves each contact to its bucket, with its edges from the table, and clears its slot. If both faces are edge
 /// interiors, these edges are the faces themselves. The kernel runs at the same time as CheckCapacity and may miss a
-/// new overflow flag: then nothing reads its output, and it writes only within the counted buckets. Index over all
-/// contacts.
+/// new overflow flag: then nothing reads its output, and it writes only within the counted buckets. Runs once for each
+/// contact.
 struct FillBuckets {
   ListsView lists;
   int vertex_count;
@@ -288,7 +288,7 @@ OGC_HD inline void add_incidences(const ListsView& lists, const RoleVertices& ve
   }
 }
 
-/// Writes the record and the incidences of each contact. Index over all contacts in their buckets.
+/// Writes the record and the incidences of each contact. Runs once for each contact, bucket by bucket.
 struct WriteRecords {
   ListsView lists;
   ContactFaces faces;
@@ -323,8 +323,9 @@ struct WriteRecords {
     for (int k = begin; k < end; ++k) before += lists.bucketed[k].second < own.second ? 1 : 0;
     return before;
   }
-  /// Returns whether the face is the edge's interior or one of its ends. It finds which of the two generating edges
-  /// contains the first face, and is `first_edge` of the record. Only one does, because these edges share no vertex.
+  /// Returns whether the face is the edge's interior or one of its ends. So the kernel finds which of the two
+  /// generating edges contains the first face: the record's `first_edge`. Only one of the two contains it, because they
+  /// share no vertex.
   OGC_HD bool holds(int face, int edge) const {
     const EdgeEnds& ends = faces.surface.edges[edge];
     return face < faces.surface.vertex_count ? (ends.a == face || ends.b == face)
@@ -332,7 +333,7 @@ struct WriteRecords {
   }
 };
 
-/// Adds the incidences of existing records. Index over all records, vertex–facet records first.
+/// Adds the incidences of existing records. Runs once for each record, vertex–facet records first.
 struct FillIncidences {
   ListsView lists;
   int vertex_facet_count;  ///< vertex–facet records; edge–edge ones follow in the index
@@ -349,7 +350,7 @@ struct FillIncidences {
   }
 };
 
-/// Sorts each row of loose incidences in ascending order. Index over all incidences: the place of each is the number of
+/// Sorts each row of loose incidences in ascending order. Runs once for each incidence: its place is the number of
 /// smaller ones in its row. Rows are short, and no thread waits for the longest row.
 struct RankIncidences {
   ListsView lists;

@@ -37,10 +37,10 @@ struct StepRow {
   int left_held = 0;
 };
 
-/// Checks a vertex at the end of a step: its certificate, its lag, and its bound (with planes: its smallest distance).
-/// Index over all vertices.
+/// Checks the certificate of a vertex at the end of a step, and updates the largest lag and the smallest bound (with
+/// planes: the smallest distance). Runs once for each vertex.
 struct CheckVertex {
-  const Vec* position;             ///< regions of the last detection
+  const Vec* position;             ///< x by vertex [m]
   FeasibleRegions regions;         ///< of the last detection
   const Vec* target;               ///< y by vertex [m]
   const int* prescribed_number;    ///< by vertex: number among the prescribed ones; −1 free, −2 fixed
@@ -66,7 +66,7 @@ struct EndCheck {
   OGC_HD void operator()(int) const { stop_if_failed(*control); }
 };
 
-/// Commits a vertex of a step that did not fail: v = (x − xᵗ)/h, xᵗ = x. Index over all vertices.
+/// Commits a vertex of a step that did not fail: v = (x − xᵗ)/h, xᵗ = x. Runs once for each vertex.
 struct CommitVertex {
   const Vec* position;         ///< x by vertex [m]
   float step;                  ///< h [s]
@@ -82,7 +82,7 @@ struct CommitVertex {
   }
 };
 
-/// Copies the bounds into a stored state. Index over all vertices.
+/// Copies the bounds into a stored state. Runs once for each vertex.
 struct CopyBound {
   const float* from;  ///< b_v by vertex [m]
   float* to;
@@ -91,7 +91,7 @@ struct CopyBound {
 };
 
 /// Adds the terms of a vertex to the sums, before the commit: kinetic energy, gravity, lost momentum and last motion.
-/// Of the sums after the guess loop only the lost momentum is reported.
+/// After the guess loop, only the lost momentum is reported.
 struct VertexTerm {
   const Vec* position;           ///< x by vertex [m]
   const PaddedVec* before;       ///< x by vertex before the last sweep [m]; null if there was none

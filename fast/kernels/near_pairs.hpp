@@ -1,5 +1,5 @@
 // Searches for a detection that places planes. It notes every pair within r_q, even if its vertices have nearer pairs:
-// which pairs of a vertex have no plane is only known when all its pairs are known.
+// whether a pair has a plane is only known when all pairs of its vertices are known.
 #pragma once
 
 #include "fast/kernels/detect_edge_edge.hpp"
@@ -55,7 +55,8 @@ struct NearEdgeEdge : DetectEdgeEdge {
     return {child.box(), child.primitive, i + 1, gap_limit(*query_radius)};
   }
 
-  /// Returns the gap limit of r_q; a negative number as NearVertexFacet::candidate_limit does.
+  /// Returns the gap limit of r_q. The result is negative if the boxes are farther apart, or if the edges form no pair
+  /// (method.md §2.3).
   OGC_HD float candidate_limit(const Search& search, const Offer& offer) const {
     if (offer.gap > search.limit) return -1.0F;
     const EdgeEnds p = surface.edges[search.owner], q = surface.edges[offer.primitive];

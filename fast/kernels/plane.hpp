@@ -43,8 +43,8 @@ OGC_HD double shadow_gap(const Real& direction, const Real (&first)[m], const Re
 }
 
 /// Replaces `best` if the new direction has a larger gap. For any direction the gap between the projections of two
-/// convex sets is at most their distance. It is equal to the distance along the line of their closest points. So this
-/// line wins without a decision which faces hold these points.
+/// convex sets is at most their distance. It is equal to the distance along the line of their closest points. So the
+/// direction with the largest gap is this line; which faces hold these points need not be decided.
 template <int m, int n>
 OGC_HD void offer_direction(Real& best, double& best_gap, const Real& direction, const Real (&first)[m],
                             const Real (&second)[n]) {
@@ -102,14 +102,14 @@ OGC_HD inline Distance distance_of(const PairPoints<2, 2>& pair) {
   return edge_edge_distance({pair.first[0], pair.first[1]}, {pair.second[0], pair.second[1]});
 }
 
-/// Returns the first side's share of the approach that both sides may make together, 2γ_p times the gap: one half.
+/// Returns one half: the first side's share of the approach that both sides may make together, 2γ_p times the gap.
 struct Halved {
   OGC_HD double operator()(const Vec&) const { return 0.5; }
 };
 
-/// Returns this share in proportion to the speeds of both sides along n (method.md §5.6, `bounds=dat`). The speed of
-/// the first side is its largest n·w, that of the second its largest −n·w; it is 0 for a side that moves away. The
-/// share is clamped to least_division … 1 − least_division.
+/// Returns the first side's share of the approach that both sides may make together, in proportion to their speeds
+/// along n (method.md §5.6, `bounds=dat`). The speed of the first side is its largest n·w, the speed of the second side
+/// its largest −n·w; it is 0 for a side that moves away. The share is clamped to least_division … 1 − least_division.
 template <int first_count, int second_count>
 struct ByApproach {
   Vec first[first_count], second[second_count];  ///< w by vertex of the side [m]
@@ -127,10 +127,10 @@ struct ByApproach {
 };
 
 /// Returns the plane of a pair at its positions. `share` is γ_p, `below` a lower bound of the pair's distance. Together
-/// both sides may approach by 2γ_p of the gap; division(n) of this is the first side's share. If one side is fixed the
-/// other has all of it. The fixed side's offset is then half way between the fixed side and the other side's offset.
-/// Offsets are computed from the points themselves, so n need not be exact. All points must pass the test that
-/// truncation uses; otherwise the pair has no plane.
+/// both sides may approach by 2γ_p of the gap, of which division(n) is the first side's share. If one side is fixed,
+/// the other side has the whole approach. The fixed side's offset is then half way between the fixed side and the other
+/// side's offset. Offsets are computed from the points themselves, so n need not be exact. All points must pass the
+/// test that truncation uses; otherwise the pair has no plane.
 template <int m, int n, class Division = Halved>
 OGC_HD PairPlane plane_of(const PairPoints<m, n>& pair, float below, float share, const Division& division = {}) {
   PairPlane plane;
@@ -243,8 +243,9 @@ OGC_HD Point along_planes(const FeasibleRegion& region, Point y, const Metric& m
 }
 
 /// Moves one coordinate of x by one float into the first half-space that x violates, or into the ball. It chooses the
-/// coordinate whose step moves x farthest inside, because floats near 0 are too close together. Storing moves a point
-/// out of a half-space by at most Σ |n_k| half a spacing of coordinate k, so two nudges suffice.
+/// coordinate whose step moves x farthest inside, because floats near 0 are too close together. Let s_k be the spacing
+/// of floats at coordinate k. Storing moves a point out of a half-space by at most Σ |n_k| s_k/2, so two nudges
+/// suffice.
 template <class Lanes>
 OGC_HD Vec nudged(const FeasibleRegion& region, Vec x, const Lanes& lanes) {
   const int left = first_left(region, x, lanes);
@@ -266,8 +267,8 @@ OGC_HD Vec stored_inside(const FeasibleRegion& region, const Point& y, const Lan
   return x;
 }
 
-/// Returns the share of the straight way from `from` to y that lies in the region; `from` is in the region. The end
-/// keeps enough distance from its boundary that storing and `steps` nudges do not leave the region.
+/// Returns the share of the straight path from `from` to y that lies in the region; `from` is in the region. The end of
+/// this share is so far from the region's boundary that storing and `steps` nudges do not leave the region.
 template <class Lanes>
 OGC_HD double share_inside(const FeasibleRegion& region, const Point& from, const Point& y, int steps,
                            const Lanes& lanes) {
@@ -279,16 +280,16 @@ OGC_HD double share_inside(const FeasibleRegion& region, const Point& from, cons
                  out = dot(n, y) - plane.offset + room, rise = dot(n, step);
     return out > 0 && rise > 0 ? larger(0.0, 1 - out / rise) : 1.0;
   });
-  // Solves ‖away + s step‖ = radius for s. `from` may lie beyond this radius if the way first leads inward.
+  // Solves ‖away + s step‖ = radius for s. `from` may lie beyond this radius if the path first leads inward.
   const double radius = safe_radius(region, steps), bb = dot(step, step), ab = dot(away, step),
                left = radius * radius - dot(away, away), root = ab * ab + bb * left;
   if (bb > 0 && ab + ab + bb > left) share = smaller(share, root > 0 ? larger(0.0, (std::sqrt(root) - ab) / bb) : 0.0);
   return share;
 }
 
-/// Returns the farthest stored position on the way from `from` to y that is in the region, or one just before it;
-/// `from` if none is found. If a half-space and another one, or the ball, bound the way at the same place, a nudge into
-/// the one may leave the other. Then the way is shortened and the nudges are repeated.
+/// Returns the farthest stored position on the path from `from` to y that is in the region, or one just before it;
+/// `from` if none is found. If two boundaries (of half-spaces or of the ball) cut the path at the same place, a nudge
+/// into one may leave the other. Then the path is shortened and the nudges are repeated.
 template <class Lanes>
 OGC_HD Vec scaled(const FeasibleRegion& region, const Vec& from, const Point& y, const Lanes& lanes) {
   const Point start = wide(from);
@@ -314,8 +315,8 @@ OGC_HD OGC_OUT_OF_LINE Truncated slide_into(FeasibleRegion region, Vec current, 
   return {is_within(region, x, lanes) ? x : slide::scaled(region, current, y, lanes), true};
 }
 
-/// Truncates a proposal along the straight line from `current`. Prescribed vertices need this, so that their groups
-/// stay rigid, and bounds that do not slide.
+/// Truncates a proposal along the straight line from `current`. It is used for prescribed vertices, so that their
+/// groups stay rigid, and for regions that do not slide.
 template <class Lanes>
 OGC_HD OGC_OUT_OF_LINE Truncated scale_into(FeasibleRegion region, Vec current, Vec proposal, Lanes lanes) {
   return {slide::scaled(region, current, slide::wide(proposal), lanes), true};

@@ -101,7 +101,7 @@ struct PlaneListsView {
   }
 };
 
-/// Resets counts and `unplaned` before the pairs are measured. Index over vertices.
+/// Resets counts and `unplaned` before the pairs are measured. Runs once for each vertex.
 struct PreparePlanes {
   PlaneListsView lists;
 
@@ -111,8 +111,8 @@ struct PreparePlanes {
   }
 };
 
-/// Computes the distances of noted pairs, rounded down, and their places in the rows of their vertices. Index over
-/// noted pairs.
+/// Computes the distances of noted pairs, rounded down, and their places in the rows of their vertices. Runs once for
+/// each noted pair.
 struct MeasurePairs {
   PlaneListsView lists;
 
@@ -130,7 +130,7 @@ struct MeasurePairs {
   static constexpr int nowhere = -1;
 };
 
-/// Enters the distance of each pair in the rows of its vertices. Index over noted pairs.
+/// Enters the distance of each pair in the rows of its vertices. Runs once for each noted pair.
 struct FillPairRows {
   PlaneListsView lists;
 
@@ -143,8 +143,8 @@ struct FillPairRows {
   }
 };
 
-/// Writes δ_v and the smallest distance of a vertex. δ_v is the (N+1)-th smallest distance of its row, infinity if the
-/// row is shorter. Called once for each row.
+/// Writes δ_v and the smallest distance of a vertex. δ_v is the (N+1)-th smallest distance of its row; it is infinity
+/// if the row has at most N distances. Runs once for each row.
 struct ChooseThreshold {
   static constexpr int rank = most_planes;
   PlaneListsView lists;
@@ -156,7 +156,8 @@ struct ChooseThreshold {
 };
 
 /// Places the plane of a pair if the pair is nearer than δ_v for each of its movable vertices, and if its points pass
-/// the test of plane_of. Otherwise the pair's distance lowers `unplaned` of its vertices. Index over noted pairs.
+/// the test of plane_of. Otherwise the pair's distance lowers `unplaned` of its vertices. Runs once for each noted
+/// pair.
 struct PlacePlanes {
   PlaneListsView lists;
 
@@ -185,8 +186,8 @@ struct PlacePlanes {
   }
 };
 
-/// Moves each plane to its place in ascending order of pairs; the thread of place 0 also writes the ball's radius.
-/// Index over N places for each vertex.
+/// Moves each plane to its place in ascending order of pairs; the thread of place 0 also writes the ball's radius. Runs
+/// once for each of the N places of each vertex.
 struct SortHalfSpaces {
   PlaneListsView lists;
 

@@ -45,7 +45,7 @@ OGC_HD T clamped(const T& s) {
 }
 
 /// Returns the lower bound of the distance. `gap` is the gap of the projections on d, times ‖d‖; `dd` is d·d; `error`
-/// is the error of the projections as a length. The factor covers the root and the products, which err by 8 · 2⁻²⁴.
+/// is the error of `gap`, divided by ‖d‖ [m]. The factor covers the root and the products, which err by 8 · 2⁻²⁴.
 /// Returns 0, which proves nothing, if d·d may have lost bits to underflow.
 template <class T>
 OGC_HD T separation(const T& gap, const T& dd, const T& error) {

@@ -33,8 +33,8 @@ struct LoadFrom {
   OGC_HD Item operator()(int k) const { return first[k]; }
 };
 
-/// A part whose terms, of the items begin + k, do not depend on the team's own data. So the threads of a block may
-/// share the terms of all its teams. term(load(item)) returns an Accumulator.
+/// A part whose terms do not depend on the team's own data, so that the threads of a block may share the terms of all
+/// its teams. The items are begin + k for 0 ≤ k < count. term(load(item)) returns an Accumulator.
 template <class Load, class Term>
 struct PooledPart {
   int begin, count;  ///< first item; number of items
@@ -48,7 +48,8 @@ OGC_HD PooledPart<Load, Term> pooled_part(int begin, int count, Load load, Term 
   return {begin, count, load, term};
 }
 
-/// Read item k of a part, and add it to a sum; each for both types of parts, so that a team needs one loop.
+/// load_item reads item k of a part, add_item adds a loaded item to a sum. Each accepts both types of parts, so that a
+/// team needs one loop.
 template <class Load, class Add>
 OGC_HD auto load_item(const Part<Load, Add>& part, int k) {
   return part.load(k);
@@ -66,8 +67,8 @@ OGC_HD void add_item(const PooledPart<Load, Term>& part, const Loaded& loaded, A
   sum += part.term(loaded);
 }
 
-/// Finds and minimises over items k < count, for a team of one lane. In a team of several lanes all lanes call the same
-/// functions together with the same numbers, share the items, and get the same results.
+/// Searches items k < count, for a team of one lane. In a team of several lanes all lanes call the same functions
+/// together with the same numbers, share the items, and get the same results.
 struct OneLane {
   /// Returns the smallest k ≥ from for which is(k) holds; count if there is none.
   template <class Is>
@@ -91,10 +92,11 @@ struct SerialTeam : OneLane {
   static_assert(W >= 1 && W <= 32 && (W & (W - 1)) == 0, "W is a power of two, at most 32");
   static constexpr int width = W;  ///< W, the number of team lanes
 
-  /// Prefetches `bytes` from `rows` on into a cache. A serial team does nothing.
+  /// Does nothing. Other teams may prefetch this number of bytes from this address on into a cache.
   OGC_HD static void prefetch(const void*, int) {}
 
-  /// Is called in place of `sum` by a team without a vertex, because all teams of a launch must call one of them.
+  /// Does nothing. A team that has no vertex to update calls leave() instead of sum(), because each team of a launch
+  /// must call one of the two.
   OGC_HD static void leave() {}
 
   /// Returns the sum of all terms of all parts. In a team of threads, only threads with holds_total() get it.

@@ -22,7 +22,8 @@ struct GuessContacts {
 };
 
 /// Returns the move of a vertex [m] after one contact has shortened it. The contact removes the part of the vertex's
-/// approach that exceeds the partners' motion apart. Friction removes slip, at most μ times the removed approach.
+/// approach that exceeds the motion of its partners away from it. Friction removes slip, at most μ times the removed
+/// approach.
 OGC_HD inline Vec held_by(const GuessContacts& here, const ContactIncidence& contact, const Vec& move) {
   Vec x[4], others{};
   for (int k = 0; k < 4; ++k) x[k] = here.position[decoded(contact.index[k])];

@@ -53,8 +53,8 @@ struct ExactTotal {
 };
 
 /// Returns whether ‖x − x_prev‖ ≤ b, without rounding. It is called if double-double cannot distinguish the distance
-/// from b. This happens at ties, and if one coordinate differs by b and another by 10⁻²¹, which must not pass. If a
-/// difference does not fit into a double, the result is false.
+/// from b: at ties, or if one coordinate differs by b and another by 10⁻²¹, so that x is outside. Returns false if a
+/// difference of coordinates does not fit into a double.
 OGC_HD inline bool is_exactly_within(const Ball& ball, const Vec& x) {
   const Vector<Wide> step = difference<Wide>(x, ball.centre);
   if (step.x.low != 0 || step.y.low != 0 || step.z.low != 0) return false;

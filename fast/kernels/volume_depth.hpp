@@ -6,26 +6,27 @@
 //
 //   triangle   the side of its normal
 //   edge       the side of the sum of its triangles' unit normals. Points whose closest point is on the edge are all
-//              outside at a ridge and all inside at a valley; the line of the sum halves their region
-//   vertex     the side at that edge of the vertex whose direction is nearest to the direction of x. On the sphere
-//              about the vertex, the arc from x to this edge crosses no triangle: a crossing would be nearer
+//              outside at a ridge and all inside at a valley; the line of the sum bisects the region of these points
+//   vertex     the side at one edge of the vertex: the edge whose direction is nearest to the direction of x. On the
+//              sphere about the vertex, the arc from x to this edge crosses no triangle: a crossing would be nearer
 //   rim        outside: an edge of only one triangle, and a vertex of such an edge, have no inner side
 //
-// A point outside the box of a part is not inside the part, so most points are searched in few parts.
+// A point outside the box of a part is not inside the part, so for most points few parts are searched.
 //
-// A driven volume stands still between two detections of a step, and most points far from it move little. So a search
-// that finds a point p far, but in the part's box, also computes a radius ρ such that all points within ρ of p are far.
-// Let D be the distance of p and c its closest point. Let d_t be a lower bound of its distance to facet t, and h_t its
-// height over the plane of t. A point x within ρ < D − r of p is farther than r from the part, and its distance is at
-// most D + ρ. So the facets around the nearest face of x are at most D + 2 ρ from p. If (d_t − D)/2 > ρ or h_t > ρ for
-// every facet t, x lies on the outer side of all these facets. Then x also lies on the outer side of an edge or vertex
-// among them, unless two normals are nearly opposite. To exclude this, h_t is used only if the cosine between the
-// normal of t and p − c exceeds 2⁻⁸.
+// A driven volume stands still between two detections of a step, and most points far from it move little. If a search
+// finds that a point p in the part's box is far (outside, and not nearer than r), it also computes a radius ρ such that
+// all points within ρ of p are far. Let D be the distance of p and c its closest point. Let d_t be a lower bound of the
+// distance of p to facet t, and h_t the height of p over the plane of t. A point x within ρ < D − r of p is farther
+// than r from the part, and its distance is at most D + ρ. So the facets around the nearest face of x are at most D + 2
+// ρ from p. If (d_t − D)/2 > ρ or h_t > ρ for every facet t, x lies on the outer side of all these facets. Then x also
+// lies on the outer side of an edge or vertex among them, unless two normals are nearly opposite. To exclude this, h_t
+// is used only if the cosine between the normal of t and p − c exceeds 2⁻⁸.
 //
 // Rounding: the face that the search finds may be farther than the nearest one by two slacks of
-// point_triangle_distance, each at most 2⁻²³ S. For p and for x, S is at most six times the 1-norm L of the box's
-// extent, so this is 2⁻¹⁹ L. Heights refer to the planes of is_outside, whose normals err by 2⁻³⁰ unless the facet is a
-// sliver. The squares in ClearBall::holds err by 2⁻²² ρ, ρ ≤ L. The code uses 2⁻¹⁸ L, which covers all of this.
+// point_triangle_distance, each at most 2⁻²³ S, with S as defined there. For p and for x, S is at most six times the
+// 1-norm L of the box's extent, so this is 2⁻¹⁹ L. Heights refer to the planes of is_outside, whose normals err by 2⁻³⁰
+// unless the facet is a sliver. The squares in ClearBall::holds err by 2⁻²² ρ, ρ ≤ L. The code uses 2⁻¹⁸ L, which
+// covers all of this.
 #pragma once
 
 #include "fast/kernels/block.hpp"
@@ -71,8 +72,8 @@ struct VolumeView {
 /// Position of a point relative to a part; `near`: outside, but nearer than r.
 enum class VolumeSide : int { far, inside, near };
 
-/// Holds the facet of a part that is nearest to a point. If the nearest face is an edge or a vertex, any facet that
-/// contains it.
+/// Holds the facet of a part that is nearest to a point. If the nearest face is an edge or a vertex, this is one of the
+/// facets that contain it.
 struct NearestFacet {
   int facet = -1;
   VolumeSide side = VolumeSide::far;  ///< far: outside, and not nearer than r
@@ -138,8 +139,8 @@ class VolumeQuestion {
       visit(contact_at(nearest_face, true));
       return;
     }
-    // A near point has a contact with its nearest face, even if rounding puts it outside the face's block. It has none
-    // if it is outside the part's box and on the inner side of this face.
+    // A near point has a contact with its nearest face, even if rounding puts it outside the face's block. Only a point
+    // outside the part's box may be on the inner side of this face; such a point has no contact with the face.
     if (is_outside(nearest_face)) visit(contact_at(nearest_face, false));
     const float limit = gap_limit(volume_.contact_radius);
     for_each_near(volume_.parts[part].facets.tree, Box{x_, x_}, 0, limit, [&](const Offer& offer) {

@@ -22,7 +22,7 @@ struct ContactBatch {
   std::vector<ContactMaterial> materials;                       ///< by body: k_c [N/m], μ [1]
   std::vector<compare::Vec3f> positions, previous, start;       ///< by vertex: x, X_prev, xᵗ [m]
   std::vector<float> rest_squared, contact_radius, slip_limit;  ///< by edge [m²]; by case: r, ε_v h [m]
-  std::vector<int> body, role;                                  ///< by vertex; by case, see contact_view.hpp
+  std::vector<int> body, role;  ///< `body`: by vertex; `role`: by case (contact_view.hpp)
   /// by case; bit k of `together` is set if the vertex of role k has the colour of the case's own vertex
   std::vector<std::uint8_t> is_edge_edge, together;
   std::vector<AnyActivation> activation;  ///< by case
@@ -32,7 +32,7 @@ struct ContactBatch {
 void append(ContactBatch& batch, const compare::ContactForceCase& contact, const std::array<compare::Vec3f, 4>& start,
             float friction, float slip_limit);
 
-/// Computes force and block of each contact alone. Index over cases.
+/// Computes force and block of a contact. Runs once for each case.
 struct ProbeContact {
   SweepView view;  ///< positions and xᵗ; radius and slip limit are set for each case
   ContactTables tables;
@@ -80,7 +80,7 @@ compare::ForceOut probe_contacts(Backend& backend, const ContactBatch& batch, bo
   SweepView view;
   view.old = memory.padded(batch.positions);
   view.start = {memory.padded(batch.start)};
-  // With a body count of 0 the material of a pair is that of its second body, which is the case's.
+  // With a body count of 0, the material of a pair is that of its second body. Each case has its own second body.
   const ContactTables tables{memory.template in<int>(batch.body), memory.template in<ContactMaterial>(batch.materials),
                              0, memory.template in<float>(batch.rest_squared), memory.template in<Vec>(batch.previous)};
   const std::size_t n = batch.role.size();

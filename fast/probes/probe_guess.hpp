@@ -45,7 +45,7 @@ std::vector<T> column(const compare::InitialGuessIn& in, T compare::InitialGuess
   return all;
 }
 
-/// Turns the orientation of each segment alone. Index over cases.
+/// Turns the orientation of a segment as its vector turns from `before` to `now`. Runs once for each case.
 struct ProbeTurn {
   const Vec *before, *now;  ///< by case [m]
   const Quat* orientation;  ///< by case

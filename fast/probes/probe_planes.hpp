@@ -33,7 +33,7 @@ compare::PlaneOut probe_plane(Backend& backend, const compare::PlaneIn& in, int 
   return {detection.download_planes(), download_items(backend, detection.view().bound, in.positions.size())};
 }
 
-/// Truncates a proposal to its region. Index over cases.
+/// Truncates a proposal to its region. Runs once for each case.
 struct ProbeRegion {
   FeasibleRegions balls;    ///< by case
   const HalfSpace* planes;  ///< of all cases

@@ -13,7 +13,7 @@
 
 namespace ogc::fast {
 
-/// Computes force and block of an end of each segment alone. Index over cases.
+/// Computes force and block of one end of a segment. Runs once for each case.
 struct ProbeRod {
   const SegmentRest* segment;                   ///< by case; its ends are 2 i and 2 i + 1
   const int* own;                               ///< by case: the end that is solved for
@@ -74,7 +74,7 @@ struct SeenNeighbour {
   Quat now, start;  ///< quaternion of the neighbour: now, and at the start of the step
 };
 
-/// Orients each segment alone, between its neighbours. Index over cases.
+/// Computes the orientation of a segment between its neighbours. Runs once for each case.
 struct ProbeOrientation {
   const SegmentRest* segment;                   ///< by case; its ends are 2 i and 2 i + 1
   const SeenNeighbour* neighbour;               ///< by case: behind, ahead

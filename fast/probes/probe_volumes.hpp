@@ -16,7 +16,7 @@
 
 namespace ogc::fast {
 
-/// Computes force and block of each contact with a volume alone. Index over cases.
+/// Computes force and block of a contact with a volume. Runs once for each case.
 struct ProbeVolumeForce {
   const VolumeContact* contact;              ///< by case
   const Vec *vertex, *start;                 ///< by case: the point and three corners [m]

@@ -29,7 +29,8 @@
 
 namespace ogc::fast {
 
-/// Computes the closest face, its weights, the distance and its lower bound. Index over cases.
+/// Computes for a point and a triangle the closest face, its weights, the distance and a lower bound of the distance.
+/// Runs once for each case.
 struct ProbeClosestFace {
   const Vec* points;                 ///< by case [m]
   const Corners* triangles;          ///< by case [m]
@@ -68,8 +69,8 @@ struct StoredParameters {
   float first, second;
 };
 
-/// Computes the closest features of two edges, their parameters, the distance there and its lower bound. Index over
-/// cases.
+/// Computes for two edges their closest features, the parameters of the contact points, the distance of these points,
+/// and a lower bound of the edges' distance. Runs once for each case.
 struct ProbeClosestPoints {
   const Ends *first, *second;                   ///< by case [m]
   EdgeFeature *first_feature, *second_feature;  ///< by case, written
@@ -140,7 +141,7 @@ compare::BoundOut probe_bound(Backend& backend, const compare::BoundIn& in) {
   return out;
 }
 
-/// Computes the energy of an activation and its derivatives. Index over cases.
+/// Computes the energy of an activation and its derivatives. Runs once for each case.
 struct ProbeActivation {
   const float *distance, *contact_radius, *stiffness;  ///< by case: d, r [m], k_c [N/m]
   const AnyActivation* activation;                     ///< by case
@@ -171,7 +172,7 @@ compare::ActivationOut probe_activation(Backend& backend, const compare::Activat
   return out;
 }
 
-/// Truncates a proposal. Index over cases.
+/// Truncates a proposal. Runs once for each case.
 struct ProbeTruncate {
   FeasibleRegions regions;  ///< balls only, by case
   const Vec* position;      ///< proposals by case [m]

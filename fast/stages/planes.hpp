@@ -33,8 +33,8 @@ class Planes {
 
   /// Whether bounds are planes.
   bool is_used() const { return policy_.has_planes; }
-  /// Sets the displacements [m] in whose ratio later detections divide the gap of a pair between its vertices; by
-  /// vertex, on the backend. If null, gaps are halved.
+  /// Sets displacements [m], by vertex, on the backend. Later detections divide the gap of a pair in the ratio of its
+  /// sides' displacements. If null, gaps are halved.
   void divide_by(const Vec* displacement) { displacement_ = displacement; }
 
   /// Host only: makes room for this number of noted pairs.

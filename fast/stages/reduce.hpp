@@ -1,7 +1,7 @@
 // Sums vertices, elements and records in double, for reports. The order of addition depends on the size of the mesh
-// only: item i is added to chunk i mod C, with C = 1024, or 32768 for large meshes. Then runs of 32 chunks are added
-// until 32 rows are left, and then these. So no backend and no number of threads can change a bit. One thread adds a
-// chunk.
+// only: item i is added to chunk i mod C, with C = 1024, or 32768 for large meshes. The sums of a chunk are a row. Rows
+// are added in runs of 32 until 32 rows are left, then these 32. So no backend and no number of threads can change a
+// bit. One thread adds the items of a chunk.
 //
 // Launches are saved, because each would take as long as all the additions: one launch adds items of all kinds, and
 // columns that were added at different times are totalled together. Launches of the caller that need no sum run beside
@@ -20,8 +20,8 @@ inline constexpr int reduce_run = 32;
 /// Returns C, the number of chunks. More chunks are shorter but leave more rows to add, so only large meshes get more.
 inline int reduce_chunks(int vertices) { return vertices <= 2048 ? 1024 : 32768; }
 
-/// Adds the items of a chunk, kind by kind, with all.add(chunk, chunks, sums), and writes them to some columns of the
-/// chunk's row of partial sums. Index over chunks.
+/// Adds the items of a chunk, kind by kind, with all.add(chunk, chunks, sums). Writes the sums to some columns of the
+/// chunk's row of partial sums. Runs once for each chunk.
 template <int count, class All>
 struct AddChunk {
   All all;
@@ -36,7 +36,7 @@ struct AddChunk {
   }
 };
 
-/// Adds 32 rows of `from` to a row of `to`. Index over runs and columns.
+/// Adds a run of 32 rows of `from` into a row of `to`. Runs once for each run and column.
 template <int columns>
 struct AddRun {
   const double* from;  ///< [row][column], on the backend

@@ -238,7 +238,7 @@ class Step {
 
   void guess_loop() {
     const auto round = [&] {
-      observe(compare::StepEventKind::guess);  // the round before
+      observe(compare::StepEventKind::guess);  // reports the previous round
       detect_in_round();
       guess();
     };

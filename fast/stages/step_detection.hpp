@@ -17,7 +17,7 @@ struct StepLaunches {
   int slots;                             ///< free vertices
   ResolveContact resolve;                ///< writes the contacts of the stream
 
-  /// Runs the first launch, with the certificate of the regions that end (see PlainLaunches::begin).
+  /// Runs the first launch, which also checks the certificate of the regions that this detection replaces.
   template <class Backend>
   void begin(Backend& backend, const BeginDetection& detection) const {
     const BeginStepDetection begin{regions, detection};

@@ -1,5 +1,5 @@
-// Defines the launches that depend on a sum over stencils. Each backend instantiates them in a source of its own for
-// each sum, since they take longest to compile.
+// Defines the launches that depend on a sum over stencils. They take longest to compile, so each backend instantiates
+// them in a separate object for each sum.
 #pragma once
 
 #include "fast/kernels/sweep/sums.hpp"

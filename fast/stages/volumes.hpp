@@ -319,7 +319,7 @@ class Volumes {
   std::vector<int> slot_of_host_;
   const int* colour_;
   Buffer<int> askers_, answers_, counts_, unresolved_, longest_;
-  Buffer<ClearBall> clear_;                             ///< beside `answers_`; only if no volume is free
+  Buffer<ClearBall> clear_;                             ///< by place in `answers_`; only if no volume is free
   Buffer<int> slot_of_, corner_counts_, corner_codes_;  ///< only if some volumes are free
   Buffer<PaddedVec> padded_;  ///< only if some volumes are free: positions of the detection, by vertex [m]
   Buffer<VolumeIncidence> stream_;

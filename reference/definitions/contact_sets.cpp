@@ -1,5 +1,5 @@
-// The algorithms use the same predicates of Algorithms 1 and 2 as the detections, but no other common code. The
-// definitions do not use these predicates, either.
+// The functions over all pairs share with the detections only the predicates of Algorithms 1 and 2. The functions by
+// definition do not use these predicates.
 #include "reference/definitions/contact_sets.hpp"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ Index owner_of(const Complex& mesh, Face face) {
   return face.kind == FaceKind::edge ? mesh.topology.edge_triangles[i].front() : face.index;
 }
 
-/// Returns whether both are on the surface, the triangle does not contain the vertex, and the pair is not excluded.
+/// Returns whether vertex v and triangle t are on the surface, t does not contain v, and the pair is not excluded.
 bool is_candidate(const compare::DetectIn& in, Index v, Index t) {
   if (!in.topology->on_surface(v)) return false;
   const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(t)];
@@ -89,8 +89,8 @@ std::vector<VertexFacetContact> vertex_facet_by_definition(const compare::Detect
     for (Index t = 0; t < static_cast<Index>(in.topology->triangles.size()); ++t) {
       if (!in.topology->on_surface(mesh.triangle(t)) || is_excluded(in.exclusions, {&v, 1}, mesh.triangle(t))) continue;
       for (const Face face : faces_of(mesh, t)) {
-        // Eq. 12 requires only v ⊄ a. So the faces of triangles that contain v are tested, too: a face without v may
-        // have no other triangle.
+        // Eq. 12 requires only v ⊄ a. So triangles that contain v are visited, too: a face without v may belong to no
+        // other triangle.
         if (!contains(mesh.vertices(face).span(), v) && blocks.in_contact(face, mesh.at(v), in.contact_radius))
           found.insert({v, face, owner_of(mesh, face)});
       }

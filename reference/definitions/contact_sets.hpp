@@ -18,8 +18,8 @@ std::vector<compare::VertexFacetContact> vertex_facet_by_definition(const compar
 /// Returns F_OGC by Algorithm 1 with the half-spaces of Eq. 8–10, over all pairs.
 std::vector<compare::VertexFacetContact> vertex_facet_over_all_pairs(const compare::DetectIn& in);
 
-/// Returns E_OGC by Eq. 17 (corrected: method.md §1.2, §1.3): exact closest points as quotients, by comparing the
-/// distances of all pairs of features, then DefinedBlocks.
+/// Returns E_OGC by Eq. 17 (corrected: method.md §1.2, §1.3). Compares the distances of all pairs of features as exact
+/// quotients, then tests the closest points with DefinedBlocks.
 std::vector<compare::EdgeEdgeContact> edge_edge_by_definition(const compare::DetectIn& in);
 
 /// Returns E_OGC by Algorithm 2 (with the same corrections) with the half-spaces of Eq. 14 and 15, over all pairs.

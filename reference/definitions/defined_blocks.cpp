@@ -1,5 +1,5 @@
-// Multiplies the vector from the foot to the point by its denominator. So sums of products of coordinates suffice and
-// nothing is divided.
+// Multiplies the vector from the foot to the point by the foot's denominator. So sums of products of coordinates
+// suffice and nothing is divided.
 #include "reference/definitions/defined_blocks.hpp"
 
 #include "reference/definitions/defined_blocks_exact.hpp"

@@ -47,8 +47,8 @@ struct Indicatrix {
   bool closed = false;        ///< false at a boundary vertex
   double area = 0;            ///< signed enclosed area [sr], which is the angle deficit; 0 if not closed
 };
-/// Returns the indicatrix of a vertex; empty if it has no triangles, a collapsed one, the same one twice, or more than
-/// one fan.
+/// Returns the indicatrix of a vertex. Empty if the vertex has no triangles, a collapsed triangle, the same triangle
+/// twice, or triangles in more than one fan.
 std::optional<Indicatrix> indicatrix(const Complex& mesh, Index vertex);
 
 }  // namespace ogc::reference

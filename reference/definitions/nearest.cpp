@@ -1,5 +1,5 @@
-// Mostly distances that are rounded down tell which of two pairs is nearer. If both round to one number, the exact
-// fractions are compared. The order of threads does not matter: distances are exact, and the lowest number wins a tie.
+// Compares distances that are rounded down. Compares exact fractions only if both distances round to the same number.
+// The order of threads does not matter: distances are exact, and the lowest number wins a tie.
 #include "reference/definitions/nearest.hpp"
 
 #include <tbb/blocked_range.h>

@@ -1,6 +1,6 @@
 // Defines the contacts with a volume of triangles (§3.9). Each part of its surface is tested separately. A part
-// contains a point if the point is in the part's box and on the inner side of the nearest face. So rims need no cap,
-// and overlapping parts need no common inside.
+// contains a point if the point is in the part's box and on the inner side of the nearest face. So a part may have open
+// rims, and parts may overlap.
 #pragma once
 
 #include <array>

@@ -2,8 +2,8 @@
 // coordinates changes each weight of a point by 16 · 2⁻²⁴ Σ|∂w/∂δ||δ|. The sum is at most three times the moduli of the
 // weight's terms, which have degree three. The end of a way on a triangle's interior has in addition the error of the
 // triangle's normal (normal_scale). Within this error a segment may pass each nearby triangle, edge and vertex. A way
-// is certain if none of these is a boundary of the body; then it arrives, whichever tetrahedra rounding selects. Inner
-// edges and vertices leave a way certain.
+// is certain if none of these is on the body's boundary; inner ones do not matter. Then the way reaches its end,
+// whichever tetrahedra rounding selects.
 //
 // Weights in double are known to 2⁻⁴⁶ of the moduli of their terms, which is negligible beside 16 · 2⁻²⁴. Whether a way
 // exists in exact numbers is decided with rational numbers, among the tetrahedra that the way may reach.
@@ -43,7 +43,8 @@ Vec3 normal_moduli(const Vec3& a, const Vec3& b) {
   return {p.y * q.z + p.z * q.y, p.z * q.x + p.x * q.z, p.x * q.y + p.y * q.x};
 }
 
-/// Factor of the grey zone for terms of degree three: Σ|∂m/∂δ||δ| is at most three times the sum of their moduli.
+/// Factor of the grey zone for a sum m of terms of degree three: Σ|∂m/∂δ||δ| is at most three times the sum of the
+/// terms' moduli.
 constexpr double grey_part = 3 * compare::grey_factor;
 
 bool has(const Tetrahedron& t, Index v) { return std::ranges::find(t, v) != t.end(); }
@@ -57,7 +58,7 @@ Triangle sorted(Triangle t) {
 struct Piece {
   double low = 0, high = 1;
 
-  /// Keeps the part with from + s (to − from) ≥ least.
+  /// Keeps the parameters s with from + s (to − from) ≥ least.
   void keep(double from, double to, double least) {
     const double slope = to - from;
     if (slope == 0) {

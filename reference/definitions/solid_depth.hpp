@@ -33,8 +33,8 @@ class Solid {
   bool is_positive(Index t) const { return sign_[static_cast<std::size_t>(t)] > 0; }
   /// Returns whether rounding could change the sign of the volume.
   bool is_doubtful(Index t) const { return doubtful_[static_cast<std::size_t>(t)] != 0; }
-  /// Returns whether a way ends at this triangle, certainly or possibly: no tetrahedron behind it is certainly
-  /// positive.
+  /// Returns whether a way may end at the triangle opposite to this corner, because no tetrahedron behind the triangle
+  /// certainly has a positive volume.
   bool is_closed(Index t, std::size_t corner) const;
   /// Returns the triangle opposite to a corner; its normal is outward if the volume is positive.
   compare::Triangle side(Index t, std::size_t corner) const;
@@ -56,7 +56,7 @@ class SolidPart : public VolumeFaces {
   /// `faces` must have been built for the same point.
   SolidPart(const VolumeFaces& faces, const Solid& solid) : VolumeFaces(faces), solid_(solid) {}
 
-  /// Returns what is accepted for the part with these boundary triangles.
+  /// Returns the accepted answers for the part with these boundary triangles.
   compare::VolumePartTruth part(const std::vector<Index>& triangles);
 
  private:

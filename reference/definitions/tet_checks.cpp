@@ -67,8 +67,8 @@ int turn_about(const RationalPoint& a, const RationalPoint& b, const RationalPoi
   return CGAL::sign(dot(cross(b - a, c - a), d - a));
 }
 
-/// Returns whether the half-plane of `u` about ab lies between the half-planes of c (included) and d (excluded), which
-/// are less than half a turn apart.
+/// Returns whether the half-plane of `u` about ab lies between the half-planes of c (included) and d (excluded). These
+/// two must be less than half a turn apart.
 bool between_half_planes(const std::array<RationalPoint, 4>& abcd, const RationalPoint& u) {
   const auto& [a, b, c, d] = abcd;
   const int after = turn_about(a, b, c, u);

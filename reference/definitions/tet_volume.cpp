@@ -19,7 +19,7 @@ namespace {
 
 using compare::at;
 
-/// Returns adjacent doubles that enclose an exact number ≥ 0; one double twice if it is exact.
+/// Returns adjacent doubles that enclose an exact number ≥ 0. If the number is a double, returns this double twice.
 std::array<double, 2> enclosing(const Rational& square) {
   double low = CGAL::to_interval(square).first;
   for (double next = std::nextafter(low, HUGE_VAL); Rational(next) <= square; next = std::nextafter(low, HUGE_VAL))

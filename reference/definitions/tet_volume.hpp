@@ -70,8 +70,8 @@ class TetVolume {
   /// Returns whether the vertex is one of the tetrahedron's corners.
   bool has_vertex(Index tetrahedron, Index vertex) const;
 
-  /// Returns the sheets at a point of space, each as its tetrahedra, ascending; empty outside. A sheet has several
-  /// tetrahedra if the point lies on a shared triangle, edge or vertex.
+  /// Returns the sheets at a point of space, each as the ascending numbers of its tetrahedra; empty outside. A sheet
+  /// has several tetrahedra if the point lies on a shared triangle, edge or vertex.
   std::vector<std::vector<Index>> sheets(const Vec3f& x) const;
 
   /// Returns the paths to all boundary triangles, in their order, for x in the sheet of a tetrahedron. Throws

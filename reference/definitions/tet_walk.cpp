@@ -19,7 +19,7 @@ RationalPoint closest_on_segment(const RationalPoint& a, const RationalPoint& b,
   return between(a, b, std::clamp(t, Rational(0), Rational(1)));
 }
 
-/// Keeps the part of the stretch on which a value is ≥ 0 that changes linearly from `from` (at 0) to `to` (at 1).
+/// Keeps the part of the stretch on which a value is ≥ 0. The value changes linearly from `from` (at 0) to `to` (at 1).
 /// Returns false if nothing is left.
 bool clip(Stretch& stretch, const Rational& from, const Rational& to) {
   const Rational slope = to - from;

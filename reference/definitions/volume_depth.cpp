@@ -1,9 +1,9 @@
 // Finds the faces that could be nearest. Uses the distances of all triangles of a part, each known to 16 · 2⁻²⁴ of the
 // triangle's coordinates, and the faces that closest_face accepts. The exactly nearest face is found without rounding.
 //
-// If a face may have the closest point only by rounding, the side of x follows from another face. If both have a common
-// vertex, that is the exactly nearest face. Otherwise it is the nearest triangle around the face, because the edge of a
-// valley alone would put every point inside. At a rim x is always outside.
+// For a face that is nearest only by rounding, the side of x follows from another face. If the exactly nearest face
+// shares a vertex with the face and is not a rim, it decides. Otherwise the nearest triangle around the face decides,
+// because the edge of a valley alone would put every point inside. At a rim x is always outside.
 #include "reference/definitions/volume_depth.hpp"
 
 #include <algorithm>

@@ -34,10 +34,10 @@ class VolumeFaces {
   Face exactly_nearest(const std::vector<Index>& triangles) const;
   Face face_of(Index t, int feature) const;
   /// Returns the faces that may be nearest, the exactly nearest first. A face is possible if every triangle around it
-  /// accepts it. If one triangle refuses it, the closest point is certainly off the face and this triangle is nearer.
-  /// But if the difference is too small for distances in double, the face is possible nevertheless: an error of 16 ·
-  /// 2⁻²⁴ of the closest point changes the distance by at most (16 · 2⁻²⁴)². The limit is four times that, because
-  /// distances are known to half of it only.
+  /// accepts it. If one triangle refuses it, the closest point is certainly off the face, and this triangle is nearer.
+  /// But if the difference is too small for distances in double, the face is possible nevertheless. An error of 16 ·
+  /// 2⁻²⁴ of the closest point changes the distance by at most (16 · 2⁻²⁴)². The limit is four times this, because
+  /// distances are known only to half of the limit.
   std::vector<Face> possible_faces(const std::vector<Index>& candidates, Face nearest, double least) const;
   std::vector<Index> around(Face face) const;
   bool is_rim(Face face) const;

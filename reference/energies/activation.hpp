@@ -17,7 +17,7 @@ struct ActivationValue {
   /// units of their errors, as in compare::ActivationTruth
   double energy_scale = 0, slope_scale = 0, curvature_scale = 0;
 };
-/// Returns the activation at one distance d ≥ 0 [m]; r [m], k_c [N/m].
+/// Returns the activation at the distance d ≥ 0 [m], for the radius r [m] and the stiffness k_c [N/m].
 ActivationValue activation_at(compare::ContactActivation kind, double distance, double contact_radius,
                               double stiffness);
 

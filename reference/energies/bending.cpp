@@ -58,7 +58,7 @@ struct Question {
   Hinge<ByVertex> x;
   Fold<Input> before;
   HingeTermOf<Input> term;  ///< includes damping by strain, but not damping by vertex
-  Input damping;            ///< for both forms of damping
+  Input damping;            ///< k of damping by strain or by vertex
   Triple<Input> moved;      ///< motion of the vertex, for damping by vertex
 
   explicit Question(const compare::BendingCase& q)

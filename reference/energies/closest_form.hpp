@@ -11,8 +11,8 @@
 
 namespace ogc::reference {
 
-/// The features that hold the contact points. The comments give the places of the features' vertices in
-/// ClosestForm::at, first side; second side.
+/// Selects the features that hold the contact points. Each comment lists places in ClosestForm::at: the vertices of the
+/// first side; the vertices of the second side.
 enum class FormKind : std::uint8_t {
   points,        ///< 0, 1
   point_line,    ///< 0; 1 2
@@ -44,7 +44,7 @@ Triple<T> separation(const std::array<Number, 4>& weight, const std::array<Tripl
   return sum;
 }
 
-/// Returns the modulus |h| of a height h along the normal n from `scaled` = h ‖n‖.
+/// Returns |h| for a height h along the normal n; `scaled` is h ‖n‖.
 template <class T>
 T height(const T& scaled, const Triple<T>& normal) {
   using std::sqrt;

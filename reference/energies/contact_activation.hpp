@@ -38,11 +38,11 @@ T activation_energy(compare::ContactActivation kind, const T& d, const P& r, con
   return energy;
 }
 
-/// Where and how g is not smooth.
+/// Describes where and how g is not smooth.
 struct ActivationForm {
   bool has_stages = false;  ///< g has another formula below τ = r/2
   bool jumps = false;       ///< g' jumps at τ
-  bool ends_flat = false;   ///< g' is 0 at r, and its own slope there is 0
+  bool ends_flat = false;   ///< g' and g'' are 0 at r
 };
 /// Returns the properties of one activation.
 inline ActivationForm form_of(compare::ContactActivation kind) {

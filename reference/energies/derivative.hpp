@@ -75,8 +75,8 @@ double plain(const Derivative<T, N>& x) {
   return plain(x.value);
 }
 
-/// Returns max(0, x), but keeps the derivatives of x for x < 0. The derivatives are units of the judge's errors, and
-/// rounding may put x on either side of the corner.
+/// Returns max(0, x). The derivatives of x are kept even if x < 0: they are units of the judge's errors, and rounding
+/// may make x positive.
 inline double positive_part(double x) { return std::max(0.0, x); }
 template <class T, std::size_t N>
 Derivative<T, N> positive_part(Derivative<T, N> x) {
@@ -84,8 +84,8 @@ Derivative<T, N> positive_part(Derivative<T, N> x) {
   return x;
 }
 
-/// Returns max(0, x) if x is a product of `factor` and another number. If the other number is negative, the result is 0
-/// with the derivatives `factor` times those of the other number.
+/// Returns max(0, x) for a product x = `factor` · y. If x < 0, the result is 0, and its derivatives are `factor` times
+/// the derivatives of y.
 inline double positive_part(double x, double) { return std::max(0.0, x); }
 template <class T, std::size_t N>
 Derivative<T, N> positive_part(const Derivative<T, N>& x, const Derivative<T, N>& factor) {

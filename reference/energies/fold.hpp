@@ -30,8 +30,8 @@ struct Fold {
   Triple<T> edge, first, second;  ///< x1 − x0 [m], and the normals of both triangles [m²]
   explicit Fold(const Hinge<T>& at)
       : x(at), edge(x[1] - x[0]), first(cross(edge, x[2] - x[0])), second(cross(x[3] - x[0], edge)) {}
-  /// Returns whether the edge or a triangle is degenerate, so that there is no angle; over lanes, one value for each
-  /// lane.
+  /// Returns whether the edge or a triangle is degenerate; the angle is then undefined. Over SIMD lanes, returns one
+  /// value for each lane.
   auto collapsed() const { return is_zero(first) || is_zero(second); }
   /// Returns whether a kernel may treat the hinge as collapsed (compare/stages/bending.hpp).
   bool may_count_as_collapsed() const { return is_needle(first, x[2]) || is_needle(second, x[3]); }

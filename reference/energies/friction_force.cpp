@@ -17,7 +17,7 @@ Input normal_force(const Meeting& meeting) {
 
 struct Friction {
   compare::ForceAnswer answer;
-  bool near_limit = false;  ///< ‖u‖ lies within near_factor of ε
+  bool near_limit = false;  ///< whether ‖u‖ is within near_factor of the slip limit ε
 };
 
 /// Returns Σ wᵢ (xᵢ − xᵢᵗ).
@@ -51,8 +51,8 @@ Friction acting(Meeting meeting, const compare::FrictionForceCase& q) {
   compare::ForceAnswer result = answer(inputs, energy, block);
   const double stiff = reach(inputs, {&stiffness, 1});
   add_weight_error(meeting, q.contact, stiff * reach(inputs, u), 2 * stiff, result);
-  // At d = r both the normal force and, without slip, u vanish. The first order of the product then lacks the product
-  // of both errors.
+  // At d = r the normal force vanishes; without slip, u vanishes, too. The first-order error of their product then
+  // lacks the product of both errors.
   result.force_scale += compare::contact_grey * compare::unit_roundoff * inputs.condition({&stiffness, 1}) *
                         inputs.condition(u);
   const double pull = q.friction * meeting.slope_doubt(), over_slip = slope_over_slip(y, limit).value;
@@ -63,7 +63,7 @@ Friction acting(Meeting meeting, const compare::FrictionForceCase& q) {
   return {result, std::abs(beyond.value) <= compare::near_factor * inputs.condition({&beyond, 1})};
 }
 
-/// Returns upper limits of force and block, from f₁ ≤ 1, f₁/y ≤ 2/ε and ‖I − n nᵀ‖ = √2.
+/// Returns upper limits of force and block. They follow from f₁ ≤ 1, f₁/y ≤ 2/ε (method.md §4.4) and ‖I − n nᵀ‖ = √2.
 compare::ForceAnswer largest(const compare::FrictionForceCase& q, double distance) {
   compare::ForceAnswer bounds;
   const double force = q.friction * largest_slopes(q.contact, distance).first;
@@ -74,7 +74,7 @@ compare::ForceAnswer largest(const compare::FrictionForceCase& q, double distanc
 }
 
 /// Returns the accepted answers of a case. The case has a near decision if a decision of the contact is near, or if the
-/// contact acts and ‖u‖ is near ε.
+/// contact acts and ‖u‖ is near the slip limit.
 Accepted answers_of(const compare::FrictionForceCase& question, const std::vector<Meeting>& all) {
   bool near = is_near_decision(question.contact, all.front());
   std::vector<compare::ForceAnswer> accepted = answers(

@@ -64,7 +64,7 @@ using Block = BlockOf<Input>;
 
 /// Returns force and block as an answer, with their units of error.
 compare::ForceAnswer answer(const Inputs& inputs, const VertexSystemOf<Input>& system);
-/// Returns the answer with the force −∂E/∂x and this block, with their units of error.
+/// Returns the force −∂E/∂x of `energy` and the given block as an answer, with their units of error.
 compare::ForceAnswer answer(const Inputs& inputs, const ByVertex& energy, const Block& block);
 
 /// Adds damping by vertex to an elastic force with the block B: the force gets −k B `moved`, the block k B. `moved` is

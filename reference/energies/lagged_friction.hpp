@@ -8,7 +8,7 @@
 namespace ogc::reference {
 
 /// Returns ‖u‖ of a slip u whose error is `units` · 2⁻²⁴ · condition. If u may be 0 within this error, its direction is
-/// unknown. ‖u‖ then changes by the length of any change of u.
+/// unknown. Each derivative of ‖u‖ is then the length of the derivative of u.
 inline Input slip_length(const Inputs& inputs, const Triple<Input>& slip, double units) {
   Input y = sqrt(dot(slip, slip));
   if (y.value > units * compare::unit_roundoff * inputs.condition(slip)) return y;

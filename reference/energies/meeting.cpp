@@ -27,8 +27,8 @@ Input foot(const Triple<Input>& p, const Triple<Input>& a, const Triple<Input>& 
   return dot(p - a, e) / dot(e, e);
 }
 
-/// Returns `end`, where a clamped parameter lies. If `free`, the unclamped parameter, is within rounding of `end`, the
-/// result has the derivatives of `free`, because rounding may leave the parameter unclamped.
+/// Returns the clamped parameter `end`, which is 0 or 1. If the unclamped parameter `free` is within rounding of `end`,
+/// the result has the derivatives of `free`, because rounding may leave the parameter unclamped.
 Input at_end(const Inputs& inputs, Input free, double end) {
   if (!(std::abs(free.value - end) <= compare::contact_grey * compare::unit_roundoff * inputs.condition({&free, 1})))
     return Input(end);
@@ -193,7 +193,8 @@ std::vector<Input> energy_shares(const ContactForceCase& q, Inputs& inputs) {
   return rule.exact ? std::vector{share, one} : std::vector{one, share};
 }
 
-/// Returns vertices relative to the origin that the comment of Meeting names.
+/// Returns the vertices relative to the origin of Meeting: end 0 of the first edge, or the second side's first vertex
+/// if the first side is a point.
 Vertices relative(ContactSides sides, const std::array<Vec3f, 4>& at, Inputs& inputs) {
   Vertices vertices;
   const std::size_t base = sides == ContactSides::edge_edge ? 0 : 1;
@@ -220,9 +221,9 @@ void measure(Meeting& meeting) {
   meeting.distance_doubt = factor * meeting.inputs.condition({&meeting.distance, 1});
 }
 
-/// Returns whether a triangle is a needle, or one edge much shorter than the other. In units of the longest side, a
-/// foot at distance d on a triangle of height h has an error of u d/h² of the width across h. For h = 2⁻⁹ and d = 3
-/// this is 3/64 (u = 2⁻²⁴).
+/// Returns whether the triangle is a needle, or one edge is much shorter than the other. With the longest side as unit
+/// of length, let a point have distance d from a triangle of height h. Then its foot has an error of u d/h (u = 2⁻²⁴),
+/// which is u d/h² of the height: 3/64 for h = 2⁻⁹ and d = 3.
 bool has_needle(const ContactForceCase& q, const Vertices& x) {
   constexpr double least_squared = 0x1p-18;
   const auto squared = [&](std::size_t a, std::size_t b) { return dot(x[a] - x[b], x[a] - x[b]).value; };

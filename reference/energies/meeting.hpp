@@ -41,8 +41,8 @@ struct Meeting {
   Input majorant(const compare::ContactForceCase& question) const;
   /// Returns Σ w_i x_i, the vector d n from the second side's contact point to the first's.
   Triple<Input> separation() const;
-  /// Returns the distance at which slope and curvature are evaluated: d clamped to 2⁻²³ r … r. The clamped value keeps
-  /// the derivatives of d. If d is certainly beyond r, it has none, so that nothing depends on the distance of sides
+  /// Returns the distance at which slope and curvature are evaluated: d clamped to 2⁻²³ r … r, with the derivatives of
+  /// d. If d is certainly beyond r, the result has no derivatives, so that nothing depends on the distance of sides
   /// that are far apart.
   template <class T>
   T acting_distance(T d) const {
@@ -82,8 +82,8 @@ struct Meeting {
 /// Returns the exact meeting first. A meeting for each other outcome of a grey decision follows.
 std::vector<Meeting> meetings(const compare::ContactForceCase& question);
 
-/// Returns whether a decision of the contact lies within near_factor: the features of the closest points, d = r, and d
-/// = τ if the activation has two stages.
+/// Returns whether a decision of the contact is near, within near_factor. The decisions are the features of the closest
+/// points, whether d < r, and whether d < τ if the activation has two stages.
 bool is_near_decision(const compare::ContactForceCase& question, const Meeting& exact);
 
 /// Selects the distances at which a stage's answer is 0.
@@ -108,8 +108,8 @@ LargestSlopes largest_slopes(const compare::ContactForceCase& question, double d
 /// Returns an upper limit of Meeting::majorant, |w| Σ |w_u|. The moduli of all weights add up to 2.
 inline double largest_majorant(const compare::ContactForceCase& question) { return question.together == 0 ? 1 : 2; }
 
-/// Returns the factor from a number's size to its scale for which the tolerance accepts every value up to this size,
-/// plus one rounding.
+/// Returns the scale of a number of size 1 for which `tolerance` accepts every value up to 1: 1/(2⁻²⁴ · tolerance),
+/// plus 1 for one rounding.
 inline double units_of_whole(double tolerance) { return 1 / (compare::unit_roundoff * tolerance) + 1; }
 
 /// Returns an upper limit of the answer's norm: its value plus its error.

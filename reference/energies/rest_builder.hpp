@@ -14,7 +14,7 @@ namespace ogc::reference {
 /// The exact number type for polynomials of coordinates.
 using Exact = CGAL::Mpzf;
 
-/// Returns an exact number with at least 64 bits. A second double holds what the first double lacks.
+/// Returns an exact number with at least 64 bits: a double plus the remainder, which a second double holds.
 inline long double number(const Exact& x) {
   const double high = x.to_double();
   return static_cast<long double>(high) + static_cast<long double>((x - Exact(high)).to_double());

@@ -33,9 +33,10 @@ template <std::size_t N, class Visit>
 template <std::size_t N, class Number = double>
 class Second {
  public:
-  static constexpr std::size_t bends = N * (N + 1) / 2;  ///< second derivatives of N inputs, each pair once
-  Number value;                                          ///< value of the expression
-  std::array<Number, N> slope;                           ///< by input
+  /// number of second derivatives; each pair of inputs counts once
+  static constexpr std::size_t bends = N * (N + 1) / 2;
+  Number value;                 ///< value of the expression
+  std::array<Number, N> slope;  ///< by input
 
   Second() : Second(Number(0.0)) {}
   Second(const Number& constant) : value(constant), slope{} {}
@@ -107,7 +108,7 @@ class Second {
     const Number inverse = 1.0 / b.value;
     return a * composed(inverse, -inverse * inverse, 2.0 * inverse * inverse * inverse, b);
   }
-  /// Returns f(x) from f, f' and f'' there.
+  /// Returns f(x). `f`, `first` and `second` are the values of f, f' and f'' at x.
   friend Second composed(const Number& f, const Number& first, const Number& second, const Second& x) {
     Second result(Open{}, f);
     for (std::size_t i = 0; i < N; ++i) result.slope[i] = first * x.slope[i];

@@ -53,7 +53,7 @@ std::array<Triple<T>, Count> with_own(const std::array<Triple<Number>, Count>& c
   return x;
 }
 
-/// Returns the energy as a function of one quantity (an angle or a length), with slope and curvature at `measure`.
+/// Returns `energy` at the angle or length `measure`, with its slope and curvature there.
 template <class Number, class Energy>
 Second<1, Number> along(const Number& measure, Energy energy) {
   Second<1, Number> x(measure);

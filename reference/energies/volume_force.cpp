@@ -26,7 +26,7 @@ struct Pressed {
   Input overlap;  ///< r − φ [m]
   ByVertex energy;
   Block block;
-  double force = 0, doubt = 0;  ///< λ, and its single-precision error in units of u [N]
+  double force = 0, doubt = 0;  ///< λ, and its single-precision error in units of 2⁻²⁴ [N]
 
   explicit Pressed(const compare::VolumeForceCase& q) {
     const Input radius = inputs.number(q.contact_radius), stiffness = inputs.number(q.stiffness);
@@ -43,7 +43,7 @@ struct Pressed {
     force = lambda.value;
     doubt = inputs.condition({&lambda, 1});
   }
-  /// Returns |r − φ| in units of u · condition.
+  /// Returns |r − φ| in units of 2⁻²⁴ · condition.
   double distance_from_end() const {
     const double size = inputs.condition({&overlap, 1});
     return std::abs(overlap.value) / (compare::unit_roundoff * size);
@@ -53,7 +53,7 @@ struct Pressed {
 /// The friction of one contact with a known normal force.
 struct Rubbed {
   compare::ForceAnswer answer;
-  bool near_limit = false;  ///< ‖u‖ lies within near_factor of ε
+  bool near_limit = false;  ///< whether ‖u‖ is within near_factor of the slip limit ε
 };
 
 Rubbed rubbed(const compare::VolumeForceCase& q, const Pressed& pressed) {
@@ -69,21 +69,20 @@ Rubbed rubbed(const compare::VolumeForceCase& q, const Pressed& pressed) {
   const Triple<ByVertex> step = own_weight * own_vertex();
   const Triple<ByVertex> slip = tangential(fixed(moved) + step);
   const Triple<Input> u{slip[0].value, slip[1].value, slip[2].value};
-  constexpr double slip_units = 10;  // counted like this by volume_force_tolerance
+  constexpr double slip_units = 10;  // roundings of the slip, as in volume_force_tolerance
   const Input y = slip_length(inputs, u, slip_units), stiffness = strength * slope_over_slip(y, limit);
   const ByVertex energy = chained(Input(strength * lagged_potential(y, limit)), Input(Input(0.5) * stiffness),
                                   dot(slip, slip));
   Block block;
-  // The block is the stiffness times w² (I − n nᵀ). For a unit vector n this is the product of the slip's derivative w
-  // (I − n nᵀ) and its transpose.
+  // The derivative of the slip is w (I − n nᵀ). For a unit vector n, its product with its transpose is w² (I − n nᵀ).
   for (std::size_t i = 0, k = 0; i < 3; ++i)
     for (std::size_t j = i; j < 3; ++j, ++k) {
       const Input plane = (i == j ? Input(1.0) : Input(0.0)) - n[i] * n[j];
       block[k] = stiffness * own_weight.value * own_weight.value * plane;
     }
   Rubbed result{answer(inputs, energy, block), false};
-  // Errors that the first order lacks. If both λ and u vanish, the product of their errors remains. If u may be 0, f₁/y
-  // may be anything up to 2/ε.
+  // Adds errors that the first order lacks. If the normal force λ and the slip u both vanish, the product of their
+  // errors remains. If u may be 0 within rounding, f₁/y may be anything up to 2/ε (y = ‖u‖, ε is the slip limit).
   const double unit = compare::unit_roundoff, w = std::abs(own_weight.value.value),
                doubt_of_force = compare::volume_force_grey * unit * pressed.doubt,
                doubt_of_slip = slip_units * unit * inputs.condition(u),

@@ -1,5 +1,5 @@
-// The energy of a contact with a volume, as a function of the point and the triangle's corners (§3.9). n and w are
-// those of the detection and stay constant.
+// The energy of a contact with a volume, as a function of the point and the triangle's corners (§3.9). The normal n and
+// the weights w come from the detection and stay constant.
 #pragma once
 
 #include <algorithm>

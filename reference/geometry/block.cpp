@@ -20,7 +20,7 @@ struct Answer {
   bool near = false;
 };
 
-/// Adds one way in which x may lie in the block. `premise`: whether one particular face of the edge holds x. `block`:
+/// Adds one case, in which one particular face of the edge holds x. `premise`: whether this face holds x. `block`:
 /// whether x is then in the block.
 void add(Answer& answer, const Membership& premise, const Membership& block) {
   answer.inside = answer.inside || (premise.exact && block.exact);
@@ -48,7 +48,7 @@ Answer vertex_in_surface(const Complex& mesh, const Vec3f& x, Face a) {
   return answer;
 }
 
-/// Decides Eq. 14: whether the closest point of edge a lies in its interior.
+/// Decides Eq. 14: whether the point of edge a that is closest to edge e lies in the interior of a.
 Answer edge_in_edge(const Complex& mesh, Index e, Index a) {
   const auto ends = [&mesh](Index edge) {
     return std::array{mesh.at(mesh.edge(edge)[0]), mesh.at(mesh.edge(edge)[1])};
@@ -68,8 +68,8 @@ Answer edge_in_edge(const Complex& mesh, Index e, Index a) {
   return answer;
 }
 
-/// Decides Eq. 15 for the point of edge cd that is closest to v. `plane(w)` is positive if that point lies on w's side
-/// of the plane through v.
+/// Decides Eq. 15 for the point of an edge that is closest to v. `plane(w)` is positive if that point lies on w's side
+/// of the plane that contains v and is perpendicular to vw.
 template <class Plane>
 Membership vertex_block(const Complex& mesh, Index v, Nearness& nearness, Plane plane) {
   Membership block;

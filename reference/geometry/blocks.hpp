@@ -75,7 +75,7 @@ struct Boundary {
 };
 
 /// Visits all conditions of U_a for the point x, except the distance (Eq. 8, 9, 10); visit(Boundary) returns false to
-/// stop. If a margin belongs to two faces, both write it with its vertices in the same order.
+/// stop. A margin that two faces share has the same order of vertices for both faces.
 template <class Visit>
 void visit_block(const Complex& mesh, Face face, const Vec3f& x, Visit visit) {
   if (face.kind == FaceKind::vertex) {

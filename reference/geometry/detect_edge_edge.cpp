@@ -85,7 +85,8 @@ class EdgeQuery {
     if (rule.possible) enter_interiors(other, pair, rule, within, doubtful);
     if (rule.certain) return;
     const Membership local = are_closest(pair, closest);
-    // If the rule does not hold, the pair may have no contact; so an answer may lack the interiors.
+    // If the rule for nearly parallel edges does not hold, the pair may have no contact. So an answer without the
+    // contact of the interiors may be right.
     if (rule.possible && !(local.certain && membership(faces_of(other, closest)).certain)) accept_absence(other);
     enter_features(other, pair, closest, closest, rule);
     if (local.certain) return;

@@ -29,14 +29,15 @@ Point<T> cross(const Point<T>& a, const Point<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Returns (p−a)·(b−a): > 0 if p lies on b's side of the plane through a perpendicular to ab (Eq. 8, 9, 14, 15).
+/// Returns (p−a)·(b−a). It is > 0 if p is on b's side of the plane that contains the point a and is perpendicular to ab
+/// (Eq. 8, 9, 14, 15).
 template <class T>
 T along(const Point<T>& a, const Point<T>& b, const Point<T>& p) {
   return dot(p - a, b - a);
 }
 
-/// Returns ((b−a)×(p−a))·((b−a)×(c−a)): > 0 if p lies on c's side of the plane through ab perpendicular to the triangle
-/// abc (Eq. 9 times −‖e‖², Eq. 10).
+/// Returns ((b−a)×(p−a))·((b−a)×(c−a)) (Eq. 9 times −‖e‖², Eq. 10). It is > 0 if p is on c's side of the plane that
+/// contains ab and is perpendicular to the triangle abc.
 template <class T>
 T side(const Point<T>& a, const Point<T>& b, const Point<T>& c, const Point<T>& p) {
   const Point<T> e = b - a;

@@ -1,5 +1,5 @@
-// Sorts generated pairs by faces, then by edges. So all generators of a contact are adjacent, the lowest-numbered
-// first.
+// Sorts generated pairs by faces, then by edges. So all pairs of edges that generate the same contact are adjacent, and
+// the lowest-numbered pair of edges is the first.
 #include "reference/geometry/generated_pairs.hpp"
 
 #include <algorithm>
@@ -50,8 +50,8 @@ Candidates candidates_of(std::span<const Generated> sorted) {
   return candidates;
 }
 
-/// Adds a grey decision for a certain contact if its lowest-numbered generators are doubtful: the contact then has one
-/// of several edge pairs.
+/// Adds a grey decision for a certain contact whose lowest-numbered pairs of edges are doubtful. It accepts these pairs
+/// and the first certain pair.
 void add_doubtful_owner(const Complex& mesh, const Candidate& candidate, std::vector<Grey>& grey) {
   const auto certain = candidate.first_certain();
   if (certain == candidate.generators.begin()) return;

@@ -12,7 +12,7 @@ namespace ogc::reference {
 template <class Key>
 class GreyGroups {
  public:
-  /// Adds a doubtful contact. `absence`: beyond some boundary of it there is no contact in its place.
+  /// Adds a doubtful contact. `absence`: whether no other contact takes its place beyond some boundary.
   void add(const Key& key, bool absence) {
     Entry& entry = entries_.try_emplace(key, Entry{key}).first->second;
     entry.absence = entry.absence || absence;

@@ -208,7 +208,7 @@ double sensitivity_at(const Margin& margin, const std::array<std::array<double, 
 }
 
 /// Largest error of a value in double, relative to its modulus. At most 18 roundings lie between a coordinate and a
-/// margin. The gap from a plane has them: a difference twice, a product and a difference for n; a difference, a product
+/// margin. The gap from a plane has 18: a difference twice, a product and a difference for n; a difference, a product
 /// and two sums for the height; all this twice, the square, and the difference from r² n². The modulus may be too small
 /// by the same error. Nothing overflows or underflows: terms lie between 2⁻¹⁴⁹ˣ⁶ and 2¹²⁹ˣ⁶.
 constexpr double rounding = 0x1p-48;
@@ -248,7 +248,7 @@ double over_root(const Exact& m, const Exact& q) {
   return static_cast<double>(to_long_double(m) / std::sqrt(to_long_double(q)));
 }
 
-/// Returns the distance rounded down, from a close guess f. The distance is at least f if the gap with radius f is not
+/// Returns the distance rounded down; f must be close to it. The distance is at least f if the gap with radius f is not
 /// negative.
 float settle_below(const Margin& gap, float f) {
   while (f > 0 && exact_sign(with_radius(gap, f)) < 0) f = std::nextafter(f, 0.0f);

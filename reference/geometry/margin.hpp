@@ -27,7 +27,7 @@ struct Margin {
 
 /// Returns (p − a)·(b − a): how far p is along the edge from a to b.
 inline Margin along(const Vec3f& a, const Vec3f& b, const Vec3f& p) { return {MarginKind::along, {a, b, p}}; }
-/// Returns on which side of the edge ab, in the plane of abc, p is.
+/// Returns on which side of the line ab p lies, seen perpendicular to abc: > 0 on c's side.
 inline Margin side(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& p) {
   return {MarginKind::side, {a, b, c, p}};
 }
@@ -64,7 +64,7 @@ inline Margin with_radius(Margin gap, float radius) {
 struct MarginAnswer {
   int sign = 0;                 ///< exact: −1, 0 or 1
   bool grey = false;            ///< the result of grey(margin)
-  bool near = false;            ///< m| ≤ 2¹¹ · 2⁻²⁴ Σ|∂m/∂δᵢ||δᵢ| (compare::near_factor)
+  bool near = false;            ///< whether |m| ≤ 2¹¹ · 2⁻²⁴ Σ|∂m/∂δᵢ||δᵢ| (compare::near_factor)
   double value = 0, error = 0;  ///< m in double, and an upper limit of its error
 };
 
@@ -77,9 +77,9 @@ int sign(const Margin& margin);
 /// Returns Σ|∂m/∂δᵢ||δᵢ|, where δᵢ are the coordinates relative to the first point. The radius counts as exact.
 double sensitivity(const Margin& margin);
 
-/// Returns whether 0 < 16 · 2⁻²⁴ Σ|∂m/∂δᵢ||δᵢ| ≥ |m| (method.md §2.5); the radius counts as exact. If the sum is 0, no
-/// relative change of the δᵢ changes the sign, and the margin is not grey. An example is a vertex straight above a
-/// vertex of an axis-parallel grid.
+/// Returns whether |m| ≤ 16 · 2⁻²⁴ Σ|∂m/∂δᵢ||δᵢ| and the sum is not 0 (method.md §2.5); the radius counts as exact. If
+/// the sum is 0, no relative change of the δᵢ changes the sign, and the margin is not grey. An example is a vertex
+/// straight above a vertex of an axis-parallel grid.
 bool grey(const Margin& margin);
 
 /// Returns the distance of a gap [m], within 1 ulp of double. The denominator must be positive.

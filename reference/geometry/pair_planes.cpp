@@ -129,7 +129,7 @@ class PlaneMaker {
     return true;
   }
 
-  /// Returns the share of 2γ_p d that the first side has, if both sides can move.
+  /// Returns the share of 2γ_p d that the first side gets. Both sides must be able to move.
   Long first_part(const NearPair& pair) const {
     if (in_.displacement.empty()) return 0.5;
     std::array<Long, 2> approach{0, 0};

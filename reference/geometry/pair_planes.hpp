@@ -15,9 +15,9 @@ struct NearPair {
   compare::PrimitivePair pair;               ///< kind, and numbers of the primitives
   std::array<compare::Index, 4> vertices{};  ///< vertices of the first side, then of the second
   std::size_t second_from = 1;
-  float below = 0;                             ///< the distance, rounded down [m]
-  bool has_plane = false;                      ///< whether all its vertices keep the plane in single precision, exactly
-  compare::Vec3f normal{};                     ///< n, from the first side to the second
+  float below = 0;          ///< the distance, rounded down [m]
+  bool has_plane = false;   ///< whether a plane rounded to single precision separates the sides, decided exactly
+  compare::Vec3f normal{};  ///< n, from the first side to the second
   double first_offset = 0, second_offset = 0;  ///< upper limit of n·x on the first side, lower limit on the second [m]
 
   /// Returns the half-space of the pair's k-th vertex, as VertexPlane.

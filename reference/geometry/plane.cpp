@@ -103,8 +103,8 @@ class AnsweredPlanes {
   const compare::PlaneOut& out_;
 };
 
-/// Counts the pairs that a plane separates, and the pairs that neither a plane nor balls keep apart. `worst` is the
-/// first of the latter.
+/// Counts the pairs that a plane separates, and the pairs that neither a plane nor balls keep apart (`uncovered`).
+/// `worst` is the first uncovered pair.
 struct Findings {
   std::size_t separated = 0, uncovered = 0;
   PrimitivePair worst;
@@ -306,8 +306,8 @@ class FreedomCheck {
     return static_cast<double>(error / (u * (measured.scale + doubtful)));
   }
 
-  /// Returns how far a side may move along `sign` n, times the length of n: the smallest distance of its movable
-  /// vertices; 0 if no vertex can move.
+  /// Returns how far a side may move along `sign` n, times the length of n: the smallest distance of a movable vertex
+  /// from its offset; 0 if no vertex can move.
   template <class Vertices>
   double room(const PrimitivePair& name, const Vertices& side, const Vec3f& n, double sign) const {
     double least = infinity;

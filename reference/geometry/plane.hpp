@@ -8,8 +8,8 @@ namespace ogc::reference {
 
 /// A number n·x + o whose parts are exact.
 struct Height {
-  compare::Vec3f normal, point;  ///< o [m] times the length of n
-  double offset = 0;             ///< [m] times the length of n
+  compare::Vec3f normal, point;  ///< n, and x [m]
+  double offset = 0;             ///< o [m] times the length of n
 };
 
 /// Returns the sign of a − b, exactly. All numbers must be finite.

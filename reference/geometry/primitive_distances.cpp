@@ -1,6 +1,6 @@
-// Works in two rounds. The first lowers each distance by the distances of neighbours across the mesh, which are near in
-// most states. The second searches each primitive's box, widened by the distance known so far. Each pair is visited
-// from both sides, so the searches of two primitives do not depend on each other.
+// Works in two rounds. The first measures only neighbours across the mesh, which are near in most states. The second
+// searches each primitive's box, widened by the distance known so far. Each pair is visited from both sides, so the
+// searches of two primitives do not depend on each other.
 #include "reference/geometry/primitive_distances.hpp"
 
 #include <tbb/blocked_range.h>
@@ -57,7 +57,7 @@ class Facets {
   }
 
  private:
-  /// Lowers distances by the vertices that lie opposite to the triangle's edges in the neighbouring triangles.
+  /// Measures the vertices that lie opposite to the triangle's edges in the neighbouring triangles.
   void meet_ring(Index t) {
     for (const Index e : in_.topology->triangle_edges[at(t)])
       for (const Index other : mesh_.triangles_of(e))
@@ -102,7 +102,7 @@ class Edges {
   }
 
  private:
-  /// Lowers distances by the edges around the vertices that lie opposite to the edge.
+  /// Measures the edges around the vertices that lie opposite to the edge.
   void meet_ring(Index e) {
     for (const Index t : mesh_.triangles_of(e))
       for (const Index other : mesh_.edges_of(mesh_.opposite(t, e))) meet(e, other, of_edge_.so_far(at(e)));

@@ -1,5 +1,5 @@
-// A vertex is cut by its ball if a gap of two points is positive; this sign is exact. The scaled position is computed
-// in long double; as nothing cancels, its rounded value is right.
+// A vertex is cut by its ball if d² − b² of the proposal and X_prev is positive; this sign is exact. The scaled
+// position is computed in long double; as nothing cancels, its rounded value is right.
 //
 // Decides exactly which half-spaces a proposal violates. Positions are in long double: the three products of
 // single-precision numbers in n·x are exact there, and the two sums lose 2⁻⁶⁴ of their moduli.
@@ -11,7 +11,7 @@
 //   k   the solve w = H⁻¹n, with a backward error ε ‖H‖: ‖δw‖ ≤ ε κ/(1 − ε κ) ‖w‖, κ = ‖H‖ ‖H⁻¹‖. It moves the point
 //       where w meets the half-space by at most (1 + ‖n‖ ‖w‖/(n·w)) ‖δw‖/‖w‖ times the length of the way
 //
-// If the ball brings the point in, a and k are multiplied by b over the point's distance.
+// If the point is then scaled into the ball, a and k are multiplied by b over the point's distance.
 #include "reference/geometry/truncate.hpp"
 
 #include <algorithm>
@@ -169,7 +169,7 @@ class RegionCheck {
   }
 
   /// Counts the half-spaces that the step does not approach and that the rounded end may violate. If there is one, a
-  /// step away from it mends this; if there are several, no position near the end may be inside all.
+  /// step away from it mends this. If there are several, possibly no position near the end is inside all.
   std::ptrdiff_t beside(const Point& end, const Point& step) const {
     return std::ranges::count_if(half_spaces_, [&](const HalfSpace& h) {
       const Point n = wide(h.normal);

@@ -1,6 +1,6 @@
 // The incremental potential of an IPC step: inertia, elasticity and damping as in Newton-OGC, barriers instead of OGC's
 // contacts, and lagged friction. If prescribed vertices did not reach their targets, it also pulls them there. The
-// unknowns are the free vertices, with a pull also the prescribed ones, and then the frames of rods
+// unknowns are the free vertices, the prescribed vertices while they are pulled, and the frames of rods
 // (solvers/rods/rod_system.hpp).
 #pragma once
 

@@ -14,8 +14,9 @@ enum class IpcAdaptation : std::uint8_t { distance, gap };
 /// with the diagonal of the smallest free body. `velocity`: the root mean square of ‖p_v‖/h over the last three
 /// iterations is below velocity_tolerance (2021).
 enum class IpcStopping : std::uint8_t { displacement, velocity };
-/// Selects the pairs that bound an IPC step. `partial`: the active pairs; because of all others no vertex moves farther
-/// than d̂/2, unless this would take more than half of the step (Li et al. 2020). `full`: all pairs (2021).
+/// Selects the pairs that bound an IPC step. `partial` (Li et al. 2020): CCD of the active pairs, and a largest motion
+/// of d̂/2 because of all other pairs. If that motion is less than half of what CCD allows, CCD of all pairs replaces
+/// it. `full` (2021): CCD of all pairs.
 enum class IpcCcd : std::uint8_t { partial, full };
 
 /// IPC's settings. The table of settings has their ranges and defaults.

@@ -8,9 +8,9 @@
 //        └──────────────────────── adapt κ, or the pull ─────────────────────────────────────── p small? ─┘
 //
 // The step is bounded as in the official code: by CCD of the active pairs, and by d̂/2 as the largest motion because of
-// all others (a CFL-like rule). If that rule would take more than half of the step, CCD of all pairs replaces it. One
-// broad phase serves an iteration: its boxes hold the whole motion and reach d̂ further. So it finds the pairs for the
-// continuous detection and for the barriers of every trial state.
+// all other pairs (a CFL-like rule). If that motion is less than half of what CCD allows, CCD of all pairs replaces the
+// rule. One broad phase serves an iteration: its boxes hold the whole motion and reach d̂ further. So it finds the
+// pairs for the continuous detection and for the barriers of every trial state.
 //
 // If a step stalls (below 1e-10 of p), the next direction is the negative gradient over the diagonal. If this step
 // stalls, too, the time step ends without convergence. Each of these events is added to the notes of the step, with the

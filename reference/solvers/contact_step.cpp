@@ -172,8 +172,8 @@ void ContactStep::guess(GuessEnd end) {
   if (metrics_.guess_rounds > 0) metrics_.momentum_lost_guess = momentum_lost({x_, start_, target_}, potential_);
 }
 
-/// Two vertices at a distance d that moved by at most m each are at least d − 2m apart; the same holds for all faces.
-/// The smallest distances are known for surfaces only, so the result is false for scenes with volumes.
+/// Two vertices at a distance d that moved by at most m each are still at least d − 2m apart, and so are all other
+/// faces. The smallest distances are known for surfaces only, so scenes with volumes get false.
 bool ContactStep::nothing_near() const {
   if (compare::has_volumes(scene_)) return false;
   double largest = 0;

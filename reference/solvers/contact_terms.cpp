@@ -86,7 +86,8 @@ std::vector<compare::ForceAnswer> majorised(std::vector<compare::ForceAnswer> an
   return answers;
 }
 
-/// Roundings of the factor above: up to three additions of moduli (the sum times |w| replaces w²).
+/// Roundings that the factor of `majorant` adds to a block: up to three additions of moduli. The product with |w|, in
+/// place of w², adds no rounding.
 constexpr double majorant_tolerance = 3;
 
 }  // namespace

@@ -37,8 +37,7 @@ ContactStencil stencil_of(const compare::Topology& topology, const compare::Vert
 /// Returns the stencil of a contact between two edges; its sides may be ends of the edges.
 ContactStencil stencil_of(const compare::Topology& topology, const compare::EdgeEdgeContact& contact);
 
-/// Returns the squared rest lengths of a contact's two edges [m²]; 0 for an edge without triangles. Returns zeros if
-/// one side is a vertex.
+/// Returns the contact stiffness and friction of the contact's two bodies. `body` holds the body of each vertex.
 std::array<float, 2> mollified_rest_squared(const compare::Topology& topology, const compare::RestStateOut& rest,
                                             const ContactStencil& stencil);
 

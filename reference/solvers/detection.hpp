@@ -23,10 +23,10 @@ struct Detected {
 /// Rounds positions to the nearest single-precision numbers.
 std::vector<compare::Vec3f> rounded(const State& x);
 
-/// Returns a query radius between r and `most` [m] that is enough at these positions: the `movable` vertices get the
-/// same contacts and bounds as with `most`. A bound b_v is at most γ_p times the distance from v to the nearest
-/// triangle without v. If such a triangle adjoins a side opposite to v in one of v's triangles, the distance to that
-/// side is an upper limit. The result is the largest of these limits; it is `most` if some vertex has no such triangle.
+/// Returns a query radius between r and `most` [m] that gives the `movable` vertices the same contacts and bounds as
+/// `most`. A bound b_v is at most γ_p times the distance from v to any triangle without v. If such a triangle adjoins
+/// the side opposite to v of one of v's triangles, the distance to this side limits b_v. The function computes the
+/// smallest such distance for each vertex, or `most` if there is none, and returns the largest.
 float sufficient_query_radius(const compare::Topology& topology, const compare::ExclusionView& exclusions,
                               const std::vector<std::size_t>& movable, const std::vector<compare::Vec3f>& positions,
                               float contact_radius, float most);

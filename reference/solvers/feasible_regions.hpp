@@ -16,8 +16,8 @@ namespace ogc::reference {
 /// region is all of space.
 class FeasibleRegions {
  public:
-  /// Maps a half-space's normal n to H⁻¹ n, H the vertex's block. A vertex outside slides back into the half-space in
-  /// this direction.
+  /// Maps a half-space's normal n to H⁻¹ n, where H is the vertex's block. A vertex outside the half-space slides back
+  /// into it in this direction.
   using Metric = std::function<Triple<double>(const Triple<double>&)>;
 
   FeasibleRegions() = default;
@@ -52,7 +52,7 @@ class FeasibleRegions {
   State centre_;
   std::vector<double> radius_;
   std::vector<std::vector<HalfSpace>> planes_;
-  bool is_scaled_ = false;  ///< whether vertices are scaled instead of sliding
+  bool is_scaled_ = false;  ///< whether moves are scaled; otherwise vertices slide along half-spaces
 };
 
 }  // namespace ogc::reference

@@ -9,7 +9,7 @@
 
 namespace ogc::reference {
 
-/// Returns whether the mesh has this face. A contestant's answer may contain others.
+/// Returns whether the mesh has this face. A contestant's answer may contain faces that the mesh lacks.
 inline bool is_there(const compare::Topology& topology, const compare::Face& face) {
   if (face.index < 0) return false;
   const auto i = static_cast<std::size_t>(face.index);

@@ -146,7 +146,7 @@ class LedgerWriter::Writer : private RoundedScene {
   }
 
   /// Returns the positions before truncation: x + H⁻¹ f for each free vertex, the target for each prescribed vertex. A
-  /// free vertex reads the positions at lower colours that the sweep stored.
+  /// free vertex reads the stored positions of vertices with lower colours.
   State proposals(const State& stored, const std::vector<Index>& colour) const {
     State proposed = stored;
     const SweepView view{x_, stored, colour};

@@ -17,7 +17,7 @@ struct Residual {
   double share = 0;
   double force = 0;   ///< mean ‖f_v‖ [N]
   double energy = 0;  ///< incremental potential without friction [J]
-  double torque = 0;  ///< mean ‖(I − q qᵀ)(M q + b)‖ over free segments of rods [N m]
+  double torque = 0;  ///< mean torque ‖(I − q qᵀ)(M q + b)‖ over free segments (compare/rods.md) [N m]
   std::int64_t contacts = 0;
 };
 

@@ -16,7 +16,8 @@ using compare::StepEventKind;
 using compare::Vec3;
 using compare::Vec3f;
 
-/// Returns for each event the moves that contacts leave; empty for an answer without frictions.
+/// Returns for each event the moves that contacts leave. All lists are empty if the answer's rest state lacks the
+/// friction of a pair of bodies.
 std::vector<std::vector<compare::HeldMove>> held_moves(const compare::StepIn& in, const compare::StepOut& answer) {
   std::vector<std::vector<compare::HeldMove>> moves(answer.events.size());
   const std::size_t bodies = in.scene->bodies.size(), count = in.scene->mesh.positions.size();

@@ -20,11 +20,12 @@ std::array<Triple<double>, Count> plain_corners(const std::array<Index, Count>& 
   return corners;
 }
 
-/// Whether each of a contact's four vertices is updated together with the updated vertex, which is included.
+/// Holds for each of a contact's four vertices whether it is updated together with the vertex `own`; true for `own`.
 using Updated = std::array<bool, 4>;
 
-/// Returns Σ |w_u|/|w|: the sum over the vertices that are updated together, w of the updated vertex; 1 if w is 0. A
-/// block times this factor majorises the energy for a simultaneous motion of all these vertices (method.md §7.4).
+/// Returns Σ |w_u|/|w|, or 1 if w is 0. The sum is over the vertices that are updated together; w is the weight at
+/// place `own`. A block times this factor majorises the energy for a simultaneous motion of all these vertices
+/// (method.md §7.4).
 double majorant(const std::array<double, 4>& weight, const Updated& updated, std::size_t own) {
   double sum = 0;
   for (std::size_t k = 0; k < 4; ++k) sum += updated[k] ? std::abs(weight[k]) : 0;

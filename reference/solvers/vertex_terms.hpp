@@ -13,7 +13,7 @@
 
 namespace ogc::reference {
 
-/// One term of force and block, with the tolerances of its stage in units of u · scale. Accepted answers within a
+/// One term of force and block, with the tolerances of its stage in units of 2⁻²⁴ · scale. Accepted answers within a
 /// tolerance of the exact answer are not tried one by one; they enlarge the spread. The spread is the largest
 /// difference from the exact answer, plus the tolerance, because the scale of an accepted answer may be twice that of
 /// the exact one.

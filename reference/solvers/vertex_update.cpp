@@ -39,7 +39,8 @@ Vec3 times(double s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
 double inner(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 double norm(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 
-/// H and f for one choice among the accepted answers, with their errors η and φ. The errors include that of the solve.
+/// H and f for one choice among the accepted answers, with their errors η and φ. The errors include the error of the
+/// solve.
 struct System {
   Vec3 force;
   Symmetric3 block{};
@@ -193,8 +194,8 @@ VertexUpdate update_of(const VertexTerms& terms, const FreeVertex& vertex, const
   for (const Term& term : terms.terms)
     combinations = std::min(combinations * term.accepted.size(), most_combinations + 1);
   if (combinations > most_combinations) return {best.position, infinity, true, Cut::doubtful};
-  // If several combinations explain the answer because the bound hides their difference, each may decide whether it was
-  // cut.
+  // Several combinations of accepted answers may explain the answer, if the bound hides their difference. If they
+  // disagree about whether the vertex was cut, both are right.
   bool cuts_differ = false;
   while (advance(choice, terms)) {
     const VertexUpdate other = update_with(system_of(terms, vertex, choice), vertex, answer);

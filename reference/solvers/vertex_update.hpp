@@ -19,7 +19,7 @@ struct FreeVertex {
   bool is_scaled = false;  ///< whether a cut vertex stops on the path from X_prev to its proposal instead of sliding
 };
 
-/// Whether truncation changes an update; doubtful if both are right.
+/// Whether truncation changes an update; with `doubtful`, a contestant may count it as cut or not.
 enum class Cut { no, yes, doubtful };
 
 /// The truth about the update of one vertex; see SweepTruth.

@@ -40,8 +40,10 @@ std::string first_mismatch(const StageReport& report) {
   return print_problem(report.tally.mismatches[0].name) + ": " + report.tally.mismatches[0].message;
 }
 
-/// Selects planted faults: all, those that a mix of all generators' cases reveals, or those that need the cases of one
-/// named generator.
+/// Selects planted faults:
+/// - in_any_way: all
+/// - by_any: faults that a mix of all generators' cases reveals
+/// - by_its_own: faults that need the cases of one named generator
 enum class Shown { in_any_way, by_any, by_its_own };
 
 /// Checks that the judge catches the faults planted in these stages.
@@ -57,7 +59,7 @@ void check_caught(const std::vector<Stage>& stages, Shown shown = Shown::in_any_
     // A fault that only one generator reveals needs more cases, because few of them come from this generator.
     const std::uint64_t most = (fault.generator.empty() ? 1 : 20) * options.cases;
     std::uint64_t found = 0;
-    // Most faults appear in a twentieth of the cases. Only if a fault does not, more cases are tried.
+    // Most faults appear in a twentieth of the cases. For the others, more cases are tried.
     for (options.cases /= 20; found == 0 && options.cases <= most; options.cases *= 20)
       found = judge_stage(fault.stage, wrong, authority, options).tally.mismatched;
     INFO(fault.name);

@@ -1,5 +1,5 @@
-// Tests that a body on keyframes is an ordinary surface (compare/deviations.md, §5.1.3): it may lag behind its motion,
-// but never passes through another surface.
+// Tests that a body that follows keyframes is an ordinary surface (compare/deviations.md, §5.1.3): it may lag behind
+// its motion, but never passes through another surface.
 #include <nlohmann/json.hpp>
 
 #include "compare/files/scenes/scene_files.hpp"

@@ -1,4 +1,4 @@
-// Plants faults of forces on stencils: shares of 0.1 % and 0.01 %, and faults that few cases show.
+// Plants faults of forces on stencils: relative errors of 0.1 % and 0.01 %, and faults that few cases reveal.
 
 #include "tests/compare/judge/faults.hpp"
 

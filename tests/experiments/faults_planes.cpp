@@ -85,7 +85,7 @@ struct Speeds {
   std::vector<double> first, second;
 };
 
-/// Returns a fault with wrong offsets: where displacements divide a pair's gap, the first side gets the share
+/// Returns a fault with wrong offsets. If displacements divide a pair's gap, the first side gets the share
 /// `share_of_first`.
 Fault divided_otherwise(const std::string& name, const std::function<double(const Speeds&)>& share_of_first) {
   return plane_fault(name, [share_of_first](const PlaneIn& in, Index v, VertexPlane& plane) {
@@ -128,7 +128,8 @@ std::vector<Fault> division_faults() {
   };
 }
 
-/// Keeps the planes of each vertex's sixteen nearest pairs, independent of the pair's other vertices.
+/// Imitates a cap by vertex: removes the last plane of a vertex that has the most planes, but keeps the planes of the
+/// same pair at other vertices.
 void asymmetric_cap(const PlaneIn&, Rows& rows) {
   for (auto& row : rows)
     if (row.size() == planes_of_vertex) row.pop_back();

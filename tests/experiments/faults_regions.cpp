@@ -18,7 +18,7 @@ double size(const Vec3f& n, const Vec3f& x) {
   return std::abs(double{n.x} * x.x) + std::abs(double{n.y} * x.y) + std::abs(double{n.z} * x.z);
 }
 
-/// Returns a fault that answers an input changed by `change(in)`; only if a vertex has half-spaces.
+/// Returns a fault that changes the input by `change(in)` if a vertex has half-spaces.
 template <class Change>
 Fault region_asked(const std::string& name, Change change) {
   return asked_wrongly("truncate: " + name, &Contestant::truncate, [change](TruncateIn& in) {

@@ -205,7 +205,7 @@ void highest_owner(const DetectIn& in, const Authority&, DetectVertexFacetOut& o
   }
 }
 
-/// Returns a change by which a call answers with the contacts of the call before.
+/// Returns a change that replaces an answer's contacts by the contacts of the previous answer.
 template <class Out>
 auto stale() {
   return [last = std::make_shared<Out>()](const DetectIn&, const Authority&, Out& out) {

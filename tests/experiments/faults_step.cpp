@@ -74,8 +74,8 @@ using GuessContacts = std::vector<reference::GuessContact>;
 /// A wrong rule for the move that contacts leave to vertex v: it changes the contacts or the targets y.
 using Wrong = std::function<void(GuessContacts&, const Places& previous, Places& target, std::size_t v)>;
 
-/// Returns a fault that applies the wrong rule to the moves of the first round, only with bounds=ball, so that nothing
-/// else is wrong. With `sign` −1 the remaining move is reversed.
+/// Returns a fault that applies the wrong rule to the moves of the first round. It does so only with bounds=ball, so
+/// that nothing else is wrong. If `sign` is −1, the remaining move is reversed.
 Fault held_wrongly(const std::string& name, const Wrong& wrong, double sign = 1) {
   return spoiled(name, [wrong, sign](const StepIn& in, StepOut& out) {
     const Settings& settings = in.scene->settings;
@@ -111,7 +111,8 @@ void ignore_partners(GuessContacts&, const Places& previous, Places& target, std
   target[v] = own;
 }
 
-/// Reverses the move, without friction and with other vertices at rest. So contacts remove the part that leaves them.
+/// Reverses the move of v, without friction and with other vertices at rest. If the remaining move is reversed again,
+/// the contacts have removed the part of the move that leads away from them.
 void take_leaving(GuessContacts& contacts, const Places& previous, Places& target, std::size_t v) {
   for (reference::GuessContact& contact : contacts) contact.friction = 0;
   ignore_partners(contacts, previous, target, v);
@@ -133,7 +134,8 @@ void slide_with_dat(const StepIn& in, StepOut& out) {
   }
 }
 
-/// Moves a vertex that half-spaces stop in an iteration sideways off its path, but keeps it inside its region.
+/// Finds vertices that half-spaces stopped in an iteration. Moves each of them sideways off its path, but keeps it
+/// inside its region.
 void stop_beside_the_way(const StepIn& in, StepOut& out) {
   if (in.scene->settings.bounds != Bounds::dat) return;
   const StepEvent* detection = nullptr;
@@ -157,7 +159,7 @@ void stop_beside_the_way(const StepIn& in, StepOut& out) {
   }
 }
 
-/// Also uses y − x to divide the gaps in detections between iterations.
+/// Divides the gaps in proportion to y − x in detections between iterations, too.
 void divide_by_prediction(const StepIn& in, StepOut& out) {
   const Settings& settings = in.scene->settings;
   if (settings.bounds != Bounds::dat) return;
@@ -173,7 +175,7 @@ void divide_by_prediction(const StepIn& in, StepOut& out) {
   }
 }
 
-/// Finds contacts with volumes as these are at the start of the step.
+/// Finds contacts with volumes at the volumes' positions at the start of the step.
 void ask_volumes_of_before(const StepIn& in, StepOut& out) {
   const reference::SceneVolumes volumes(*in.scene, *in.topology);
   const std::vector<Vec3f> start = to_single(in.scene->mesh.positions);
@@ -187,7 +189,7 @@ void ask_volumes_of_before(const StepIn& in, StepOut& out) {
   }
 }
 
-/// Keeps the contacts with volumes of the first detection in all others.
+/// Uses the contacts with volumes of the first detection in all other detections.
 void keep_contacts_with_volumes(const StepIn&, StepOut& out) {
   for (StepEvent& event : out.events)
     if (is_detection(event)) event.volumes = out.events.front().volumes;
@@ -202,7 +204,7 @@ void let_volumes_lag(const StepIn& in, StepOut& out) {
     if (is_volume[v]) out.events.front().position[v] = start[v];
 }
 
-/// Removes the detection that follows an iteration if a vertex was left inside a volume.
+/// Removes the detection that follows an iteration if the iteration left a vertex deep inside a volume.
 void ask_nothing_inside(const StepIn& in, StepOut& out) {
   const std::vector<VolumeContact>* contacts = nullptr;
   for (std::size_t i = 0; i + 1 < out.events.size(); ++i) {

@@ -110,13 +110,13 @@ Fault truncated_late() {
           }};
 }
 
-/// Leaves forces of vertex–facet contacts out of all vertices but the contact's own.
+/// Applies the force of a vertex–facet contact only to the contact's vertex, not to the facet's corners.
 void forget_facets(reference::SweepStencils& stencils) {
   for (auto& contacts : stencils.vertex_facet)
     std::erase_if(contacts, [](const auto& contact) { return contact.second > 0; });
 }
 
-/// Returns a fault of contacts with volumes, which the cases of their generator show.
+/// Returns a fault of contacts with volumes, which cases of the generator "volume" reveal.
 Fault about_volumes(const std::string& name, const std::function<void(SweepCopy&)>& change) {
   Fault fault = asked_wrongly(name, change);
   fault.generator = "volume";
@@ -134,7 +134,7 @@ void forget_corners(reference::SweepStencils& stencils) {
   for (auto& own : stencils.volumes) std::erase_if(own, [](const auto& element) { return element.second > 0; });
 }
 
-/// Puts vertices of volumes where they were at the start of the step.
+/// Sets xᵗ of the volumes' vertices to their positions before the sweep, which hides the motion of volumes.
 void forget_motion_of_volumes(SweepCopy& copy) {
   const std::vector<bool> is_volume = volume_flags(copy.scene);
   for (std::size_t v = 0; v < is_volume.size(); ++v)

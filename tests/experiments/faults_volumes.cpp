@@ -103,8 +103,8 @@ Vec3 minus(const Vec3& a, const Vec3& b, double factor) {
   return {a.x - factor * b.x, a.y - factor * b.y, a.z - factor * b.z};
 }
 
-/// Returns whether the line from the point to its contact meets an edge of a tetrahedron before its end: the two lines
-/// come within 10⁻⁶ of the line's length.
+/// Returns whether the path from the point to its contact point passes an edge of a tetrahedron at a distance below
+/// 10⁻⁶ of the path's length. Ends of the path do not count.
 bool meets_edge(const VolumeContact& c, const VolumeDepthIn& in) {
   const Vec3f& x = in.points[static_cast<std::size_t>(c.point)];
   const Triangle& corners = in.topology->triangles[static_cast<std::size_t>(c.triangle)];

@@ -17,7 +17,8 @@ Surface scaled(const Surface& surface, double factor) {
   return mapped(surface, [&](Vec3f x) { return at(factor * x.x, factor * x.y, factor * x.z); });
 }
 
-/// Returns k triangles around the origin; neighbour i lies at (cos, sin, height) of its angle.
+/// Returns k triangles around the origin. Neighbour i lies at the angle 2πi/k on the unit circle, and heights
+/// alternate.
 Surface star_of(int k, double height_even, double height_odd) {
   Surface surface{{{0, 0, 0}}, {}, {}, {}};
   for (int i = 0; i < k; ++i) {

@@ -76,7 +76,7 @@ bool is_numbered(std::string_view member, std::string_view stem) {
   return !member.empty() && std::ranges::all_of(member, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// Returns the members that are numbered with the first stem for which there are any, in natural order.
+/// Returns the numbered members of the first stem that has any, in natural order.
 std::vector<std::string> numbered_members(const ZipFile& zip) {
   std::vector<std::string> found;
   const auto look = [&](std::span<const std::string_view> stems) {
@@ -184,7 +184,8 @@ void check_count(const Mesh& topology, std::uint64_t vertices, const std::string
                      std::to_string(topology.positions.size()) + "; give the mesh that was simulated");
 }
 
-/// Returns the frames of all arrays, one array after another. Frames of a single array are numbered by the array.
+/// Returns the frames of all arrays, one array after another. If there are several arrays, a frame's name begins with
+/// the name of its array.
 std::unique_ptr<MeshSequence> frames_of(const std::vector<FoundArray>& arrays, const std::vector<std::string>& names,
                                         const Mesh& faces) {
   const auto kept = std::make_shared<const Mesh>(faces);

@@ -20,9 +20,9 @@ constexpr std::size_t all_digits = 16;
 /// Numbers with fewer digits do not count as rounded either: people type such numbers, or they are exact. A rounded
 /// number mostly has all digits of its format.
 constexpr std::size_t least_significant = 6, least_decimals = 4;
-/// Shares of the numbers that must have all decimals, or all significant digits, of a format. A rounded file has all
-/// decimals in all numbers. It has all significant digits in nine of ten numbers, or one less if the number ends in 0.
-/// But two coordinates of three may be exact, so the second share is small.
+/// Shares of the numbers that must have all decimals, or all significant digits, of a format. In a rounded file all
+/// numbers have all decimals. Nine of ten have all significant digits; the others end in 0, which is left out. But two
+/// coordinates of three may be exact, so the second share is small.
 constexpr double share_of_decimals = 0.9, share_of_significant = 0.25;
 
 std::vector<std::string_view> words_of(std::string_view line, std::size_t most) {

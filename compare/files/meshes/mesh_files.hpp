@@ -35,9 +35,9 @@ bool is_mesh_file(const std::filesystem::path& path);
 
 enum class PlyEncoding { ascii, binary };  ///< format of a PLY file
 
-/// Writes by extension: .obj, .ply, or .msh, the only one for tetrahedra and for nothing else. Coordinates are printed
-/// so that reading gives the same double (OBJ, MSH, ascii) or stored as double (binary). Throws InputError for another
-/// extension, ResourceError if the disk fails.
+/// Writes by extension: .obj, .ply, or .msh. Only .msh can store tetrahedra, and it stores nothing else. Coordinates
+/// are printed so that reading gives the same double (OBJ, MSH, ascii) or stored as double (binary). Throws InputError
+/// for another extension, ResourceError if the disk fails.
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, PlyEncoding encoding = PlyEncoding::binary);
 
 }  // namespace ogc::compare

@@ -38,7 +38,7 @@ class MshCollector {
   /// Starts without nodes. `name` is the file's name and must outlive the collector.
   MshCollector(const std::string& name, bool is_binary);
 
-  /// Returns the type of that number. Throws InputError for unknown types and for elements with volume other than
+  /// Returns the type with this number. Throws InputError for unknown types and for elements with volume other than
   /// tetrahedra of four nodes.
   const MshElementType& type_of(std::int64_t number, std::size_t place) const;
   void add_node(std::int64_t tag, std::size_t place, const Vec3& position);  ///< adds a node

@@ -168,8 +168,8 @@ class VtkLegacyParser {
     }
   }
 
-  /// A section of cells: one of POLYDATA's lists, or the only list of a grid, which gives the cells' kinds in another
-  /// section.
+  /// A section of cells: one of POLYDATA's lists, or the only list of a grid. A grid has the kinds of its cells in
+  /// another section.
   struct List {
     std::string_view keyword;
     int kind;

@@ -46,13 +46,15 @@ void put_edge(Shape& shape, double t, double length) {
   shape.x = {Vec3{0, 0, shape.distance}, Vec3{-t * length, 0, 0}, Vec3{(1 - t) * length, 0, 0}, Vec3{}};
 }
 
-/// Puts a point above the triangle's point with the barycentric weights b of the second corner and c of the third.
+/// Puts a point at `shape.distance` above a triangle's point. b and c are this point's weights of the second and third
+/// corner.
 void put_triangle(Shape& shape, const Vec3& second, const Vec3& third, double b, double c) {
   const Vec3 foot = sum(scaled(second, b), scaled(third, c));
   shape.x = {Vec3{0, 0, shape.distance}, scaled(foot, -1), sum(second, scaled(foot, -1)), sum(third, scaled(foot, -1))};
 }
 
-/// Returns edges of the lengths `shape.size` and `length` that cross, seen from above, at their parameters s and t.
+/// Returns two edges of the lengths `shape.size` and `length`. Seen from above, they cross at their parameters s and t,
+/// at an angle of this sine.
 std::array<Vec3, 4> crossing(const Shape& shape, double length, double sine, double s, double t) {
   const double x = length * std::sqrt(std::max(0.0, 1 - sine * sine)), y = length * sine, a = shape.size;
   return {Vec3{-s * a, 0, shape.distance}, Vec3{(1 - s) * a, 0, shape.distance}, Vec3{-t * x, -t * y, 0},
@@ -113,7 +115,8 @@ Shape near_feature(Random& random) {
   return shape;
 }
 
-/// Returns a contact whose triangle has a small height or side, or whose one edge is short, relative to the size.
+/// Returns a contact with a triangle of small height or side, or with one short edge. `thinness` is this length
+/// relative to `shape.size`.
 Shape thin_by(Random& random, double thinness) {
   Shape shape = sized(random, random.one_in(4) ? ContactSides::edge_edge : ContactSides::point_triangle,
                       random.between(0.05, 1));
@@ -133,8 +136,8 @@ Shape thin_by(Random& random, double thinness) {
   return shape;
 }
 
-/// Return contacts by thinness. The first is at least about the limit of needles (compare/stages/contact_force.hpp) or
-/// exactly 0; the second is a needle.
+/// Return contacts of thinness 0 or 10^−2.4 … 10^−0.5, and contacts of smaller thinness, most of them needles
+/// (compare/stages/contact_force.hpp).
 Shape thin(Random& random) { return thin_by(random, random.one_in(4) ? 0.0 : random.magnitude(-2.4, -0.5)); }
 Shape needle(Random& random) { return thin_by(random, random.magnitude(-9, -2.4)); }
 

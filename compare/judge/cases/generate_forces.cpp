@@ -135,8 +135,8 @@ CaseData membrane_corner(Random& random) {
   return question;
 }
 
-/// Replaces the default model of a case by another one. Rows of the table may be named after one of these models; they
-/// keep their names if models are added, because problem strings contain the names.
+/// Replaces the default model of a case by another one. A generator keeps its name if models are added, because problem
+/// strings contain the name.
 template <CaseData (*make)(Random&)>
 CaseData other_membrane(Random& random) {
   MembraneCase question = case_of<MembraneCase>(make(random));

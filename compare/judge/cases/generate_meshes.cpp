@@ -12,7 +12,7 @@ namespace {
 using namespace placement;
 
 /// A run with at least this many cases takes nearly all of them from generators whose meshes have thousands of
-/// vertices. A device needs a hundredth of the time for a case of a large mesh.
+/// vertices. In such meshes a device needs a hundredth of the time per case.
 constexpr std::uint64_t large_run = 1000000;
 
 constexpr std::array<int, 6> small_sizes{0, 1, 2, 3, 5, 10};
@@ -24,7 +24,7 @@ double jitter_rung(Random& random) {
 }
 
 /// Returns h (1 + rung/2), a radius that just reaches or just misses what lies at height h. Returns 0 in some cases,
-/// for a random radius.
+/// from which `finish` makes a random radius.
 double radius_at(Random& random, double h) {
   return !random.is_fine() && random.one_in(3) ? 0 : std::abs(h) * (1 + 0.5 * random.rung());
 }
@@ -109,7 +109,7 @@ CaseData bits(Random& random) {
   return mesh;
 }
 
-/// Makes two flat parallel sheets, in register, shifted by half a cell, or turned.
+/// Makes two flat parallel sheets: vertex above vertex, shifted by half a cell, or turned.
 CaseData sheets(Random& random) {
   MeshBuilder builder;
   const double gap = random.magnitude(-2, 0);
@@ -305,8 +305,9 @@ CaseData groups(Random& random) {
   return finish(random, builder, {random.one_in(2) ? 0.1 : jitter_rung(random), radius_at(random, gap)});
 }
 
-/// Makes two or three sheets whose borders are stitched, vertex to vertex or vertex to edge. Only the pairs of stitched
-/// vertices are excluded; pairs at the seam's ends and one row away are not.
+/// Makes two or three sheets whose borders are stitched, vertex to vertex or vertex to edge. Excludes only the stitched
+/// pairs of vertices, and leaves some of them out. So other pairs near the seam are not excluded, for example one row
+/// away.
 CaseData seams(Random& random) {
   MeshBuilder builder;
   const double gap = random.magnitude(-2, 0);
@@ -331,8 +332,8 @@ CaseData seams(Random& random) {
   return finish(random, builder, {random.one_in(2) ? 0.1 : jitter_rung(random), radius_at(random, gap)});
 }
 
-/// Makes a fine case of a stack or of sheets: the radius differs from the gap only in the last digits, and so does
-/// jitter. In a stack this holds for nearly every vertex and edge.
+/// Makes a fine case of a stack or of sheets: the radius differs from the gap by at most 10⁻⁵ of it, and jitter is at
+/// most 10⁻⁵. In a stack this gap is that of nearly every vertex and edge.
 CaseData boundary(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 4> ladders{stack, stack, stack, sheets};
   random.be_fine();
@@ -355,8 +356,8 @@ CaseData field(Random& random) {
   return finish(random, builder, {jitter_rung(random), radius_at(random, gap)});
 }
 
-/// Makes triangles with a height or a side near 0, around each other and each with a point beside it. There smallest
-/// distances are least certain.
+/// Makes triangles with a height or a side near 0. Each has a point near its short side, where single precision
+/// determines the smallest distance least accurately.
 CaseData needles(Random& random) {
   MeshBuilder builder;
   for (int i = 4 + random.below(8); i > 0; --i) {

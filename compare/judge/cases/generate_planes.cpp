@@ -2,7 +2,7 @@
 // r_q. Ladders approach
 // - gaps of a few ulp, collapsed triangles and far origins, where planes cease to exist,
 // - vertices with more pairs than planes,
-// - sides that are fixed, whole or in part.
+// - pairs in which some or all vertices of a side are fixed.
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -35,8 +35,8 @@ PlaneCase with_planes(Random& random, const MeshCase& mesh, float query_radius) 
           fixed_flags(mesh.rigid_groups)};
 }
 
-/// Makes a case of the detections by the name of its generator. r takes the place of r_q, because a larger radius would
-/// give too many pairs.
+/// Makes a case from the detections' generator of this name. Its r becomes r_q, because a larger r_q would give too
+/// many pairs.
 CaseData of_detection(Random& random, std::string_view generator) {
   for (const Generator& row : detect_generators()) {
     if (row.name != generator) continue;
@@ -65,7 +65,7 @@ CaseData finished(Random& random, const MeshBuilder& builder, double query_radiu
   return with_planes(random, mesh, mesh.contact_radius);
 }
 
-/// Makes two patches at distances down to 0, in register, shifted, turned, or corner to corner.
+/// Makes two patches at distances down to 0: vertex above vertex, shifted, turned, or corner to corner.
 CaseData gap(Random& random) {
   MeshBuilder builder;
   const double height = std::abs(random.rung()), turn = random.one_in(2) ? 0.8 : 1;
@@ -77,7 +77,7 @@ CaseData gap(Random& random) {
   return finished(random, builder, random.between(0.1, 1), random.one_in(2) ? 0 : std::abs(random.rung()));
 }
 
-/// Makes triangles without area and edges without length, beside whole ones.
+/// Makes triangles without area and edges without length, among triangles and edges of usual size.
 CaseData collapsed(Random& random) {
   MeshBuilder builder;
   const double apart = random.magnitude(-3, 0);
@@ -105,7 +105,8 @@ CaseData crowd(Random& random) {
   return finished(random, builder, apart * random.between(1.05, layers), random.one_in(3) ? 0 : 0.3 * apart);
 }
 
-/// Puts a sheet above another one that is fixed, whole or in part. Vertices of the upper sheet may be fixed, too.
+/// Puts a sheet above another one. All, some or no vertices of the lower sheet are fixed, and some or none of the upper
+/// sheet.
 CaseData fixed(Random& random) {
   MeshBuilder builder;
   const double height = random.one_in(3) ? std::abs(random.rung()) : random.magnitude(-2, 0);
@@ -187,12 +188,12 @@ CaseData divided(Random& random, const CaseData& data) {
   return test;
 }
 
-/// Makes a generic state with displacements, in whose proportion planes divide the gaps.
+/// Makes a generic state with displacements. Planes divide each gap in proportion to them.
 CaseData approach(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 4> states{soup, cloth, few, groups};
   return divided(random, random.pick(std::span<CaseData (*const)(Random&)>(states))(random));
 }
-/// Makes a state with displacements whose pairs are close, collapsed, crowded or fixed.
+/// Makes a state with displacements, and with pairs that are close, collapsed, crowded or fixed.
 CaseData close_approach(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 5> states{gap, collapsed, crowd, fixed, corner};
   return divided(random, random.pick(std::span<CaseData (*const)(Random&)>(states))(random));

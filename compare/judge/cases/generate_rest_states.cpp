@@ -98,7 +98,7 @@ Material material_of(Random& random) {
   return material;
 }
 
-/// Prescribes vertices without mass, and in one of three bodies some more.
+/// Prescribes the vertices without mass. In one of three bodies also prescribes a quarter of the others.
 void hold(Random& random, Scene& scene, const Body& body) {
   std::vector<bool> has_triangle(at(body.vertex_count));
   for (Index t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t)

@@ -59,7 +59,7 @@ struct StepBuilder {
     return m;
   }
 
-  /// Returns a material with the same ratio of stiffness to inertia for a solid as `material` has for a sheet.
+  /// Returns a material for a solid, with the ratios of stiffness to inertia that `material` gives a sheet.
   Material solid_material() {
     Material m = material();
     m.solid_density = 1000 * random.magnitude(-0.5, 0.5);
@@ -109,7 +109,8 @@ struct StepBuilder {
     }
   }
 
-  /// Add a volume without tetrahedra, fixed or moved as a whole; the first one adds the boundary of a block.
+  /// Add a volume without tetrahedra, fixed or moved as a whole. The first function adds the boundary of a block, the
+  /// second one a given mesh.
   void volume(const Vec3& origin) { volume(jittered_surface(random, spacing, random.between(0.5, 1.5)), origin); }
   void volume(Mesh mesh, const Vec3& origin) {
     for (Vec3& x : mesh.positions) x = sum(x, scaled(sum(origin, {2, 2, 2}), spacing));
@@ -128,8 +129,8 @@ struct StepBuilder {
     scene.motions.push_back(motion);
   }
 
-  /// Adds a curve of loose edges about `origin`, as heavy as a sheet's vertices. In some cases a rotating motion
-  /// prescribes two of its vertices.
+  /// Adds a curve of loose edges about `origin`. Its vertices are about as heavy as those of a sheet. In some cases a
+  /// rotating motion prescribes two of them.
   void rod(const Vec3& origin, const Vec3& velocity) {
     RodPlan plan = some_rod(random);
     plan.segments = std::min(plan.segments, 5);
@@ -272,8 +273,8 @@ CaseData handle(Random& random) {
   return builder.finish();
 }
 
-/// Throws vertices of a sheet at rest out of their bounds. Their number is the threshold of a re-detection, one more or
-/// one less. γ_e K is one rung from a whole number.
+/// Throws vertices of a sheet at rest out of their bounds. Their number is the re-detection count, one more or one
+/// less. γ_e K is one rung from a whole number.
 CaseData count_at_threshold(Random& random) {
   StepBuilder builder(random);
   const int nx = side(random), ny = side(random), count = nx * ny;
@@ -305,8 +306,8 @@ CaseData radius_at_cap(Random& random) {
   return builder.finish();
 }
 
-/// Puts a sheet at rest on another one, in register or shifted by half a cell, at a distance one rung from the contact
-/// radius.
+/// Puts a sheet at rest on another one, vertex above vertex or shifted by half a cell. Their distance is one rung from
+/// the contact radius.
 CaseData at_rest(Random& random) {
   StepBuilder builder(random);
   const double shift = random.one_in(2) ? 0 : 0.5;
@@ -500,8 +501,8 @@ CaseData planes(Random& random) {
 }
 CaseData planes_at_rest(Random& random) { return with_planes(at_rest(random)); }
 
-/// Limits vertices by dat: half-spaces that divide gaps by approach, at which vertices stop instead of sliding. In half
-/// of the cases a detection follows each iteration.
+/// Limits vertices by dat: half-spaces that divide each gap by the approach of both sides. Vertices stop at these
+/// half-spaces and do not slide. In half of the cases a detection follows each iteration.
 CaseData dat(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 4> scenes{onto, collide, handle, at_rest};
   const CaseData data = random.pick(std::span<CaseData (*const)(Random&)>(scenes))(random);

@@ -1,6 +1,6 @@
 // Makes cases of the sweep: one or two small cloths, deformed and on their way from xᵗ to y; some have a fixed body or
-// prescribed rows. Ladders approach what decides part of an update: rest, collapse, the contact radius, stiff contacts,
-// the slip limit, edges that cross at a small angle, the bound.
+// prescribed rows. Ladders approach states at which a part of the update changes: rest, collapse, the contact radius,
+// stiff contacts, the slip limit, edges that cross at a small angle, the bound.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -216,8 +216,8 @@ CaseData alone(Random& random) {
   return finish(random, std::move(cloth), generic(random));
 }
 
-/// Returns flat parallel sheets, in register or shifted by halves and quarters. Closest points tie, and distances are
-/// r, τ = r/2 or between.
+/// Returns flat parallel sheets, vertex above vertex or shifted by quarters and halves of a cell. Closest points tie,
+/// and distances are r, τ = r/2 or between.
 Cloth flat_sheets(Random& random, double gap, double turn = 0) {
   Cloth cloth;
   cloth.contact_radius = 0.5;
@@ -336,7 +336,7 @@ CaseData collapse(Random& random) {
   return finish(random, std::move(cloth), motion);
 }
 
-/// Approaches ‖x − X_prev‖ = b_v; without energies the proposal is y.
+/// Approaches ‖x − X_prev‖ = b_v. The sheet has no energies, so each vertex moves to y if its bound allows.
 CaseData at_bound(Random& random) {
   Cloth cloth;
   cloth.contact_radius = 0.25;
@@ -353,8 +353,7 @@ CaseData at_bound(Random& random) {
 }
 
 /// Takes random bits for materials and time step, over twelve powers of two, so that answers can be compared.
-/// Coordinates and bounds get random last bits only, because stencils keep their shapes and contacts exist only near
-/// the old positions.
+/// Coordinates and bounds get only random last bits, so that stencils keep their shapes and contacts remain.
 CaseData bits(Random& random) {
   constexpr int last = 17;
   SweepCase test = case_of<SweepCase>(few(random));

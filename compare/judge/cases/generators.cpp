@@ -13,8 +13,8 @@ namespace ogc::compare {
 namespace {
 
 // The limit of grey decisions does not apply to real states. In a regular sheet every vertex lies on the planes of its
-// neighbours, and parallel edges meet at the borders of blocks. So many decisions are grey without an error of a
-// kernel.
+// neighbours, and parallel edges meet at the borders of blocks. Therefore many decisions are grey although no kernel is
+// wrong.
 constexpr Generator real_states{"states", 50, false, nullptr}, mutated_states{"mutated", 50, false, nullptr};
 
 }  // namespace

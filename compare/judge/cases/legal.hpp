@@ -1,4 +1,4 @@
-// Defines which questions (compare/stages) are legal. Generated cases, states of runs and shrunk cases obey it.
+// Defines which questions (compare/stages) are legal. Generated cases, cases from runs and shrunk cases are legal.
 #pragma once
 
 #include <cmath>

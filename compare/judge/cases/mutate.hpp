@@ -9,10 +9,11 @@
 
 namespace ogc::compare {
 
-/// Changes a few points, one to four times. One change moves a point by a rung times a distance, or puts it that near
-/// to another point or to the middle of two points. It may also copy a point or a coordinate, or round all points to
-/// few binary digits. In a step velocities change, in a sweep xᵗ and the targets, in rest_state the rest shape as long
-/// as it stays legal. A distance becomes another distance, the radius or half of it, or changes by a rung.
+/// Changes a few points, one to four times. One change
+/// - moves a point by a rung times a distance, or puts it that near to another point or to the middle of two points,
+/// - copies a point or a coordinate, or rounds all points to few binary digits.
+/// In a step the velocities change, in a sweep xᵗ and the targets, in rest_state the rest shape as long as it stays
+/// legal. In activation the distance changes by a rung, or becomes about r or r/2.
 void mutate(Random& random, TestCase& test);
 
 /// Changes points as `mutate` does.

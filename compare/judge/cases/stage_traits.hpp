@@ -105,7 +105,7 @@ struct StageTraits {
 
   // Functions of the question.
 
-  /// Checks whether both sides have the stage, and the authority also all stages that the verdict calls.
+  /// Checks whether both sides have the stage, and whether the authority has all stages that the verdict calls.
   bool (*can_judge)(const Contestant&, const Authority&);
   /// Gives the cases to both sides and judges the answers.
   void (*ask)(std::span<const TestCase>, const Contestant&, const Authority&, Asker&, Tally&);

@@ -96,8 +96,9 @@ class States {
   std::uint64_t cell(const Vec3f& position) const;
   /// Returns a vertex in the same cell or a cell beside it; v itself if there is no other.
   Index neighbour(const State& state, Index v, Random& random) const;
-  /// Return a vertex and the corners of a triangle, and the ends of two edges, the lower-numbered edge first. In half
-  /// of the draws they are in contact, if the frame has any; otherwise they are near each other.
+  /// Return the vertices of a pair: a vertex and the corners of a triangle; the ends of two edges, the lower-numbered
+  /// edge first. In half of the draws the pair is in contact, if the frame has contacts; otherwise its sides are near
+  /// each other.
   std::array<Index, 4> vertex_and_triangle(std::size_t frame, Random& random) const;
   std::array<Index, 4> pair_of_edges(std::size_t frame, Random& random) const;
   /// Returns the vertex's position after this share of a step at its velocity.

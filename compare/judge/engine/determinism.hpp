@@ -19,7 +19,7 @@ namespace ogc::compare {
 std::vector<std::string> answer_bits(Stage stage, std::span<const TestCase> cases, const Contestant& contestant,
                                      const Authority& authority);
 
-/// Conditions that must not change a bit, such as other threads or another limit.
+/// Conditions that must not change a bit, for example another number of threads.
 struct Surrounding {
   std::string name;                                       ///< for the report: "2 threads"
   std::function<void(const std::function<void()>&)> run;  ///< calls its argument once

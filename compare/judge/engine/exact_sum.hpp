@@ -34,7 +34,8 @@ class ExactSum {
     add(product);
     add(std::fma(a, b, -product));
   }
-  /// Returns −1, 0 or 1. The last part decides, because parts do not overlap and their magnitudes increase.
+  /// Returns −1, 0 or 1. The last part has the sign of the sum, because parts do not overlap and their magnitudes
+  /// increase.
   int sign() const { return parts_.empty() ? 0 : parts_.back() > 0 ? 1 : -1; }
 
  private:

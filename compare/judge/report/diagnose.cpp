@@ -138,7 +138,7 @@ class Diagnosing {
     return found;
   }
 
-  /// A form that fits a part of the failing cases, alone or together with the first form, and these cases.
+  /// A form, and the failing cases that it fits alone or together with the first form.
   struct Part {
     const WrongForm* form = nullptr;
     bool together = false;
@@ -233,8 +233,8 @@ class Diagnosing {
     return words;
   }
 
-  /// Finds the input whose words in failing cases are missing from most right cases; of equally good inputs, the one
-  /// with the fewest words.
+  /// Finds the input whose words in failing cases are missing from most right cases. Of equally good inputs, takes the
+  /// one with the fewest words.
   void find_where(Diagnosis& result) const {
     if (is_mesh_stage(stage_) || result.failing < least_fits) return;
     std::map<std::string, std::set<std::string>> of_failing;

@@ -30,7 +30,8 @@ struct WrongForm {
   std::function<bool(const Evidence&, const Authority&)> fits;
   /// returns an authority that has the form as the truth; empty if the form depends on the answer
   std::function<Authority(const Authority&)> wrong{};
-  /// true if it describes the answers and not what was computed; tried only if no other form is named
+  /// true if the form states what wrong answers have in common, not how they are computed; tried only if no other form
+  /// is named
   bool is_vague = false;
 };
 

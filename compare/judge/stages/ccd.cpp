@@ -172,7 +172,7 @@ CaseData slide(Random& random) {
   return placed(random, draft);
 }
 
-/// Approaches or takes a gap of 0 at the start. The distance moved is similar to the gap, shorter or longer.
+/// Makes faces whose gap at the start is 0 or a rung. The distance moved is similar to the gap, shorter or longer.
 CaseData gap(Random& random) {
   Draft draft{.kind = some_kind(random)};
   const double height = random.rung();

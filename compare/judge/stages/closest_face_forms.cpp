@@ -224,7 +224,7 @@ WrongForm first_edge_of(const std::array<std::size_t, 3>& order) {
       });
 }
 
-/// Chooses corner or edge by the number of positive weights, which is wrong near an obtuse corner, where an edge may be
+/// Chooses corner or edge by the number of positive weights. This is wrong near an obtuse corner: an edge may be
 /// nearer.
 void by_signs(const Authority& authority, const ClosestFaceIn& in, std::size_t i, ClosestFaceTruth& truth) {
   const Weights w = Seen(in, i).foot();
@@ -249,7 +249,7 @@ void by_clamping(const Authority&, const ClosestFaceIn& in, std::size_t i, Close
   round_answer(truth, i);
 }
 
-/// Make the answer the nearest corner, or the closest point of the edge whose line is nearest.
+/// Make the nearest corner the answer, or the closest point of the edge whose line is nearest.
 void nearest_corner(const Authority&, const ClosestFaceIn& in, std::size_t i, ClosestFaceTruth& truth) {
   const Seen seen(in, i);
   const auto squared = [](const Vec3& v) { return dot(v, v); };
@@ -295,8 +295,8 @@ constexpr unsigned inside_bit = 1u << static_cast<unsigned>(TriangleFeature::int
 /// A bound of the rounding error of a sum of three weights, each with ten roundings in double.
 constexpr double sum_rounding = 30 * 0x1p-53;
 
-/// Makes the form that counts the foot as inside if the areas of its three triangles, added without signs, exceed the
-/// triangle's area by at most `slack(area)` [twice m²].
+/// Makes the form that decides by areas whether the foot is inside: the areas of its three triangles, added without
+/// signs, exceed the triangle's area by at most `slack(area)` [twice m²].
 template <class Slack>
 WrongForm areas_add_up(std::string name, const std::string& slack_text, Slack slack) {
   return face_told(std::move(name),
@@ -307,7 +307,8 @@ WrongForm areas_add_up(std::string name, const std::string& slack_text, Slack sl
                      if (truth.exact.feature[i] == TriangleFeature::interior ||
                          !((sum_of(w) - 1) * seen.area() <= slack(seen.area())))
                        return;
-                     // on the rim the areas correctly add up: both features are accepted
+                     // The foot is on the rim. There the areas add up to the triangle's area, so the form accepts the
+                     // right feature and the interior.
                      if (sum_of(w) - 1 <= sum_rounding) {
                        truth.accepted[i] = static_cast<std::uint8_t>(truth.accepted[i] | inside_bit);
                        return;
@@ -414,8 +415,8 @@ bool is_distance_of_plane(const Evidence& evidence, const Authority& authority) 
   return off <= closest_face_distance_tolerance * unit_roundoff * std::max(plane, size) || agrees(evidence, authority);
 }
 
-/// Checks whether the answer is right if its feature is accepted in addition to the right ones. Single precision may
-/// not distinguish the distances of both features.
+/// Checks whether the answer is right if its feature is also accepted. The distances of this feature and of a right
+/// feature may be equal in single precision.
 bool is_rounded_choice(const Evidence& evidence, const Authority& authority) {
   const ClosestFaceIn in = question_of(evidence);
   const ClosestFaceOut out = evidence.answered.closest_face(in);

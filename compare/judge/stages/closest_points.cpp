@@ -296,8 +296,8 @@ EdgeFeature feature_at(double t) {
   return t <= 0 ? EdgeFeature::end_0 : t >= 1 ? EdgeFeature::end_1 : EdgeFeature::interior;
 }
 
-/// Finds the closest point of the second line to the start of the first edge, clamps it, and projects it back. This is
-/// right for parallel edges.
+/// Takes the start of the first edge and the closest point of the second edge to it. If this point is an end, replaces
+/// the start by the closest point of the first edge to that end. This is right for parallel edges.
 void from_start(const ClosestPointsIn& in, ClosestPointsTruth& truth, std::size_t i) {
   const Vec3 e = difference(in.first[i][1], in.first[i][0]), f = difference(in.second[i][1], in.second[i][0]),
              r = difference(in.first[i][0], in.second[i][0]);

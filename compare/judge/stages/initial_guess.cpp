@@ -151,7 +151,7 @@ CaseData turn(Random& random) {
   return turned(random, from, rod_cases::turned(by, from), frame);
 }
 
-/// Approaches θ = 0 and θ = π; a direction may have length 0.
+/// Approaches turns by an angle of 0 and of π; a direction may have length 0.
 CaseData turn_at(Random& random) {
   if (random.one_in(2)) random.be_fine();
   const Vec3 from = random.one_in(2) ? rod_cases::some_direction(random)

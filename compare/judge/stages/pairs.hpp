@@ -65,7 +65,7 @@ inline Vec3 difference(const Vec3f& a, const Vec3f& b) {
   return {double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z};
 }
 
-/// Returns the least number that is certainly above a distance whose error is within the tolerance of `distance`.
+/// Returns a number just above all distances that the tolerance accepts in place of `distance`.
 inline float surely_above(double distance, double size) {
   const double above = distance + closest_face_distance_tolerance * unit_roundoff * std::max(distance, size);
   return std::nextafter(static_cast<float>(above), std::numeric_limits<float>::infinity());

@@ -23,7 +23,7 @@ std::string vertex(std::size_t v) { return "vertex " + std::to_string(v); }
 
 bool has(std::span<const Index> vertices, Index v) { return std::ranges::find(vertices, v) != vertices.end(); }
 
-/// Checks whether v is a vertex of the pair. A pair with a vertex common to both sides is no pair.
+/// Checks whether v is a vertex of exactly one side of the pair. Returns false for a pair that cannot exist.
 bool is_part(const Topology& topology, const PrimitivePair& pair, Index v) {
   const auto is_one_of = [](Index i, auto count) { return i >= 0 && i < static_cast<Index>(count); };
   if (pair.kind == PrimitivePair::Kind::edge_edge) {
@@ -122,7 +122,7 @@ WrongForm plane_asked(std::string name, std::string meaning, Change change) {
   });
 }
 
-/// Makes a form in which `accept(out, freedom)` clears counts of `freedom` that are no mistakes under this form.
+/// Makes a form that accepts certain deviations: `accept(out, freedom)` sets them to 0 in `freedom`.
 WrongForm plane_accepted(std::string name, std::string meaning, void (*accept)(const PlaneOut&, PlaneFreedom&)) {
   return {std::move(name), std::move(meaning), [accept](const Evidence& evidence, const Authority& authority) {
             Authority wrong = authority;

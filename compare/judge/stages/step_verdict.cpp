@@ -272,9 +272,9 @@ class StepVerdict {
     Index certain = 0, doubtful = 0;
   };
 
-  /// Judges a guess. A vertex with contacts must be at the end of the move that these allow, truncated; any other
-  /// vertex at y, truncated. A vertex without contacts counts as cut if it is not at y, because truncation never
-  /// returns a y beyond the bound.
+  /// Judges a guess. A vertex with contacts must be at the end of the move that these allow, truncated. Any other
+  /// vertex must be at y, truncated. It counts as cut if it is not at y, because truncation changes only positions
+  /// beyond the bound.
   void judge_guess(std::size_t i) {
     const StepEvent& event = out_.events[i];
     const std::span<const HeldMove> moves = i < truth_.moves.size() ? std::span<const HeldMove>(truth_.moves[i])
@@ -321,7 +321,7 @@ class StepVerdict {
     });
   }
 
-  /// Returns by how much X_prev + m is inside of the region [m]; negative outside.
+  /// Returns by how much X_prev + `move` is inside of the region [m]; negative outside.
   double clearance(std::size_t v, const Vec3& move) const {
     double least = double{detection_->bound[v]} - std::hypot(move.x, move.y, move.z);
     for (const VertexPlane& plane : detection_->planes.of(static_cast<Index>(v))) {

@@ -54,8 +54,8 @@ bool judge_bounds(const SweepIn& in, const SweepOut& out, const std::vector<Inde
   return true;
 }
 
-/// Returns the number of decisions: for each vertex whether it is cut, and for each of its stencils on which side of a
-/// jump it lies.
+/// Returns the number of decisions: one for each vertex (cut or not), and one for each of its stencils (side of a
+/// jump).
 std::uint64_t decisions(const SweepIn& in) {
   constexpr std::array<std::uint64_t, 3> corners{1, 2, 3};
   std::uint64_t count = in.old.size();

@@ -140,8 +140,8 @@ CaseData at_rest(Random& random) {
   return deformed(random, [&](const Vec3& p) { return times(f, p); });
 }
 
-/// Returns a rung; on the grid 0 instead of a rung below 2⁻²². There corners may lie straight above each other at 2⁻⁸ m
-/// or more, and the rung times this length must be 0 or a legal length, at least 2⁻³⁰ m.
+/// Returns a rung; on the grid, 0 instead of a rung below 2⁻²². On the grid, corners may lie straight above each other
+/// at a distance of 2⁻⁸ m or more. The rung times this distance must be 0 or a legal length, at least 2⁻³⁰ m.
 double rung_on(Random& random, bool on_grid) {
   const double rung = random.rung();
   return on_grid && std::abs(rung) < 0x1p-22 ? 0 : rung;
@@ -202,7 +202,7 @@ constexpr std::array<Generator, 10> table{{{"uniform", 30, true, uniform},
                                            {"ladder.needle", 15, false, needle},
                                            {"ladder.sliver", 10, false, sliver}}};
 
-/// Limits of the contract: weights [m], i [1/m³], growth and strain.
+/// Limits of the contract: weights [m], i = 1/(6V) [1/m³], growth (longest side)³ i, and strain.
 constexpr float most_weight = 0x1p60f, least_inverse = 0x1p-70f, most_inverse = 0x1p80f;
 constexpr double most_growth = 0x1p30, most_strain = 0x1p20;
 

@@ -68,7 +68,8 @@ CaseData truncate_zero(Random& random) {
                static_cast<float>(random.one_in(3) ? 0 : std::abs(random.rung())));
 }
 
-/// Returns slightly more than 2⁻⁵⁰ (Σ|n_k x_k| + |o|), the margin of X_prev and the current position to a half-space.
+/// Returns slightly more than 2⁻⁵⁰ (Σ|n_k x_k| + |o|). X_prev and the current position must lie inside each half-space
+/// by at least this margin.
 double spare(const Vec3f& n, const Vec3f& x, double offset) {
   const double size = std::abs(double{n.x} * x.x) + std::abs(double{n.y} * x.y) + std::abs(double{n.z} * x.z);
   return 0x1.8p-50 * (size + std::abs(offset));

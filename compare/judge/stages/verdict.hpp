@@ -33,8 +33,8 @@ void judge_position(const Vec3f& previous, const Vec3f& asked, float bound, cons
 void judge_truncate(Cases cases, const TruncateIn& in, const TruncateTruth& truth, const TruncateOut& out,
                     Tally& tally);
 
-/// Returns the question of stage truncate that an answer makes: X_prev, the stored y (X_prev if y is not finite) and
-/// the bound.
+/// Returns the question of stage truncate that follows from an answer: X_prev, the stored y (X_prev if y is not finite)
+/// and the bound.
 TruncateIn cut_question(const InitialGuessIn& in, const InitialGuessOut& out);
 /// Checks that the frames of the question's segments are within their tolerances.
 void judge_turns(Cases cases, const InitialGuessIn& in, const InitialGuessTruth& truth, const InitialGuessOut& out,
@@ -75,9 +75,9 @@ bool can_judge_step(const TestCase& test, const StepIn& in, const StepOut& out, 
 bool can_judge_plane(const TestCase& test, const PlaneIn& in, const PlaneOut& out, Tally& tally);
 /// Checks that every pair is separated, and that no vertex is restricted more than this requires.
 void judge_plane(const TestCase& test, const PlaneIn& in, const PlaneTruth& truth, const PlaneOut& out, Tally& tally);
-/// Judges each part separately. A point inside a part of triangles has one accepted contact. A point outside has all
-/// contacts that are certain, and only possible ones. In a part of tetrahedra each certain sheet with a path to the
-/// boundary has a contact. Numbers must be within their tolerances.
+/// Judges each part separately. A point inside a part of triangles must have one contact, which is accepted. A point
+/// outside must have all certain contacts, and may have possible ones. In a part of tetrahedra each certain sheet with
+/// a path to the boundary must have a contact. Numbers must be within their tolerances.
 void judge_volume_depth(const TestCase& test, const VolumeDepthTruth& truth, const VolumeDepthOut& out, Tally& tally);
 /// Checks that bounds are never above γ_p · min(…).
 void judge_bound(const TestCase& test, const BoundTruth& truth, const BoundOut& out, Tally& tally);

@@ -30,7 +30,7 @@ struct Pressed {
   bool turned = true;                     ///< true if it may be rotated
 };
 
-/// Returns w₁, w₂, w₃ for w₂ and w₃; they sum to 1 up to rounding.
+/// Returns all three weights, which sum to 1 up to rounding, from the second and the third one.
 std::array<float, 3> weights_of(double second, double third) {
   const auto b = static_cast<float>(second), c = static_cast<float>(third);
   const float a = std::max(0.0f, 1.0f - b - c);

@@ -1,5 +1,5 @@
 // Weights divided by an area that may be 0: the weights are then NaN, and the test for weights below 0 accepts NaN.
-// Triangles whose corners lie on one line, or nearly so, spoil everything that they touch.
+// Triangles whose corners lie on one line, or nearly so, pass NaN on to all their contacts.
 #include "experiments/plugins/museum/triangle.h"
 
 OGC_PLUGIN("weights over an area of 0", OGC_HOST_MEMORY)

@@ -36,8 +36,9 @@ inline Weights on_edge(Vec p, const Vec* t, int k) {
 
 inline Vec point(const Vec* t, const Weights& w) { return w.of[0] * t[0] + w.of[1] * t[1] + w.of[2] * t[2]; }
 
-// Returns the weights on the nearest edge if the foot, of weights `w`, is not inside the triangle. An edge whose outer
-// side has the foot takes precedence: the distance to one of its ends may be equal up to rounding.
+// Returns the weights of the closest point on the nearest edge, if the foot with the weights `w` is not inside the
+// triangle. An edge with the foot on its outer side, between its ends, takes precedence: an end of another edge may be
+// as near up to rounding.
 inline Weights on_nearest_edge(Vec p, const Vec* t, const Weights& w) {
   Weights best;
   double nearest = INFINITY;
@@ -73,7 +74,7 @@ inline uint8_t feature(const Weights& w) {
   }
 }
 
-// Answers with the point that has the weights which `weights(p, t)` chooses.
+// Answers the stage: weights(p, t) returns the weights of the point of triangle t that is closest to p.
 template <class Choose>
 int answer(const ogc_closest_face_in* in, ogc_closest_face_out* out, Choose weights) {
   for (int64_t i = 0; i < in->n; ++i) {

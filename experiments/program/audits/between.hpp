@@ -11,7 +11,7 @@
 
 namespace ogc::experiments {
 
-/// Holds the result for the straight way from one state to the next.
+/// Holds the meetings if all vertices move straight from one state to the next.
 struct Way {
   std::string from, to;  ///< names of the states
   compare::MeetingsResult found;
@@ -19,17 +19,17 @@ struct Way {
   std::string text;  ///< the listed meetings in words, one line each
 };
 
-/// Checks the ways between consecutive states.
+/// Checks the straight motions between consecutive states.
 class WaysBetween {
  public:
-  /// `limit`: number of meetings listed for each way. The source must outlive this object.
+  /// `limit`: number of meetings listed for each motion. The source must outlive this object.
   WaysBetween(const AuditSource& source, std::size_t limit) : source_(source), limit_(limit) {}
-  /// Checks the way from the previous state to this one. Before the first way, logs the estimated time for all ways.
-  /// Throws compare::InputError if the two states have different triangles.
+  /// Checks the motion from the previous state to this one. Before the first motion, logs the estimated time for all of
+  /// them. Throws compare::InputError if the two states have different triangles.
   void look_at(const AuditedState& state);
-  /// Returns the ways checked so far.
+  /// Returns the motions checked so far.
   const std::vector<Way>& ways() const { return ways_; }
-  /// Returns the number of meetings on all ways.
+  /// Returns the number of meetings in all motions.
   std::size_t meetings() const;
   /// Returns a summary: "5 straight ways between them, 12 meetings on 1 of them, the first from frame 3 to frame 4".
   std::string headline() const;

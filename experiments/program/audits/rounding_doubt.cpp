@@ -52,8 +52,8 @@ double to_triangle(const Vec3& p, const std::array<Vec3, 3>& t) {
 }
 
 /// Returns how far a vertex must move until the edge leaves the triangle: one of its ends through the triangle, or the
-/// edge past a side of the triangle. Vertices that both share do not move. Double precision suffices, because its error
-/// of 1e-16 of the coordinates is below the digits of any text.
+/// edge past a side of the triangle. Vertices that edge and triangle share do not move. Double precision suffices,
+/// because its error of 1e-16 of the coordinates is below the digits of any text.
 double depth(const Intersection& pair, const compare::Topology& topology, std::span<const Vec3> positions) {
   if (pair.kind != compare::IntersectionKind::edge_triangle) return 0;
   const compare::Edge& edge = topology.edges[static_cast<std::size_t>(pair.first)];

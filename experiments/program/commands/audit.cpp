@@ -32,7 +32,7 @@ struct AuditOptions {
   AuditRequest request;
   std::string show;               ///< folder of the .vtp files; empty: none
   std::optional<double> deepest;  ///< depth inside a volume above which a state fails [m]; empty: no limit
-  bool between = false;           ///< also check the straight ways between states
+  bool between = false;           ///< also check the straight motions between states
 };
 
 /// Largest number of states for which --show writes a file. Further states would show much the same.
@@ -251,14 +251,15 @@ std::string describe_distances(const std::vector<State>& states) {
          describe_pair("two edges without a common vertex", edges, "edge_edge");
 }
 
-/// Warns that the motion was not checked, because two states prove nothing about the way between them (method.md §5.5).
+/// Warns that nothing was checked between the states, because two states prove nothing about the motion between them
+/// (method.md §5.5).
 std::string unseen_ways(const Audits& audits) {
   if (audits.states.size() < 2 || audits.ways) return "";
   return "what happened between these states was not looked at: surfaces may have passed through each other there; " +
          audits.proof_of_ways + "--between asks the straight ways";
 }
 
-/// Warns that curves leave no trace when they pass through each other.
+/// Warns that two states do not show whether curves passed through each other between them.
 std::string unseen_curves(const std::vector<State>& states) {
   const auto has = std::ranges::find_if(states, [](const State& state) { return state.loose_edges > 0; });
   if (has == states.end()) return "";

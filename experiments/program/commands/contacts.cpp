@@ -22,7 +22,8 @@ namespace {
 
 /// Default of r_q in multiples of r: the ratio at which Settings caps it.
 constexpr double default_query_ratio = 4;
-/// Limits of r [m], which equal the limits of the setting, and limit of r_q [m], which as a setting is a multiple of r.
+/// Limits of r [m], which are those of the setting, and the upper limit of r_q [m]. (The setting of r_q is in multiples
+/// of r.)
 constexpr double least_radius = 0x1p-20, most_radius = 0x1p20, most_query_radius = 0x1p30;
 /// Default of r in edge lengths. The paper's cloth scenes lie between a fifth of an edge (twist) and a whole edge
 /// (large_radius_twist).

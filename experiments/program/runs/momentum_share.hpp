@@ -11,8 +11,8 @@
 namespace ogc::experiments {
 
 /// Converts the loss in a step's row into a share of the step's momentum. A row's loss is relative to ‖Σ m (y − xᵗ)‖,
-/// which means nothing if directions cancel. This class remembers the starts of steps and returns the loss relative to
-/// Σ m ‖y − xᵗ‖.
+/// which vanishes if vertices move against each other. This class remembers the starts of steps and returns the loss
+/// relative to Σ m ‖y − xᵗ‖.
 class MomentumShare {
  public:
   /// Takes a valid scene, which need not outlive this object.
@@ -20,8 +20,8 @@ class MomentumShare {
   /// Remembers that the step after `step` begins with these velocities [m/s].
   void begin_after(std::int64_t step, const std::vector<compare::Vec3f>& velocities);
   /// Returns ‖Σ m (x − y)‖ / Σ m ‖y − xᵗ‖ after the guess loop. It is at most 1 unless moving bodies drag vertices
-  /// along. Empty if the start of the row's step is not known. Also empty if the guess loop did not do all its rounds:
-  /// then contacts took the motion, and their forces give it back in the sweeps.
+  /// along. Empty if the start of the row's step is not known. Also empty if the guess loop did fewer rounds than
+  /// allowed, because then contacts, not bounds, shortened the moves (method.md §5.3).
   std::optional<double> lost(const compare::StepMetrics& row) const;
 
  private:

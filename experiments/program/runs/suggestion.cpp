@@ -30,16 +30,16 @@ constexpr double weights_held = 10;         ///< number of layers whose weight p
 constexpr double detections_a_step = 4;     ///< largest number of detections in a step at the speed of the fall
 constexpr double longest_step = 1.0 / 100;  ///< longest step of the paper's scenes [s]
 constexpr double fewest_iterations = 10, most_iterations = 100;
-/// Largest excess of an extension under weight that an incomplete convergence of the sweeps may leave, as a share.
+/// Largest relative excess of the extension under weight, which remains if the sweeps have not converged.
 constexpr double most_excess = 0.01;
 /// Factor on the exponent of method.md §7.7. Measured rates are 0.9 to 1.2 times that exponent, because modes are not
 /// quite smooth and colours are not rows (tests/experiments/program/runs/suggestion.cpp).
 constexpr double least_rate = 0.9;
-/// Sweeps in each step of a resting stack. A step begins after all layers have fallen by g h², and each sweep passes
-/// the ground's support up. The first number is for each layer and each r of this fall: with 16, stacks of 10 to 50
-/// aligned sheets keep their gaps for g h² from r/64 to r/4; with 12 they are squeezed until they tremble. The second
-/// number is the limit for each layer: if a layer falls by r or more, contacts stop it at the start of the step, and 8
-/// sweeps suffice (tests/experiments/stacks.cpp).
+/// Sweeps that a resting stack needs in each step: for each layer `sweeps_a_layer_and_radius` · g h²/r, at most
+/// `most_sweeps_a_layer`. A step begins after all layers have fallen by g h², and each sweep passes the ground's
+/// support up. With 16 in place of the first number, stacks of 10 to 50 aligned sheets keep their gaps for g h² from
+/// r/64 to r/4; with 12 they are squeezed until they tremble. If a layer falls by r or more, contacts stop it at the
+/// start of the step, and 8 sweeps a layer suffice (tests/experiments/stacks.cpp).
 constexpr double sweeps_a_layer_and_radius = 20, most_sweeps_a_layer = 8;
 
 struct Measures {

@@ -78,9 +78,9 @@ struct Filtered {
   friend OGC_HD Filtered operator-(Filtered a, Filtered b) { return {sub(a.value, b.value), add(a.scale, b.scale)}; }
   friend OGC_HD Filtered operator*(Filtered a, Filtered b) { return {mul(a.value, b.value), mul(a.scale, b.scale)}; }
 
-  /// Returns the sign. Each term of a polynomial of degree d is the result of at most d differences, d − 1 products
-  /// and, for degrees 2, 4 and 6, 2, 5 and 8 sums. These are under 32 roundings of 2⁻⁵³ for degrees up to 6. The scale
-  /// has as many roundings. 2⁻⁴⁷ is twice both errors together.
+  /// Returns the sign. A term of a polynomial of degree d ≤ 6 has at most d differences, d − 1 products and 8 sums (2
+  /// for degree 2, 5 for degree 4). These are under 32 roundings of 2⁻⁵³, and the scale has as many. 2⁻⁴⁷ exceeds both
+  /// errors together.
   OGC_HD Sign sign() const { return {sign_of(value), modulus(value) > mul(scale, 0x1p-47)}; }
 };
 

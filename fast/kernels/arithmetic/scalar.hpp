@@ -24,8 +24,7 @@ template <class T, class M>
 OGC_HD Vector<T> select(const M& condition, const Vector<T>& a, const Vector<T>& b) {
   return {select(condition, a.x, b.x), select(condition, a.y, b.y), select(condition, a.z, b.z)};
 }
-/// Returns a() if the condition holds, else b(). For a single number only one of them is computed, for several numbers
-/// side by side both.
+/// Returns a() if the condition holds, else b(). The overload for several numbers side by side calls both functions.
 template <class A, class B>
 OGC_HD float choose(bool condition, const A& a, const B& b) {
   return condition ? a() : b();

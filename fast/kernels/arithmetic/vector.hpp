@@ -25,7 +25,7 @@ using Vec = Vector<float>;
 
 /// A position padded to 16 bytes, which a device loads with one instruction and a CPU holds in one register.
 struct alignas(16) PaddedVec {
-  float x = 0, y = 0, z = 0, unused = 0;  ///< `unused` fills it up to 16 B
+  float x = 0, y = 0, z = 0, unused = 0;  ///< `unused` pads to 16 B
 
   PaddedVec() = default;
   OGC_HD explicit PaddedVec(const Vec& a) : x(a.x), y(a.y), z(a.z) {}

@@ -44,8 +44,8 @@ struct HingeKind : ElementKind<HingeRest, HingeIncidence> {
     StreamView<HingeIncidence, IsometricStencil, float, NoData, false> hinges;
   };
   static constexpr int row_in_vertex = 1;
-  /// By role of a vertex: the roles of the other vertices, in the order of HingeIncidence::index. At the second end and
-  /// at the second opposite vertex x0 and x1 are exchanged, and o0 and o1; this keeps the angle
+  /// For each role of a vertex: the roles of the other vertices, in the order of HingeIncidence::index. For the second
+  /// end and the second opposite vertex, x0 is exchanged with x1, and o0 with o1. This does not change the angle
   /// (fast/kernels/models/hinge.hpp).
   static constexpr int others[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {1, 0, 2}};
   /// Operations by term (fast/kernels/models/discrete_hinge.hpp): differences 9, normals 18, squares 25, their limits

@@ -48,7 +48,7 @@ OGC_HD Row row_of(const View& view, int slot, const SweepVertex& vertex) {
     return {};
 }
 
-/// Computes for each element the value at the start of the step that damping needs (θᵗ, Gᵗ). Index over the elements.
+/// Computes the value at the start of the step that damping needs (θᵗ, Gᵗ). Runs once for each element.
 template <class Kind>
 struct BeginElement {
   const typename Kind::Rest* rest;       ///< by element

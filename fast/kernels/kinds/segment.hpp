@@ -15,7 +15,7 @@ struct RodStream : StreamView<RodIncidence, NoData, NoData, float, true> {  // b
   const Quat* orientation_start = nullptr;  ///< by segment: qᵗ
   Quat* orientation = nullptr;              ///< by segment: q
   bool is_damped_by_vertex = false;         ///< DampingForm::per_vertex
-  bool as_published = false;  ///< true: quaternions are updated as Hsu et al. 2025 do, with μ = σ + ‖b‖
+  bool as_published = false;  ///< true: quaternions are updated as Hsu et al. 2025 do (published_orientation)
 };
 
 template <bool is_there>

@@ -1,6 +1,6 @@
 // Computes the quaternion of a segment that minimises the energy, given the neighbours' quaternions (compare/rods.md,
-// The stage `orientation`). The unknown is ν = μ − σ: for a stiff stretch, μ would be so large that rounding loses the
-// part of the neighbours.
+// The stage `orientation`, defines M, b, μ and σ). The unknown is ν = μ − σ: for a stiff stretch, μ would be so large
+// that rounding loses the part of the neighbours.
 #pragma once
 
 #include <cmath>
@@ -16,8 +16,8 @@ struct NeighbourRest {
   Quat rest;
 };
 
-/// Returns the quaternion t of the segment for which a neighbour with quaternion `q` has the relative rotation p: q p̄
-/// if the neighbour follows the segment, q p if it precedes it.
+/// Returns the quaternion t that gives a segment the relative rotation p = `relative` to a neighbour with quaternion
+/// `q`: q p̄ if the neighbour follows the segment, q p if it precedes the segment. p̄ is the conjugate of p.
 template <class T>
 OGC_HD QuatOf<T> asked_orientation(bool is_ahead, const QuatOf<T>& q, const QuatOf<T>& relative) {
   return q * (is_ahead ? conjugate(relative) : relative);
@@ -38,8 +38,9 @@ OGC_HD void add_undamped_neighbour(const T& weight, bool is_ahead, const QuatOf<
   b = select(is_there, b + pull_towards(weight, asked_orientation(is_ahead, now, relative), old), b);
 }
 
-/// Adds the elastic and the damping pull w (s t + k sᵗ tᵗ) of a neighbour to b. `now` and `start` are the neighbour's
-/// quaternions, `own_start` is qᵗ of the segment.
+/// Adds the elastic and the damping pull w (s t + k sᵗ tᵗ) of a neighbour to b, with k = `damping`. tᵗ is t for the
+/// relative rotation at the start of the step. `now` and `start` are the neighbour's quaternions, `own_start` is qᵗ of
+/// the segment.
 OGC_HD inline void add_neighbour(const NeighbourRest& neighbour, bool is_ahead, float damping, const Quat& now,
                                  const Quat& start, const Quat& own_start, const Quat& old, Quat& b) {
   add_undamped_neighbour(neighbour.weight, is_ahead, now, neighbour.rest, old, b);
@@ -48,8 +49,9 @@ OGC_HD inline void add_neighbour(const NeighbourRest& neighbour, bool is_ahead, 
   b = b + pull_towards(damping * neighbour.weight, asked_orientation(is_ahead, now, relative), old);
 }
 
-/// Returns the larger root ν of (β₊/ν)² + (β₋/(ν + 2σ))² = 1 for β₊ > 0. Newton's method on 1/√(left side) converges
-/// from below. It usually needs one step, and up to twenty if β₋ is about 2σ and β₊ is nearly 0.
+/// Returns the larger root ν of (β₊/ν)² + (β₋/(ν + 2σ))² = 1 for β₊ = `upper` > 0 and β₋ = `lower`. Newton's method on
+/// 1/√(left side) converges from below. It usually needs one step, and up to twenty if β₋ is about 2σ and β₊ is nearly
+/// 0.
 template <class T>
 OGC_HD T secular_root(const T& upper, const T& lower, const T& sigma) {
   constexpr int most_steps = 32;
@@ -88,7 +90,8 @@ using ReflectedFrame = ReflectedFrameOf<float>;
 inline constexpr float lost_part = 0x1p-19f;
 
 /// Returns the unit vector of the eigenspace of eigenvalue 1 nearest to the old q. If the old q is perpendicular to
-/// this space, returns the vector nearest to 1, i or j instead. 1 may be perpendicular, too: if c is antiparallel to D.
+/// this space, returns the vector nearest to 1, i or j instead. The vector 1 is perpendicular, too, if c is
+/// antiparallel to D.
 OGC_HD inline Quat nearest_upper(const ReflectedFrame& frame, const Quat& old) {
   constexpr float lost = lost_part * lost_part;
   Quat part = frame.upper(old);

@@ -7,7 +7,7 @@
 
 namespace ogc::fast {
 
-/// Motion of a segment. It is free, or fixed with its body; any number from 0 on is the prescribed motion of both its
+/// Values of a segment's motion: free, or fixed with its body. A number from 0 on is the prescribed motion of both its
 /// ends.
 inline constexpr int segment_free = -1, segment_fixed = -2;
 

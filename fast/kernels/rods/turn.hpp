@@ -24,8 +24,7 @@ OGC_HD inline Quat turned_along(const Vec& from, const Vec& to, const Quat& q) {
   return unit(unit(twice) * q);
 }
 
-/// Computes the direction c of rod_rest_direction for each segment. Index over segments; launched only if strains are
-/// damped.
+/// Computes the direction c of rod_rest_direction. Runs once for each segment; launched only if strains are damped.
 struct SetDirection {
   const SegmentRest* segments;    ///< by segment
   const Vec* start;               ///< xᵗ by vertex [m]
@@ -39,8 +38,8 @@ struct SetDirection {
   }
 };
 
-/// Sets q after the guess loop: turns each frame from qᵗ with its segment, or with its prescribed motion. Index over
-/// segments.
+/// Sets q after the guess loop: turns each frame from qᵗ with its segment, or with its prescribed motion. Runs once for
+/// each segment.
 struct TurnSegment {
   const SegmentRest* segments;  ///< by segment
   const int* motion;            ///< by segment: motion, as in segments.hpp
@@ -70,7 +69,7 @@ struct TurnSegment {
   }
 };
 
-/// Sets qᵗ = q for a step that did not fail. Index over segments.
+/// Sets qᵗ = q for a step that did not fail. Runs once for each segment.
 struct CommitSegment {
   const Quat* orientation;     ///< q by segment
   const StepControl* control;  ///< on the backend; if not active the step failed, and nothing is written

@@ -18,7 +18,7 @@ OGC_HD inline Quat published_orientation(float stretch, const Vec& apart, const 
   return dot(q, q) > 0 ? unit(q) : nearest_upper(frame, old);
 }
 
-/// Updates the free segments of a colour. Index over these segments.
+/// Updates the free segments of a colour. Runs once for each of these segments.
 struct UpdateSegment {
   /// Holds data that are read before the preceding launch has ended, because that launch does not write them.
   struct Ahead {

@@ -27,7 +27,7 @@ OGC_HD Vec write_held(const SweepView& view, int v, const Vec& proposal, const V
   return kept.position;
 }
 
-/// Updates the free vertices of a colour. One team for each slot.
+/// Updates the free vertices of a colour. One team runs for each slot.
 template <class Gather>
 struct UpdateVertex {
   static constexpr int parts = Gather::parts;  ///< number of parts of the vertex's sum
@@ -55,7 +55,7 @@ struct UpdateVertex {
   }
 };
 
-/// Moves the prescribed vertices before the first colour of an iteration. Index over these vertices.
+/// Moves the prescribed vertices before the first colour of an iteration. Runs once for each of these vertices.
 struct UpdatePrescribed {
   SweepView view;
   const int* prescribed = nullptr;  ///< numbers of the prescribed vertices
@@ -76,8 +76,8 @@ struct UpdatePrescribed {
   }
 };
 
-/// Measures the force on each free vertex at the current positions. One team for each slot. In `view` the fresh buffer
-/// is the old one (to_fresh = 0), and neither is written.
+/// Measures the force on each free vertex at the current positions. One team runs for each slot. In `view` the fresh
+/// buffer is the old one (to_fresh = 0), and neither is written.
 template <class Gather>
 struct MeasureVertex {
   static constexpr int parts = Gather::parts;  ///< number of parts of the vertex's sum

@@ -23,7 +23,7 @@ OGC_HD inline int answer_of(const NearestFacet& nearest) { return nearest.facet 
 /// Returns the facet and the side that answer_of packed.
 OGC_HD inline NearestFacet nearest_in(int answer) { return {answer >> 2, static_cast<VolumeSide>(answer & 3)}; }
 
-/// Copies positions into aligned vectors, for queries of free volumes. Index over vertices.
+/// Copies positions into aligned vectors, for queries of free volumes. Runs once for each vertex.
 struct PlaceVolumes {
   const Vec* position;  ///< x at the detection, by vertex [m]
   PaddedVec* padded;    ///< written
@@ -31,7 +31,7 @@ struct PlaceVolumes {
   OGC_HD void operator()(int v) const { padded[v] = PaddedVec(position[v]); }
 };
 
-/// Discards all known balls of far points (ClearBall), because driven volumes have moved. Index over the items of
+/// Discards all known balls of far points (ClearBall), because driven volumes have moved. Runs once for each item of
 /// AskVolumes.
 struct ForgetClearBalls {
   ClearBall* clear;  ///< by item
@@ -39,8 +39,8 @@ struct ForgetClearBalls {
   OGC_HD void operator()(int i) const { clear[i].radius = ClearBall::unasked; }
 };
 
-/// Finds on which side of each part of triangles each asker lies. Index over rows, part after part, so that
-/// neighbouring threads search the same tree.
+/// Finds on which side of each part of triangles each asker lies. Runs once for each pair of a part and a row, part
+/// after part, so that neighbouring threads search the same tree.
 struct AskVolumes {
   VolumeView volume;  ///< with refitted trees
   const int* askers;  ///< by row: the vertex, or −1
@@ -68,7 +68,7 @@ struct AskVolumes {
 
 /// Lists each asker's contacts. A facet without area has no direction and gives no contact. `has_solids`: some parts
 /// consist of tetrahedra. Their searches start without an earlier answer, so that a run continued from a stored state
-/// has the same bits. Index over rows.
+/// has the same bits. Runs once for each row.
 template <bool has_solids>
 struct ListVolumeContacts {
   VolumeView volume;
@@ -140,7 +140,7 @@ struct CornerRows {
   int* codes;          ///< row by row, packed as VolumeStream::corner_codes
 };
 
-/// Empties the rows of corners before FillCorners. Index over slots.
+/// Empties the rows of corners before FillCorners. Runs once for each slot.
 struct ForgetCorners {
   const StepControl* control;  ///< if it is not active the old rows stay
   CornerRows corners;
@@ -150,7 +150,8 @@ struct ForgetCorners {
   }
 };
 
-/// Enters each contact in the rows of those corners that are free and have a weight other than 0. Index over rows.
+/// Enters each contact in the rows of those corners that are free and have a weight other than 0. Runs once for each
+/// row.
 struct FillCorners {
   const StepControl* control;       ///< as in ForgetCorners
   const int* counts;                ///< by row, from ListVolumeContacts
@@ -172,7 +173,7 @@ struct FillCorners {
   }
 };
 
-/// Sorts the rows of corners. Index over slots.
+/// Sorts the rows of corners. Runs once for each slot.
 struct SortCorners {
   const StepControl* control;  ///< as in ForgetCorners
   CornerRows corners;
@@ -197,8 +198,8 @@ struct SortCorners {
   }
 };
 
-/// Adds a row's contacts, depth and unresolved sheets to the counts that the step reports; runs at the end of a step.
-/// Index over rows.
+/// Adds a row's contacts, depth and unresolved sheets to the counts that the step reports. Runs once for each row, at
+/// the end of a step.
 struct CountVolumeContacts {
   const int* counts;                ///< by row
   const FoundVolumeContact* found;  ///< row by row

@@ -8,11 +8,11 @@
 //            a sheet represents the sheet
 //   ways     the nearest boundary triangle is tried first and usually has a way. If not, all triangles nearer than the
 //            shortest way so far are tried
-//   passing  goes from c to x, from tetrahedron to tetrahedron, in rounded double. Heights over the sides of a
-//            tetrahedron are affine along the segment. A height below 2⁻³⁶ of the moduli of its terms counts as zero:
-//            this is far above its rounding error, and far below the precision of the coordinates. If the segment
-//            leaves through one side, the tetrahedron behind this side is next. If it leaves through an edge or a
-//            vertex, all tetrahedra ahead that have this edge or vertex are next
+//   passing  the test of a way. It follows the segment from c to x through tetrahedra, in rounded double. Heights over
+//            the sides of a tetrahedron are affine along the segment. A height below 2⁻³⁶ of the moduli of its terms
+//            counts as zero: this is far above its rounding error, and far below the precision of the coordinates. If
+//            the segment leaves through one side, the tetrahedron behind this side is next. If it leaves through an
+//            edge or a vertex, all tetrahedra ahead that have this edge or vertex are next
 //
 // Tetrahedra without positive volume hold no point and are never traversed, and no way ends at their sides.
 #pragma once
@@ -269,7 +269,8 @@ class SolidQuestion {
     Front front;
     int vertex[4];
     go_on(vertex, vertices_of(face, vertex), apart, front);
-    // Limits the loop in case `met` forgets tetrahedra; if the body has any thickness, each one is met only once.
+    // Limits the loop, because `met` holds only the last Front::most tetrahedra that were reached. In a body with any
+    // thickness each tetrahedron is met only once.
     const int most = 4 * volume_.parts[part].tetrahedra.tree.count + Front::most;
     while (front.waiting_count > 0 && front.met_count < most) {
       const int element = front.waiting[--front.waiting_count];

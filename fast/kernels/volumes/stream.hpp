@@ -115,7 +115,7 @@ struct VolumePositions {
   }
 };
 
-/// Counts vertices deep inside free volumes after an iteration. Index over rows.
+/// Counts vertices deep inside free volumes after an iteration. Runs once for each row.
 struct CountDeepInside {
   VolumeStream volumes;
   const Vec* position;   ///< by vertex [m]

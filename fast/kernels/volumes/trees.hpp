@@ -6,8 +6,8 @@
 
 namespace ogc::fast {
 
-/// Computes the boxes of all facets, tetrahedra and nodes, and whether each tetrahedron has a positive volume. Index
-/// over count() items; the 32 threads of a warp must call this together (RefitTrees).
+/// Computes the boxes of all facets, tetrahedra and nodes, and whether each tetrahedron has a positive volume. Runs
+/// once for each index below count(); the 32 threads of a warp must call this together (RefitTrees).
 struct RefitVolumes {
   SurfaceView surface;
   SolidView solids;                        ///< is_positive is written

@@ -62,7 +62,7 @@ Four<Many> least(const Problem<Many>& problem, const Four<Many>& old, const Many
 /// An orientation towards which a neighbour pulls the segment, by the rest shape or by damping.
 struct Asked {
   Four<Many> orientation;  ///< t
-  Many weight;             ///< w, or k w [N m]
+  Many weight;             ///< w for the rest shape, k w for damping [N m]
   Many agreement;          ///< t·q with the old q
 };
 
@@ -102,7 +102,8 @@ struct Question {
   }
 };
 
-/// Returns the Euclidean norm of the matrix H⁻¹ (columns), H = `bend`; infinite if H is not positive definite.
+/// Returns the Frobenius norm of H⁻¹ C, where H is `bend` and C has these columns. Returns infinity if H is not
+/// positive definite.
 double reaction(const Square<Many>& bend, const std::vector<Triple<Many>>& columns) {
   Many squared(0.0);
   for (const Triple<Many>& column : columns) {
@@ -113,7 +114,7 @@ double reaction(const Square<Many>& bend, const std::vector<Triple<Many>>& colum
   return static_cast<double>(root(squared));
 }
 
-/// Returns the components of a vector of four along the tangents.
+/// Returns the components of v along the tangents `basis`.
 Triple<Many> along(const std::array<Four<Many>, 3>& basis, const Four<Many>& v) {
   return {inner(basis[0], v), inner(basis[1], v), inner(basis[2], v)};
 }

@@ -6,8 +6,8 @@
 
 namespace ogc::reference {
 
-/// Returns the accepted answers to one case, the exact one first. There are several if the sign of a product t·q is
-/// grey.
+/// Returns the accepted answers to one case, the exact one first. There are several if rounding may change the sign of
+/// t·q: q is the old orientation, t is an orientation towards which a neighbour pulls the segment.
 std::vector<compare::OrientationAnswer> orientation(const compare::OrientationCase& question);
 
 /// Stage orientation. Finds minimisers by Newton's method on the unit sphere from many starts, with the last steps in

@@ -50,8 +50,8 @@ Triple<T> own_axis() {
   return {T(0.0), T(0.0), T(1.0)};
 }
 
-/// Returns k_s l/2 ‖Γ − Γ'‖². `change` is Γ − Γ'. It is D/l − R(q) e₃ relative to the rest shape, or R(q)ᵀ D/l − R(qᵗ)ᵀ
-/// Dᵗ/l relative to the start of the step.
+/// Returns k_s l/2 ‖`change`‖². `change` is a change of strain: D/l − R(q) e₃ relative to the rest shape, or R(q)ᵀ D/l
+/// − R(qᵗ)ᵀ Dᵗ/l relative to the start of the step.
 template <class T, class Number>
 T stretch_energy(const Triple<T>& change, const Number& stretch, const Number& length) {
   return (Number(0.5) * stretch * length) * dot(change, change);

@@ -103,7 +103,7 @@ struct Asked {
 /// The quantities of one contact that determine the move, and their errors.
 struct Measured {
   Hold hold;
-  double taken = 0, sliding = 0, normal = 0;  ///< errors of q, s/w, n
+  double taken = 0, sliding = 0, normal = 0;  ///< errors of the removed part q, the slip s/w and the normal n
 };
 
 using InputMove = Triple<Input>;
@@ -130,7 +130,7 @@ Measured measure(Meeting meeting, const Asked& asked, std::size_t own, const Mov
   const InputMove relative = wanted + Input(1.0) / weight * others, slide = relative - dot(normal, relative) * normal;
   const Input closing = dot(normal, wanted), opening = dot(normal, others) / weight;
   const auto plain_of = [](const InputMove& a) { return Move{a[0].value, a[1].value, a[2].value}; };
-  // Other vertices that certainly approach leave no opening, so the opening has no error.
+  // If the other vertices certainly approach, the contact does not open, and the opening has no error.
   const double room = dot(plain_of(normal), plain_of(others)) / share,
                room_error = unit * inputs.condition({&opening, 1}) + others_error / share;
   Measured result;
@@ -174,7 +174,8 @@ struct Passed {
   bool is_grey = false;
 };
 
-/// Returns ∂m'/∂m if the contact certainly removes a part of the move m and the vertex certainly slips.
+/// Returns the derivative of the remaining move by the move. The contact must certainly remove a part of the move, and
+/// the vertex must certainly slip.
 Matrix slipping(const Hold& hold, double taken, const Move& slide) {
   const double length = norm(slide), mu = hold.friction, share = mu * taken / length;
   const Move &n = hold.normal, along = (1 / length) * slide;
@@ -188,9 +189,10 @@ Matrix slipping(const Hold& hold, double taken, const Move& slide) {
   return slope;
 }
 
-/// Applies a contact to a move with an error. To first order, the removal of q and sticking do not increase the move's
-/// error; the friction limit μ q changes by μ times the change of q. If rounding decides whether the contact removes
-/// anything, or whether the vertex slips, the error grows by the largest factor of all cases.
+/// Applies a contact to a move with an error. To first order, removing the normal part q does not increase the move's
+/// error, and neither does sticking; the friction limit μ q changes by μ times the change of q. If rounding decides
+/// whether the contact removes anything, or whether the vertex slips, the error grows by the largest factor of all
+/// cases.
 Passed passed(const Measured& at, const Move& move, double error) {
   const Hold& hold = at.hold;
   const double taken = hold.taken(move), mu = hold.friction, doubt = at.taken + error,
@@ -309,8 +311,9 @@ std::vector<compare::HeldMove> HeldMoves::judged_round(std::span<const GuessCont
                                                        const std::vector<Vec3f>& previous,
                                                        const std::vector<Vec3f>& target) {
   std::vector<Asked> all;
-  std::vector<std::vector<std::array<std::size_t, 2>>> rows(groups_.size());  // contact and place
-  std::vector<Touch> touches(groups_.size(), {.is_certain = false});          // of prescribed vertices
+  // pairs (contact, place in it) of each free vertex
+  std::vector<std::vector<std::array<std::size_t, 2>>> rows(groups_.size());
+  std::vector<Touch> touches(groups_.size(), {.is_certain = false});  // of each prescribed vertex
   const bool is_later = !std::exchange(is_first_, false);
   for (const GuessContact& contact : contacts) {
     Asked asked{meetings(question_of(contact, previous, radius_)), {}, {}, contact.friction};

@@ -39,8 +39,8 @@ struct GuessContact {
 /// Applies contacts to the moves of one step's guess loop, round by round.
 class HeldMoves {
  public:
-  /// `groups`, by vertex: −1 if free (contacts reduce its move), above 0 if prescribed (a contact may keep it in
-  /// place). The contact radius is in metres.
+  /// `groups` holds −1 for a free vertex (contacts reduce its move) and a positive number for a prescribed vertex (a
+  /// contact may keep it in place). The contact radius is in metres.
   HeldMoves(std::vector<compare::Index> groups, double contact_radius)
       : groups_(std::move(groups)),
         radius_(contact_radius),

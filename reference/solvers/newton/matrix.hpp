@@ -18,17 +18,15 @@ using StencilVertices = std::array<compare::Index, 4>;
 /// The matrix of the free vertices, lower triangle, by columns.
 class BlockMatrix {
  public:
-  /// Finds the blocks of these stencils; returns whether the pattern changed. The first `steady` stencils must be the
-  /// same in every call with the same `steady`, so that their blocks are found only once.
+  /// Takes the mobility of each vertex; free vertices have rows.
   explicit BlockMatrix(const std::vector<Mobility>& mobility);
 
+  /// Finds the blocks of these stencils; returns whether the pattern changed. The first `steady` stencils must be the
+  /// same in every call with the same `steady`, so that their blocks are found only once.
+  bool set_stencils(std::span<const StencilVertices> stencils, std::size_t steady = 0);
   /// Discards the pattern, so that the next stencils get a minimal one. A kept pattern may have more blocks than
   /// needed, and the pattern determines the order of elimination. If it were kept, the last bits of a step would depend
   /// on earlier steps, and a resumed run would differ from an uninterrupted one.
-  bool set_stencils(std::span<const StencilVertices> stencils, std::size_t steady = 0);
-  /// Forgets the pattern, so that the next stencils get a minimal one. A kept pattern may hold more blocks than needed,
-  /// and it decides the order of elimination. The last bits of a step would then depend on earlier steps, and a
-  /// continued run would differ from an uninterrupted one.
   void forget_pattern() { blocks_.clear(); }
   /// Sums the stencils' Hessians and adds `diagonal`, the terms m/h² of the vertices [N/m].
   void assemble(std::span<const double> diagonal, std::span<const StencilDerivatives> stencils);

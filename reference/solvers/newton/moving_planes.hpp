@@ -33,7 +33,7 @@ class MovingPlanes {
   MovingPlanes(const std::vector<NearPair>& pairs, const std::vector<compare::Vec3f>& previous,
                const std::vector<Mobility>& mobility, double query_radius, double relaxation);
 
-  /// Moves vertices that must stay at X_prev there. x must be X_prev up to rounding.
+  /// Moves the vertices that must stay at X_prev to X_prev. x must be X_prev up to rounding.
   void enter(State& x) const;
   /// Returns a step of the free vertices near `step` [m] that stays inside; x must be inside. First cuts the step to
   /// the balls. Then moves the sides of pairs that would come too near apart, in sweeps. Finally scales the steps of
@@ -41,7 +41,7 @@ class MovingPlanes {
   State truncated(const State& x, State step) const;
   /// Returns a share in [0, 1] for which x + share · step is certainly inside, the largest except for rounding.
   double share_inside(const State& x, const State& step) const;
-  /// Returns such a share if only `vertex` moves, by `step`.
+  /// Returns a share in [0, 1] for which x + share · step is certainly inside; only `vertex` moves, by `step`.
   double share_inside(const State& x, std::size_t vertex, const Triple<double>& step) const;
   /// Checks exactly whether stored positions keep every pair apart.
   bool kept_by(const std::vector<compare::Vec3f>& stored) const;

@@ -118,9 +118,9 @@ NewtonSolver::Outcome NewtonSolver::solve() {
   }
 }
 
-/// Runs rounds until the solve ends. A round is an iteration, or a detection because the residual is small enough. Two
-/// such detections follow each other only while prescribed vertices approach their targets slowly. The limit of rounds
-/// ends both.
+/// Runs rounds until the solve ends. A round is an iteration, or only a detection if the residual is small enough.
+/// While prescribed vertices approach their targets slowly, several detections may follow each other; the limit of
+/// rounds ends them, too.
 NewtonSolver::Outcome NewtonSolver::solve_once() {
   for (std::int64_t round = 0; round <= 2 * newton_.iterations + 1; ++round)
     if (const std::optional<Outcome> outcome = iterate()) return *outcome;

@@ -26,8 +26,8 @@ Frame unit(const Frame& q) { return on_sphere::scaled(1 / std::sqrt(inner(q, q))
 
 double norm(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
 
-/// Returns p = q̄_e q_f for the neighbour f ahead of segment e, p = q̄_f q_e for the neighbour behind. The rest value
-/// of p is p°.
+/// Returns the relative rotation p of a segment e and its neighbour f, whose quaternions are `own` and `other`: q̄_e
+/// q_f if f is ahead (`end` is 1), q̄_f q_e if f is behind.
 Frame relative(const Frame& own, const Frame& other, std::size_t end) {
   return end == 1 ? product(conjugate(own), other) : product(conjugate(other), own);
 }
@@ -178,15 +178,15 @@ on_sphere::Problem<double> RodSystem::problem(std::size_t e, const Positions& x)
 
 namespace {
 
-/// Returns the minimiser of a segment without neighbours that is nearest to `old`. Every q whose director is along D is
-/// a minimiser.
+/// Returns the minimiser nearest to `old` for a segment without neighbours. Every q whose director is along D is a
+/// minimiser.
 Frame without_neighbours(const on_sphere::Problem<double>& problem, const Frame& old, double sigma) {
   const Frame upper = on_sphere::sum(on_sphere::scaled(sigma, old), problem.turned(old));
   return inner(upper, upper) > 1e-20 * sigma * sigma ? unit(upper) : old;
 }
 
-/// Returns the minimiser that descent from `old` reaches, if it is the global one; otherwise the lowest minimiser from
-/// several starts.
+/// Descends from `old` and returns the minimiser that it reaches if this is the global one. Otherwise returns the
+/// lowest minimiser from several starts.
 Frame least(const on_sphere::Problem<double>& problem, const Frame& old, double sigma, double pull) {
   constexpr double enough = 1e-14;
   const double size = sigma + pull;
@@ -226,8 +226,8 @@ void RodSystem::sweep(const Positions& x) {
 
 namespace {
 
-/// Returns k_s l/2 (‖D/l − R(q) e₃‖² + k ‖D/l − R(q) R(qᵗ)ᵀ Dᵗ/l‖²). The second term is the change of the strain R(q)ᵀ
-/// D/l, rotated by R(q), which keeps its length.
+/// Returns k_s l/2 (‖D/l − R(q) e₃‖² + k ‖D/l − R(q) R(qᵗ)ᵀ Dᵗ/l‖²); `apart` is D, `damping` is k. The second term is
+/// the change of the strain R(q)ᵀ D/l. It is rotated by R(q), which keeps its length.
 template <class T>
 T segment_energy(const RodTerm& term, const Triple<T>& apart, const FourOf<T>& q, double damping) {
   const auto about = [&](const Triple<double>& own) {
@@ -246,7 +246,8 @@ FourOf<T> constant(const Frame& q) {
   return {T(q[0]), T(q[1]), T(q[2]), T(q[3])};
 }
 
-/// Returns w/2 ‖p − s p°‖² of unit quaternions; s = ±1 is the sign that makes it smaller.
+/// Returns w/2 ‖p − s p°‖². Here w is `weight`, p is the relative rotation of both segments, p° is `rest`, and s = ±1
+/// is the sign that makes the result smaller.
 template <class T>
 T joint_energy(const FourOf<T>& own, const FourOf<T>& other, std::size_t end, double weight, const Frame& rest) {
   const FourOf<T> p = end == 1 ? product(conjugate(own), other) : product(conjugate(other), own);
@@ -271,7 +272,8 @@ FourOf<T> turned_by(const Frame& q, const Triple<T>& omega) {
 
 using Six = Second<6, double>;
 
-/// Returns three variables with the value 0, the inputs `first` to `first` + 2 of six.
+/// Returns three variables with the value 0. They are the inputs with the numbers `first` to `first` + 2, of six
+/// inputs.
 Triple<Six> variables(std::size_t first) {
   Triple<Six> x;
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -22,7 +22,7 @@ struct RodTerm {
   Triple<double> start{};                           ///< R(qᵗ)ᵀ Dᵗ/l
   std::array<compare::Index, 2> neighbour{-1, -1};  ///< behind, ahead
   std::array<double, 2> weight{};                   ///< w = 4 k_b/l̄ [N m]
-  std::array<FourOf<double>, 2> rest{}, before{};   ///< p°, pᵗ, from this segment to each neighbour
+  std::array<FourOf<double>, 2> rest{}, before{};   ///< p° at rest, pᵗ at xᵗ: rotations relative to each neighbour
   compare::Index held = -1;                         ///< the segment's entry of compare::segment_groups
 };
 
@@ -57,8 +57,8 @@ class RodSystem {
   /// Begins a step at xᵗ with q = qᵗ; damping is relative to this state.
   void begin_step(const std::vector<Triple<double>>& start, std::int64_t number);
   /// Sets q after the guess loop by rotating qᵗ. A free segment rotates as its direction does from xᵗ to x, or not at
-  /// all with rod_start=kept. A prescribed segment rotates as its motion says, or else as its direction does. A fixed
-  /// segment keeps qᵗ.
+  /// all with rod_start=kept. A prescribed segment rotates by its motion's rotation; if the motion defines none, it
+  /// rotates as its direction does. A fixed segment keeps qᵗ.
   void turn(const std::vector<Triple<double>>& x);
   /// Moves each free segment to its minimiser, colour by colour.
   void sweep(const std::vector<Triple<double>>& x);
@@ -69,9 +69,9 @@ class RodSystem {
   void add_force(compare::Index e, std::size_t end, const std::array<Triple<double>, 2>& ends,
                  VertexSystemOf<double>& sum) const;
 
-  // Stencils of Newton's method: first the segments, then the joints. Each segment e has three unknowns ω, as number
-  // `vertex_count + e` after the vertices; its quaternion is q exp(ω/2). If the positions do not include ω, the
-  // quaternion is q.
+  // Stencils of Newton's method: first the segments, then the joints. The three unknowns ω of segment e are entry
+  // `vertex_count + e` of the positions, after the vertices; its quaternion is q exp(ω/2). If the positions do not
+  // include ω, the quaternion is q.
   std::size_t size() const { return terms_.size() + joints_.size(); }
   std::array<compare::Index, 4> vertices(std::size_t stencil) const;
   /// Returns how many of the stencil's first unknowns are vertices: two for a segment, none for a joint.
@@ -100,7 +100,7 @@ class RodSystem {
   void turn_by(const std::vector<Triple<double>>& x);
 
   double elastic_energy(const std::vector<Triple<double>>& x) const;  ///< without damping [J]
-  /// Adds the elastic energy to a sum [J].
+  /// Returns the mean torque ‖(I − q qᵀ)(M q + b)‖ over the free segments (compare/rods.md) [N m].
   void add_elastic(const std::vector<Triple<double>>& x, double& sum) const { sum += elastic_energy(x); }
   /// Returns the mean of ‖(I − q qᵀ)(M q + b)‖ over the free segments [N m].
   double mean_torque(const std::vector<Triple<double>>& x) const;

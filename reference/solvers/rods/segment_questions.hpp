@@ -10,8 +10,8 @@ namespace ogc::reference {
 compare::OrientationCase orientation_question(const compare::SweepIn& in, const compare::SweepOut& answer,
                                               std::size_t segment);
 
-/// Returns the case for the force on the segment's end `end`; `ends` are the positions of both ends. The quaternion is
-/// that of the answer.
+/// Returns the case for the force on the segment's end `end`; `ends` are the positions of both ends. The quaternion
+/// comes from the answer.
 compare::RodCase rod_question(const compare::SweepIn& in, const compare::SweepOut& answer, std::size_t segment,
                               std::size_t end, const std::array<compare::Vec3f, 2>& ends);
 

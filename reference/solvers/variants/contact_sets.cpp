@@ -13,7 +13,7 @@ namespace {
 using compare::Face;
 using compare::Index;
 
-/// The contact of a vertex and a triangle within r, and the distance between both.
+/// The contact of a vertex and a triangle within r, and their distance [m].
 struct FoundFacet {
   compare::VertexFacetContact contact;
   Index triangle = -1;

@@ -16,8 +16,8 @@ struct ListedContacts {
   std::vector<compare::EdgeEdgeContact> edge_edge;        ///< sorted by the edges that generate them
 };
 
-/// Returns the contacts nearer than in.contact_radius; does not read in.query_radius. `body`: by vertex. Throws
-/// std::logic_error for ContactSet::ogc.
+/// Returns the contacts nearer than in.contact_radius; does not read in.query_radius. `body` holds the body of each
+/// vertex. Throws std::logic_error for ContactSet::ogc.
 ///
 /// - pairs: for each non-adjacent vertex and triangle, and for each two non-adjacent edges, their closest faces.
 ///   Blocks are not tested. A face that is closest in several pairs is listed several times, so that its force is a

@@ -17,8 +17,8 @@ namespace ogc::tests {
 /// Returns the contestant with the authority's exact answers, rounded to single precision where the contract allows.
 compare::Contestant exact_contestant(const compare::Authority& authority);
 
-/// Returns the contestant whose answers are those of the form. The form must have an authority and must not belong to
-/// Stage::step, whose forms change which guesses are right.
+/// Returns the contestant that answers as the form does. The form must have an authority. It must not be a form of
+/// Stage::step, which accepts other guesses but does not make any.
 compare::Contestant contestant_of(const compare::WrongForm& form, const compare::Authority& authority);
 
 /// Returns the forms from which a contestant can be made, because they give an answer.

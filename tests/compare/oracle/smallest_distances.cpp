@@ -22,8 +22,8 @@ Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], 
 
 /// Returns the squared distance from the origin to the nearest point of offset + span(directions). The first
 /// `first_group` directions and the others are the edges of two simplices. Returns nothing if the nearest point is
-/// outside of them, that is, if a coefficient is negative or if those of a group add up to more than 1. Also returns
-/// nothing if the directions are dependent.
+/// outside of these simplices: a coefficient is negative, or the coefficients of a simplex add up to more than 1. Also
+/// returns nothing if the directions are dependent.
 std::optional<Rational> nearest_inside(const std::vector<Point>& directions, std::size_t first_group,
                                        const Point& offset) {
   const std::size_t n = directions.size();

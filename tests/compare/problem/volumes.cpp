@@ -137,7 +137,7 @@ TEST_CASE("an island in a void is a part of its own, and a cavity belongs to the
   CHECK(parts[0].triangles.front() == 1);
   CHECK(parts[0].triangles.back() == 24);
   CHECK(parts[1].triangles.front() == 25);
-  // A part that overlaps a cavity, but does not contain it, leaves the cavity to the part around it.
+  // Another part overlaps the cavity without containing it, so the cavity is one of the part around it.
   CHECK(volume_parts(scene_of(joined(joined(cube_of(4), void_of(2)), shifted(cube_of(1), 1)))).size() == 2);
 }
 

@@ -1,5 +1,5 @@
-/* A plug-in in C that is right, and breaks as the environment variable OGC_BROKEN says where it meets a case with d = r
-   (or, of a mesh, always). */
+/* A plug-in in C whose activation is right. The environment variable OGC_BROKEN names a fault. Faults of the stage
+   activation appear only in cases with d = r. */
 #define _GNU_SOURCE
 #include <math.h>
 #include <signal.h>
@@ -19,20 +19,20 @@ static int breaks(const char* how) {
   return wanted && strcmp(wanted, how) == 0;
 }
 
-/* The worker's socket. */
+/* The number of the worker's socket. */
 enum { worker_socket = 3 };
 
 static void write_to_socket(const void* bytes, size_t count) {
   if (write(worker_socket, bytes, count) < 0) perror("the socket");
 }
 
-/* What stands in front of each of the worker's blocks: a mark and the length. */
+/* Writes the head of a block: a mark and the block's length. */
 static void announce(uint64_t length) {
   const uint64_t head[2] = {0x6b636f6c622d6367, length};
   write_to_socket(head, sizeof head);
 }
 
-/* In a library that crashes or hangs while it is loaded. */
+/* Runs while the library is loaded. */
 __attribute__((constructor)) static void load(void) {
   if (breaks("crash while loading")) abort();
   if (breaks("fork while loading")) fork();
@@ -41,7 +41,7 @@ __attribute__((constructor)) static void load(void) {
     for (;;) pause();
 }
 
-/* Of what the worker says first of an answer; it is checked before it is believed. */
+/* Size of the first message of an answer. */
 enum { result_bytes = 96 };
 
 static void write_messages(void) {
@@ -60,7 +60,7 @@ static void write_messages(void) {
   }
 }
 
-/* A file "child" of its number, by which a test finds out what became of it. */
+/* Writes the number of this process to the file "child", so that a test can check whether the process has ended. */
 static void tell_number(void) {
   FILE* const file = fopen("child", "w");
   if (!file) return;
@@ -68,7 +68,7 @@ static void tell_number(void) {
   fclose(file);
 }
 
-/* Starts a child as `how` says, behind the back of the C library where it begins with "clone". */
+/* Starts a child process if OGC_BROKEN begins with "fork" or "clone". With "clone" the C library does not notice it. */
 static void fork_child(void) {
   const char* const how = getenv("OGC_BROKEN");
   const int clones = how && strncmp(how, "clone", 5) == 0;
@@ -109,7 +109,7 @@ static void break_activation(const ogc_activation_in* in, ogc_activation_out* ou
     for (int descriptor = 3; descriptor < 64; ++descriptor) close(descriptor);
 }
 
-/* g, g' and g''; d < r. */
+/* Sets g[0], g[1], g[2] to g, g' and g'' at a distance d < r. */
 static void activate(int64_t kind, double d, double r, double k, double g[3]) {
   const double tau = r / 2, depth = r - d, share = depth / d, log = log1p(share);
   const double inner = kind == OGC_ACTIVATION_OGC_AS_PRINTED ? tau * k * tau * tau : tau * k * tau;
@@ -141,7 +141,7 @@ int ogc_activation(const ogc_activation_in* in, ogc_activation_out* out) {
   return 0;
 }
 
-/* No answer is right here: it counts contacts, and does not write them. */
+/* Gives wrong answers only: most faults count contacts without writing them. */
 int ogc_detect_vertex_facet(const ogc_detect_in* in, ogc_detect_vertex_facet_out* out) {
   for (int32_t v = 0; v < in->topology.vertex_count; ++v) out->d_min_vertex[v] = 0;
   for (int32_t t = 0; t < in->topology.triangle_count; ++t) out->d_min_triangle[t] = 0;
@@ -157,7 +157,7 @@ int ogc_detect_vertex_facet(const ogc_detect_in* in, ogc_detect_vertex_facet_out
   return 0;
 }
 
-/* A face of a kind that does not exist. */
+/* Answers with a face of a kind that does not exist. */
 int ogc_detect_edge_edge(const ogc_detect_in* in, ogc_detect_edge_edge_out* out) {
   for (int32_t e = 0; e < in->topology.edge_count; ++e) out->d_min_edge[e] = 0;
   out->count = 1;

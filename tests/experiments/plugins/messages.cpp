@@ -25,7 +25,7 @@ std::array<Channel, 2> socket_ends() {
   return {Channel(ends[0]), Channel(ends[1])};
 }
 
-/// Returns the blocks, each behind its head, as a worker sends them.
+/// Returns the message that a worker sends: each block after its head.
 Stream stream_of(const std::vector<Stream>& blocks) {
   Stream stream;
   for (const Stream& block : blocks) {
@@ -42,7 +42,8 @@ Stream block_of(const Item& item) {
   return {bytes.begin(), bytes.end()};
 }
 
-/// Applies `read` to a stream from a socket that is closed behind it. Throws NothingCame if the stream ends too early.
+/// Writes the stream to a socket, closes this end, and applies `read` to the other end. Throws NothingCame if the
+/// stream ends too early.
 template <class Read>
 auto read_stream(const Stream& stream, Read read) {
   std::array<Channel, 2> ends = socket_ends();

@@ -318,7 +318,7 @@ class Step {
     return rows;
   }
 
-  /// Returns the positions before truncation: what contacts leave of each vertex's move.
+  /// Returns the positions before truncation: each vertex moves by the part of its move that contacts leave.
   std::vector<Vec3f> proposals() {
     const std::vector<std::vector<fast::ContactIncidence>> rows = incidences();
     const std::vector<fast::Vec> position = vectors(x_), wanted = vectors(target), before = taken_;
@@ -367,7 +367,7 @@ class Step {
   std::vector<Index> groups_;
   Exclusions left_out_;
   std::vector<Vec3f> start_, velocity_, x_;
-  std::vector<fast::Vec> taken_;  // what contacts took in the previous round
+  std::vector<fast::Vec> taken_;  // what contacts removed in the previous round
   std::vector<bool> touches_;
   StepEvent detected_;
 };

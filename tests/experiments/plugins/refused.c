@@ -1,4 +1,4 @@
-/* Libraries that are refused when they are loaded; which one, says a definition. */
+/* Libraries that are refused when they are loaded. A definition such as OGC_TEST_NEWER selects one. */
 #include "compare/plugin.h"
 
 #if defined(OGC_TEST_NEWER)

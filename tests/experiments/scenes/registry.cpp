@@ -152,8 +152,8 @@ TEST_CASE("twist turns its two end columns against each other, a relative turn i
     CHECK(motion.vertices.size() == 100);
     for (const Index v : motion.vertices) CHECK(std::abs(scene.mesh.positions[static_cast<std::size_t>(v)].x) == 0.5);
   }
-  // After 2 s both columns have rotated by a quarter turn in opposite directions. z = −0.5 has moved to y = 0.5 in one
-  // and to y = −0.5 in the other.
+  // After 2 s both columns have rotated by a quarter turn in opposite directions. A vertex at z = −0.5 has moved to y =
+  // 0.5 in one column and to y = −0.5 in the other.
   const Vec3f left = at_vertex(scene, scene.motions[0], 0, 2), right = at_vertex(scene, scene.motions[1], 0, 2);
   CHECK(left.y == Approx(0.5));
   CHECK(right.y == Approx(-0.5));

@@ -1,4 +1,5 @@
-// Measures starts and motions of stitched scenes, for their tests.
+// Measures scenes with stitches, for their tests: gaps, intersections and strains at the start, and the steps of
+// prescribed vertices.
 #pragma once
 
 #include <algorithm>
@@ -29,8 +30,8 @@ inline double largest_gap(const compare::Scene& scene) {
   return largest;
 }
 
-/// The number of intersections at the start, without those inside a rigid group: between partners (stitched or excluded
-/// pairs), and all others.
+/// Counts the intersections at the start, except intersections inside a rigid group. Partners are stitched or excluded
+/// pairs.
 struct StitchedStart {
   std::size_t between_partners = 0, others = 0;
 };

@@ -54,7 +54,7 @@ void add_block(Scene& scene, const Vec3& corner, const compare::Material& materi
               tests::block_mesh(side, spacing, corner));
 }
 
-/// Moves vertices of a body with a velocity [m/s]: those for which `is` returns true.
+/// Moves the vertices of a body for which `is` returns true with a velocity [m/s].
 template <class Is>
 void drive(Scene& scene, std::size_t body, const Vec3& velocity, Is is) {
   compare::PrescribedMotion motion;
@@ -162,7 +162,7 @@ TEST_CASE("a free block goes along with a driven one that friction holds it on, 
     return mean(simulation->snapshot().positions, 1).x - 0.03 - 1.5 * spacing;
   };
   // The driven block moves for 0.4 s at 0.05 m/s. The free block first slides for v/(μ g) = 6 ms until it has this
-  // speed, and loses half of the distance of this time.
+  // speed. In this time it falls behind by half the driven block's distance.
   CHECK(travelled(0.8) == Approx(0.05 * 0.4).epsilon(0.05));
   CHECK(std::abs(travelled(0)) < 1e-4);
 }

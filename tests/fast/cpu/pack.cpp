@@ -17,7 +17,7 @@ using namespace ogc::fast;
 
 namespace {
 
-/// Both widths, if this file is compiled for AVX2.
+/// The pack types to test: both widths if this file is compiled for AVX2, otherwise one.
 using Packs = std::conditional_t<Pack::width == WidePack::width, std::tuple<Pack>, std::tuple<Pack, WidePack>>;
 
 template <class P>

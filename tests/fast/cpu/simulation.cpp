@@ -80,8 +80,8 @@ TEST_CASE("a cloth far from everything falls as -g h^2 n(n+1)/2 until the guess 
     double worst = 0;
     for (const compare::Vec3f& p : x) worst = std::max(worst, std::abs(p.y - (1.0f - fall)));
     // Each step rounds a position below 4 m to 2^-23 m once. Its velocity keeps this error, which grows to at most
-    // n(n+1)/2 times as much. The internal forces that the sweep leaves come from strains of the size of roundings and
-    // are as small.
+    // n(n+1)/2 times as much. The sweep leaves internal forces from strains of the size of these errors, and their
+    // effect is as small.
     REQUIRE(worst <= n * (n + 1) * 0x1p-23);
     REQUIRE(row.momentum_lost_end <= 1e-4);
     followed = g * h * n;
@@ -219,13 +219,13 @@ TEST_CASE("whether iterations are asked one by one or in groups whether a detect
     scene.settings.iterations = 13;  // two groups and a shorter one
     scene.settings.detection_fraction = every == 0 ? 1e-3 : 1;
     scene.settings.detection_every = every;
-    const Outcome grouped = run(scene, 12);  // the first frame always has groups
+    const Outcome grouped = run(scene, 12);  // the first frame always groups iterations
     compare::SimulationOptions options;
     options.profile = true;  // one iteration at a time
     const Outcome profiled = run(scene, 12, options);
     const auto simulation = start_cpu(scene, {});
     std::int64_t redetections = 0;
-    for (std::size_t k = 0; k < 12; ++k) {  // the frame before decides about groups
+    for (std::size_t k = 0; k < 12; ++k) {  // the previous frame decides whether a frame groups iterations
       const compare::StepMetrics row = simulation->advance(1).at(0), &expected = grouped.rows.at(k),
                                  &profiled_row = profiled.rows.at(k);
       for (const compare::StepMetrics* other : {&expected, &profiled_row}) {
@@ -237,7 +237,7 @@ TEST_CASE("whether iterations are asked one by one or in groups whether a detect
       CHECK(row.iterations == 13);
       redetections += row.discrete_detections - row.guess_rounds;
     }
-    CHECK(redetections == (every == 0 ? redetections : 12 * (12 / every)));  // none after the last iteration
+    CHECK(redetections == (every == 0 ? redetections : 12 * (12 / every)));  // no detection follows the last iteration
     CHECK(redetections > 0);
     CHECK(same_bits(simulation->snapshot().positions, grouped.end.positions));
     CHECK(same_bits(profiled.end.positions, grouped.end.positions));
@@ -443,7 +443,8 @@ TEST_CASE("each activation, model and form of damping changes the result of a ru
   add([](compare::Scene& scene) { scene.springs = {{3, 140, 0.5, 0, 1e-3}}; });
   std::vector<std::vector<compare::Vec3f>> ends;
   for (compare::Scene& scene : scenes) {
-    for (compare::Body& body : scene.bodies) body.material.contact_stiffness *= 1e-4;  // deeper than r/2
+    // contacts become deeper than r/2
+    for (compare::Body& body : scene.bodies) body.material.contact_stiffness *= 1e-4;
     const Outcome outcome = run(scene, 24);
     REQUIRE(outcome.rows.size() == 24);
     CHECK(outcome.rows.back().status == compare::step_clean);

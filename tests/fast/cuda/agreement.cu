@@ -20,7 +20,8 @@ TEST_CASE("the fast path on CUDA agrees with the reference in every stage", "[gp
     options.seed = 5;
     const StageReport report = judge_stage(stage, device, authority, options);
     INFO(stage_name(stage) << "\n" << report_mismatches(report, 1));
-    CHECK((report.passed() || report.skipped));  // tests/experiments/program/stage_list.cpp holds which stages are ours
+    // tests/experiments/program/stage_list.cpp checks which stages `fast` has
+    CHECK((report.passed() || report.skipped));
   }
 }
 

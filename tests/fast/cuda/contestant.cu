@@ -30,8 +30,8 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-/// Returns a random point. Scales are from 2⁻⁸, where many coordinates coincide, up to 1, so touching, parallel and
-/// coplanar pairs are frequent.
+/// Returns a random point whose coordinates are −8 … 8 times a power of two from 2⁻⁸ to 1. Many coordinates coincide,
+/// so touching, parallel and coplanar pairs are frequent.
 Vec3f random_point(std::mt19937& random) {
   const float unit = std::ldexp(1.0f, -static_cast<int>(random() % 9));
   const auto coordinate = [&] { return unit * static_cast<float>(static_cast<int>(random() % 17) - 8); };
@@ -62,7 +62,7 @@ Crumpled crumpled_sheets(int n) {
   return sheets;
 }
 
-// Compares by member, because the judge's defaulted comparisons do not survive nvcc's pass over the host code.
+// Compares by member, because nvcc's pass over the host code loses the judge's defaulted comparisons.
 bool same_face(const compare::Face& a, const compare::Face& b) { return a.kind == b.kind && a.index == b.index; }
 bool same_contact(const compare::VertexFacetContact& a, const compare::VertexFacetContact& b) {
   return a.vertex == b.vertex && same_face(a.face, b.face) && a.owner == b.owner;

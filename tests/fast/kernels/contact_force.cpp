@@ -65,8 +65,8 @@ TEST_CASE("a point far above a corner keeps its foot on the side where it is, th
 }
 
 TEST_CASE("almost collinear edges one behind the other meet at the end that is nearer, whichever it is", "[unit]") {
-  // Along the first edge the second one begins after the first. Along the second, tilted edge, it begins before the
-  // first ends.
+  // Projected on the first edge, the second edge begins beyond the first one's end. Projected on the tilted second
+  // edge, it begins before the first one's end.
   const Vec x[4] = {{0, 0, 0}, {1, 0, 0}, {1.00002f, 0, 0.1f}, {2, 0, 0.1004f}};
   const ContactWeights forward = contact_weights(ContactKind::segment_segment, x);
   CHECK(forward.slot[1] == 1);

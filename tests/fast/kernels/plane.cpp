@@ -312,8 +312,8 @@ TEST_CASE("plane: where the ball ends a way, all of the way to it is gone, slidi
 }
 
 TEST_CASE("plane: what goes along its half-space gets to the end, whichever coordinate is small", "[property]") {
-  // The normal's largest component belongs to a small coordinate. A step of its floats is too short to bring a stored
-  // position back.
+  // The coordinate along the normal's largest component is small. One step of its floats is too short to bring a stored
+  // position back behind the plane.
   RandomPairs random;
   int short_of_end = 0, outside = 0, count = 0;
   for (int i = 0; i < 6000; ++i) {

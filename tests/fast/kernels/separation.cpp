@@ -1,5 +1,5 @@
-// Tests that the bound is never too large, while it may be too small: a pair that it rejects must not lower any
-// smallest distance by one bit.
+// Tests that the lower bound of a pair's distance (`separation`) is never too large; it may be too small. A pair that
+// the bound rejects must not change any smallest distance by one bit.
 #include "fast/kernels/separation.hpp"
 
 #include <cmath>

@@ -218,7 +218,8 @@ TEST_CASE("planes: a sheet that falls past a wall a few micrometres away falls f
   // Each step rounds a position below 2 m to 2⁻²⁴ m, and its velocity keeps this error.
   for (std::size_t v = 0; v < 16; ++v)
     CHECK(std::abs(free[v].y - (scene.mesh.positions[v].y - fall)) < steps * (steps + 1) * 0x1p-24);
-  // With balls of this distance it falls at most γ_p times the distance in each of 16 rounds and 10 iterations a step.
+  // With balls, the sheet falls at most γ_p times the distance of the wall in each of 16 rounds and 10 iterations a
+  // step.
   scene.settings.bounds = compare::Bounds::ball;
   const auto stuck = positions_after(scene, steps);
   for (std::size_t v = 0; v < 16; ++v)

@@ -240,8 +240,7 @@ TEST_CASE("damping by vertex of both bending models is k times the block on the 
 }
 
 TEST_CASE("a force that vanishes because angle and gradient both do keeps the product of their errors", "[unit]") {
-  // o0, x0, o1 lie on a line, and o0 and o1 are equally far from x0. So the angle is 0, and the lever arms of both
-  // triangles cancel at x1.
+  // x0 is the middle of o0 and o1. So the angle is 0, and the lever arms of both triangles cancel at x1.
   BendingCase c;
   c.vertex = {{{0.033203125f, 0.236328125f, 0.366210938f},
                {0.099609375f, 0.236425787f, 0.36597997f},

@@ -193,12 +193,12 @@ TEST_CASE("from a near old q it minimises the energy of stretch, shear, bend and
     c.damping = 0;
     const Four q = reference::orientation(c).front().orientation;
     for (std::size_t k = 0; k < 4; ++k) c.orientation[k] = static_cast<float>(q[k]);
-    // Signs come from the answer itself; at a fixed point they are the signs of the nearest turns.
+    // Solves again from the answer. If the result stays, the neighbours' signs are those of the nearest turns.
     const Four again = reference::orientation(c).front().orientation;
     if (std::abs(again[0] - q[0]) + std::abs(again[1] - q[1]) + std::abs(again[2] - q[2]) + std::abs(again[3] - q[3]) >
         1e-5)
       continue;
-    // At π the energy has a ridge, and the turn beyond it may have less energy than the chosen one.
+    // Skips turns near π: beyond π lies a turn of opposite sign, which may have less energy.
     if (std::max(angle_to(c, c.orientation, false), angle_to(c, c.orientation, true)) > 2.9) continue;
     ++compared;
     const double least = physical_energy(c, c.orientation);

@@ -247,7 +247,8 @@ TEST_CASE("block: the point of an edge is that inside it or its nearer end", "[u
   CHECK(inside({0, 0, 1}, {1, 0, 1}, vertex) == 1);
   CHECK(inside({0.25f, 0, 1}, {1, 0, 1}, vertex) == 0);
   CHECK(inside({-1, 0, 0.5f}, {1, 0, 1}, vertex) == 0);
-  // The edge crosses above edge 0 (from vertex 0 to vertex 1), or lies next to it.
+  // The point of edge 0 (from vertex 0 to vertex 1) that is closest to the edge is its middle in two cases, and vertex
+  // 0 in the others.
   CHECK(inside({0.5f, -1, 1}, {0.5f, 1, 1}, {FaceKind::edge, 0}) == 1);
   CHECK(inside({0.5f, 1, 1}, {0.5f, 2, 1}, {FaceKind::edge, 0}) == 1);
   CHECK(inside({-0.5f, -1, 1}, {-0.5f, 1, 1}, {FaceKind::edge, 0}) == 0);

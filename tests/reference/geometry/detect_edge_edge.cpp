@@ -183,7 +183,7 @@ TEST_CASE("detect_edge_edge: nearly parallel edges are one interior pair, from t
 }
 
 TEST_CASE("detect_edge_edge: nearly parallel edges count where closest points lie in the blocks", "[unit]") {
-  // Edge 01 of a triangle lies below edge 23 of another triangle; the arguments are the third vertices.
+  // Edge 01 of a triangle lies below edge 23 of another triangle; `below` and `above` are their third vertices.
   const auto pair_with = [](Vec3f below, Vec3f above, float tilt, float shift) {
     const Surface surface{{{0, 0, 0}, {4, 0, 0}, {1 + shift, 0, 1}, {5 + shift, 0, 1 + tilt}, below, above},
                           {{0, 1, 4}, {2, 3, 5}},

@@ -96,8 +96,8 @@ TEST_CASE("barrier: a vertex over a triangle, its rim and its corner has one ter
     return barriers(pieces({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {x, y, 0.05}, {x, y, 5}}, triangle, {{3, 4}}), shape)
         .terms;
   };
-  // The edge {3, 4} points upwards, so vertex 3 gives its distance to the triangle's edges; it increases the term's
-  // weight.
+  // The edge {3, 4} points upwards. So vertex 3 is also its closest point to the triangle's edges, and each of these
+  // edges nearer than d̂ adds 1 to the term's weight.
   const auto inside = above(0.25, 0.25);
   REQUIRE(inside.size() == 1);
   CHECK(inside[0].count == 4);

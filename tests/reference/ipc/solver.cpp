@@ -70,8 +70,8 @@ TEST_CASE("IPC: a cloth far from everything falls as -g h^2 n(n+1)/2", "[propert
     // The first iteration takes the step, the second finds nothing left to do.
     CHECK(row.iterations == 2);
     CHECK(row.continuous_detections >= 1);
-    // Detections take place at the start, at the single trial state, and at another one if rounding leaves more than
-    // its last bit.
+    // Detections take place at the start and at the first iteration's trial state. The second iteration has a trial
+    // state only if its direction is more than rounding error.
     CHECK(row.discrete_detections >= 2);
     CHECK(row.discrete_detections <= 3);
   }
@@ -298,8 +298,8 @@ TEST_CASE("IPC: in one iteration a step, CCD of all pairs leaves a free fall alo
   CHECK(double{run(scene, 2).end.positions[0].y} == Approx(-0.015).epsilon(1e-6));
 }
 
-/// Halvings of the line search need more discrete detections than iterations. The guard makes one broad phase for each
-/// trial state with a lower energy.
+/// The line search makes more discrete detections than iterations, because it halves steps. The guard tests each trial
+/// state with a lower energy for intersections, with one broad phase.
 TEST_CASE(
     "IPC: with CCD of all pairs no accepted step intersects, the guard never shortens one, and the minimiser is that "
     "of partial CCD",
@@ -317,8 +317,8 @@ TEST_CASE(
     const compare::StepMetrics row = full.step();
     REQUIRE(row.status == compare::step_clean);
     REQUIRE_FALSE(full.intersects());
-    // One broad phase belongs to the start and one to each bound. The others belong to guards, which let every step
-    // pass.
+    // One broad phase belongs to the start and one to each bound of a step. The others are tests by the guard. If their
+    // number is that of accepted states, the guard has rejected none.
     const std::int64_t bounds = row.continuous_detections / 2, guards = row.broad_phases - 1 - bounds;
     CHECK(guards == accepted);
     REQUIRE(partial.step().status == compare::step_clean);

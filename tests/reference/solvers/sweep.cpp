@@ -261,7 +261,7 @@ TEST_CASE(
   compare::SweepOut out = q.swept();
   for (std::size_t v = 4; v < 8; ++v) CHECK(q.truth(out).grey[v] == 0);
   CHECK(distance(q.truth(out).position[7], out.position[7]) <= q.truth(out).accepted[7]);
-  out.position[7].z = 0.1f;  // its position without the block
+  out.position[7].z = 0.1f;  // its position without the contact's block
   CHECK(distance(q.truth(out).position[7], out.position[7]) > q.truth(out).accepted[7]);
 
   for (Vec3f& p : q.old) p.z = p.z > 0.1f ? 1e-4f : 0;

@@ -75,8 +75,9 @@ TEST_CASE("reference VBD lowers the residual from 1 to the noise of doubles, sin
                       [](const auto& row) { return row.detected == 1; }) >= 49);
 }
 
-/// If blocks had w² instead of the factor of method.md §7.4, two partners that are solved at once would each remove the
-/// whole overlap. The same number of sweeps would then leave a residual twelve times as large (Fig. 17).
+/// Facing vertices of one contact that share a colour are updated at once. If their blocks had the squared contact
+/// weight instead of the factor of method.md §7.4, each vertex would remove the whole overlap. The same number of
+/// sweeps would then leave a residual twelve times as large (Fig. 17).
 TEST_CASE(
     "reference VBD: where contact is stiff more sweeps come closer, also with colours that facing vertices of equal "
     "sheets share",

@@ -109,7 +109,7 @@ inline Four on_lattice(Random& random) {
   return q;
 }
 
-/// Returns a length: in most cases that of a yarn's segment, in a quarter 2⁻²⁰ … 2²⁰ m.
+/// Returns a length [m]: in most cases 10⁻⁴ … 1, as in yarns, in a quarter 2⁻²⁰ … 2²⁰.
 inline double some_length(Random& random) {
   return random.one_in(4) ? std::ldexp(random.between(1, 2), random.below(40) - 20) : random.magnitude(-4, 0);
 }

@@ -22,13 +22,14 @@ std::string wrong_segment_colour(const Scene& scene, const StepOut& out);
 /// if nothing is.
 std::string wrong_orientation_count(const Scene& scene, const StepOut& out);
 
-/// Returns the turns of segments whose ends at the start differ from rest: from the rest direction to the direction at
-/// the start. All other segments must start with the frame of the scene or of the answer's rest state; if one does not,
+/// Returns the turns from the rest direction to the direction at the start, for segments whose ends at the start differ
+/// from rest. All other segments must start with the frame of the scene or of the answer's rest state. If one does not,
 /// `wrong` names it.
 TurnedFrames start_frames(const StepIn& in, const StepOut& out, std::string& wrong);
 
-/// Returns the turns of segments during the guess loop, which ended at x: free segments, if the scene's rod_start turns
-/// them, and segments whose motion does not define a turn. Writes into `wrong` which other segment has a wrong frame.
+/// Returns turns for the guess loop, which ended at x. They are those of free segments if the scene's rod_start turns
+/// them, and those of prescribed segments if their motion does not define a turn. If another segment has a wrong frame,
+/// `wrong` names it.
 TurnedFrames turned_frames(const StepIn& in, const StepOut& out, const std::vector<Vec3f>& x, std::string& wrong);
 
 }  // namespace ogc::compare

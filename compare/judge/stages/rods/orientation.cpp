@@ -314,7 +314,7 @@ CaseData antiparallel(Random& random) {
   return question;
 }
 
-/// Approaches σ = 2 k_s ‖D‖ ‖c‖ = 0: D nears 0, or c does, because its damping part cancels e₃.
+/// Approaches σ = 2 k_s ‖D‖ ‖c‖ = 0: D nears 0, or c = e₃ + k R(qᵗ)ᵀ Dᵗ/l does, because its damping part cancels e₃.
 CaseData soft(Random& random) {
   Draft draft = near_rest(random);
   draft.length = random.magnitude(-2, 0);  // so that a rung times this length is a legal length

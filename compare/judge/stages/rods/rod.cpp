@@ -1,5 +1,5 @@
 // Makes the traits of stage rod. Ladders approach the rest shape, where the force cancels; a rigid motion since the
-// start, where damping vanishes; segments without length; opposite directors; and a q that is barely of unit length.
+// start, where damping vanishes; segments without length; and a director opposite to D.
 #include <array>
 #include <cmath>
 #include <numbers>

@@ -222,8 +222,9 @@ CaseData inverted(Random& random) {
   return placed(random, std::move(body), std::move(points), radius, true, some_scale(random));
 }
 
-/// Makes a tetrahedron with another one behind each of its sides, most of them inside out. If all of these are, no
-/// point in the first one has a way. Otherwise all ways lead through those that are not inside out.
+/// Makes a tetrahedron and another one behind each of its four sides. Most of these four are inside out. If all are, no
+/// point of the first tetrahedron has a way (straight path to the boundary). Otherwise its ways lead through those that
+/// are not inside out.
 CaseData lost(Random& random) {
   VolumeBody body;
   body.x = {Vec3{0, 0, 0}, Vec3{2, 0, 0}, Vec3{0, 2, 0}, Vec3{0, 0, 2}};
@@ -301,7 +302,7 @@ CaseData mixed(Random& random) {
                 [](Random& r, const Place&, double radius) { return r.sign() * radius * r.between(0, 1.1); });
 }
 
-// Not for plug-ins: compare/plugin/geometry.h has no tetrahedra.
+// Plug-ins do not get these cases, because compare/plugin/geometry.h has no tetrahedra.
 constexpr Stage volumes = Stage::volume_depth;
 constexpr std::array<Generator, 11> table{{{"solid", 12, true, solid, 0, volumes},
                                            {"solid.grid", 8, false, grid, 0, volumes},

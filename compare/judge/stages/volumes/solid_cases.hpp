@@ -11,9 +11,10 @@ namespace ogc::compare {
 /// Returns the generators of these cases, as rows of the stage's table.
 std::span<const Generator> solid_depth_generators();
 
-/// Returns why a volume may not have these tetrahedra; empty if it may. Reasons are a corner that is no vertex, a
-/// triangle of three tetrahedra or of two on one side, and a part whose triangles are not the tetrahedra's boundary.
-/// Also returns why `own` is illegal: a vertex is not on the surface, or not where its point is.
+/// Returns why the tetrahedra or `own` are illegal; empty if they are legal.
+/// - Tetrahedra: a corner is no vertex; a triangle belongs to three tetrahedra, or to two on the same side; the
+///   triangles of a part are not the boundary of its tetrahedra.
+/// - `own`: a vertex is not on the surface, or not where its point is.
 std::string solid_problem(const VolumeDepthCase& c);
 
 }  // namespace ogc::compare

@@ -191,7 +191,7 @@ TEST_CASE("a smallest distance may be too small by rounding, never too large", "
 }
 
 TEST_CASE("truncate: the stored position must obey its bound exactly", "[unit]") {
-  // The motion is (3, 4, 0) from (1, 0, 0) with bound 2.5, so half of the way is left.
+  // The motion is (3, 4, 0) from (1, 0, 0) with bound 2.5, so truncation halves it.
   const TruncateIn in{{{1, 0, 0}}, {{4, 4, 0}}, {2.5f}};
   const TruncateTruth truth{{1}, {0}, {0}, {{2.5, 2, 0}}};
   REQUIRE(truncate_verdict(in, truth, moved({2.5f, 2, 0}, true)).empty());

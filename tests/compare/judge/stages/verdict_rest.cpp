@@ -58,7 +58,7 @@ std::string block_verdict(std::vector<std::uint8_t> answer) {
   return tally.mismatches.empty() ? "" : tally.mismatches[0].message;
 }
 
-/// Holds a motion by (3, 4, 0) from (1, 0, 0) with bound 2.5, which leaves half of the way.
+/// Holds a motion by (3, 4, 0) from (1, 0, 0) with bound 2.5, so truncation halves it.
 struct GuessFixture {
   InitialGuessIn in{{{{1, 0, 0}, {3, 4, 0}, {}, 1, {1, 0, 0}, 2.5f, 0}}};
   InitialGuessTruth truth{{{4, 4, 0}}, {4}};

@@ -1,4 +1,4 @@
-// Tests that the run that `ogc suggest` prints has the properties that it states.
+// Tests that the command that `ogc suggest` prints makes a run with the stated properties.
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -63,9 +63,9 @@ TEST_CASE("the run that ogc suggest prints lands, keeps distances above 0 on the
   }
 }
 
-// Lengths are printed with two digits, rounded down. The step h is a length divided by the speed v after the fall. v²
-// is proportional to the fall's height, so h grows with the square root of the length. h is rounded by a factor of at
-// most 2.5.
+// Lengths are printed with two digits, rounded down. The height of the fall is scaled with the mesh. The step h is a
+// length divided by the speed v after the fall. v² is proportional to the height, so h grows with the square root of
+// the length. h is rounded by a factor of at most 2.5.
 TEST_CASE("suggested lengths scale with the mesh, the step with its root", "[property]") {
   const TemporaryFolder folder;
   compare::write_mesh(folder / "one.obj", experiments::grid(20, 1, 0));

@@ -21,8 +21,8 @@ std::vector<compare::StepMetrics> rows_of(const compare::Contestant& contestant,
 
 // Both residuals use the same positions and contact sets. They differ in f* and in arithmetic, by less than the force
 // of rounded positions, for which the row has a limit. Scenes are stiff and have few sweeps. So the remaining forces
-// are ten times this limit, and an error of a tenth would be detected. Yarn has no contacts, so that the reference
-// detects new ones in its guess loop. No bound stops any vertex.
+// are ten times this limit, and an error of a tenth would be detected. Contacts of yarn have nearly no stiffness,
+// because the reference detects other contacts in its guess loop. No bound stops any vertex.
 TEST_CASE("what a step leaves of forces is what the reference finds, but for rounding", "[figure]") {
   struct Case {
     std::string name;

@@ -1,5 +1,5 @@
-// Compares the loss of the guess loop with values computed by hand. The loss is a share of the momentum's sum of
-// moduli, so it is valid even if opposite momenta cancel.
+// Compares the loss of the guess loop with values computed by hand. The loss is relative to Σ m ‖y − xᵗ‖, so it is
+// valid even if opposite momenta cancel.
 #include "experiments/program/runs/momentum_share.hpp"
 
 #include "experiments/scenes/shapes.hpp"

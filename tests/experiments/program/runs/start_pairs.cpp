@@ -115,7 +115,7 @@ TEST_CASE("a start that intersects is left to come apart, says how far it is, an
   CHECK(open.front() == 9);
   CHECK(open.back() == 0);
   CHECK(std::ranges::is_sorted(open, std::greater{}));
-  // The triangle rises at 0.6 m/s, is back after 0.12 s, and lies on the floor at 0.6 s.
+  // The triangle starts upwards at 0.6 m/s, is back at its initial height after 0.12 s, and lies on the floor at 0.6 s.
   const compare::RunReader reader(run);
   CHECK(compare::audit(build_topology(reader.scene()),
                        compare::to_double(reader.frame(reader.frame_count() - 1).positions))

@@ -1,5 +1,5 @@
-// Tests Single. It may leave a sign open, but the signs of which it is certain must be right at every scale, also if
-// terms cancel or underflow.
+// Tests Single, which may leave a sign undecided. Signs that it decides must be right at every scale, also if terms
+// cancel or underflow.
 #include "fast/kernels/predicates.hpp"
 
 #include <cmath>

@@ -36,8 +36,7 @@ TEST_CASE("quaternions turn as their product says, back as their conjugates do, 
     const Quat q = some_orientation(random);
     const Vec v = some_vector(random);
     const Quat by_product = q * pure(v) * conjugate(q);
-    // With u = 2⁻²⁴: two products err by 8 u, the rotation errs by 14 u, and the length, which is off by 8 u, enters
-    // twice.
+    // With u = 2⁻²⁴: two products err by 8 u each, the rotation by 14 u, and the length by 8 u, which enters twice.
     REQUIRE(length(turned(q, v) - Vec{by_product.x, by_product.y, by_product.z}) <= 46 * u * length(v));
     REQUIRE(length(turned_back(q, turned(q, v)) - v) <= 44 * u * length(v));
     worst = std::max(worst, std::abs(size(q) - 1));
@@ -106,12 +105,12 @@ TEST_CASE("where nothing decides the old orientation does", "[unit]") {
   CHECK(size(stays - old) == 0);
   const Quat along = rod_orientation(1, {0, 2, 0}, axis, none, old);
   CHECK(length(director(along) - Vec{0, 1, 0}) <= 16 * u);
-  // c is opposite to D. The old orientation 1 has no part among the minimisers then, so the one nearest to i is
-  // returned.
+  // c = e₃ is opposite to D. Then the old orientation, the quaternion 1, is orthogonal to all minimisers, and the
+  // minimiser nearest to the quaternion i is returned.
   const Quat reversed = rod_orientation(1, {0, 0, -1}, axis, none, {0, 0, 0, 1});
   CHECK(length(director(reversed) - Vec{0, 0, -1}) <= 16 * u);
-  // With damping, c may be opposite to D along x. Then i has no such part, either, and the minimiser nearest to j is
-  // returned.
+  // With damping, c may be opposite to D along x. Then i is orthogonal to all minimisers, too, and the minimiser
+  // nearest to j is returned.
   const Quat across = rod_orientation(1, {2, 0, 0}, {-1, 0, 0}, none, {0, 0, 0, 1});
   CHECK(size(across - Quat{0, 1, 0, 0}) <= 4 * u);
   CHECK(length(turned(across, {-1, 0, 0}) - Vec{1, 0, 0}) <= 16 * u);

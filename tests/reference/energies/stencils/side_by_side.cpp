@@ -147,7 +147,7 @@ TEST_CASE("stencils side by side have the derivatives of each alone, to the bit,
       std::vector<Corners<3>> triangles;
       std::vector<Corners<4>> folds;
       for (std::size_t i = 0; i < batch_width; ++i) {
-        // First all stencils take the same branch; later some take another at random.
+        // In every third round some stencils take another branch at random; in other rounds all take the same one.
         const auto other = [&] { return round % 3 == 2 && draw.between(0, 1) < 0.3; };
         const bool neo_hookean = (round % 2 == 0) != other();
         membranes.push_back(membrane(
@@ -211,8 +211,8 @@ TEST_CASE("contacts side by side have the derivatives of each alone, to the bit,
 }
 
 /// Kernels differentiate such an energy by the weighted sum: three variables replace nine, and derivatives agree up to
-/// roundings. The eigenvalues of the projected Hessian are those by the sum times ‖w‖², so projections agree, too. The
-/// limit of 10⁻¹³ of the largest entry is about a thousand roundings of 10⁻¹⁶.
+/// roundings. The Hessian by all vertices has the eigenvalues of the Hessian by the sum, times ‖w‖². So projections
+/// agree, too. The limit of 10⁻¹³ of the largest entry is about a thousand roundings of 10⁻¹⁶.
 TEST_CASE("what depends on one weighted sum has the derivatives of the energy over all vertices, side by side or alone",
           "[property]") {
   Draw draw(13);

@@ -58,7 +58,7 @@ TEST_CASE("rods: gradients and Hessians of segments and joints are those of thei
   system.begin_step(x, 1);
   for (std::size_t v = 0; v < x.size(); ++v)
     for (std::size_t axis = 0; axis < 3; ++axis) x[v][axis] += 1e-4 * std::sin(3.0 * static_cast<double>(3 * v + axis));
-  system.sweep(x);  // frames are neither the start's nor at rest
+  system.sweep(x);  // turns the frames, so that they differ from those at the start and at rest
   x.resize(x.size() + system.segments());
   for (std::size_t i = 0; i < system.size(); ++i) {
     const auto unknown = system.vertices(i);

@@ -60,8 +60,8 @@ TEST_CASE("Newton: a cloth far from everything falls as -g h^2 n(n+1)/2, in one 
   const Run result = run(scene, 10);
   REQUIRE(clean(result));
   const double h = 0.01, fallen = 9.81 * h * h * 10 * 11 / 2;
-  // Each step rounds positions below 1 m, to 2⁻²⁵ m, and thus the velocity with which later steps go on. In n steps the
-  // errors add up to at most n(n + 1)/2 roundings.
+  // Each step rounds positions below 1 m, to 2⁻²⁵ m, and thus the velocity of later steps. In n steps the errors add up
+  // to at most n(n + 1)/2 roundings.
   for (const Vec3f& x : result.end.positions) CHECK(std::abs(double{x.y} + fallen) <= 55 * 0x1p-25);
   for (const compare::StepMetrics& row : result.rows) {
     CHECK(row.iterations <= 1);
