@@ -9,7 +9,7 @@
 namespace ogc::fast {
 
 /// A tetrahedron as one of its corners sees it. `index` holds the other three corners, encoded as in sweep_view.hpp.
-/// They are ordered so that this corner and they, in this order, have a positive volume at rest.
+/// Their order is such that this corner, followed by them, has a positive volume at rest.
 struct alignas(16) TetrahedronIncidence {
   int index[3] = {0, 0, 0};      ///< a, b, c of models/tetrahedron.hpp
   int tetrahedron = -1;          ///< number in RestState::tetrahedra
@@ -196,7 +196,8 @@ struct Tetrahedra {
              own.moved}};
   }
 
-  /// Returns whether add_packs can add the tetrahedra of a vertex: none, or undamped ones.
+  /// Returns whether add_packs can add the tetrahedra of a vertex: the scene has none, or they are undamped and their
+  /// form of damping is that of strains.
   template <class View>
   static bool is_packed(const View& view, const SweepVertex& vertex) {
     return view.tetrahedra.rows == nullptr ||
