@@ -1,6 +1,6 @@
-// Lists of one thread. A thread collects what it finds in its own list and moves many items at once to the common list.
-// Otherwise all threads would wait for the common counter, which each found item would increase. They would also wait
-// for the flags beside the counter in memory, which all threads read.
+// Defines lists of one thread. A thread collects what it finds in its own list and moves many items at once to the
+// common list. Otherwise all threads would wait for the common counter, which each found item would increase. They
+// would also wait for the flags beside the counter in memory, which all threads read.
 #pragma once
 
 #include <algorithm>

@@ -8,8 +8,8 @@
 //   pairs       candidates that passed: a lane computes the distance (meet), which may lower the search's limit
 //
 // The warp takes the last list that can fill it, so lanes idle only when little is left. `nodes` is a stack. A round
-// takes up to 8 nodes from the top, where the lowest level is. So when it pushes nodes of a level (at most 32), the
-// stack has no other nodes of that level, and room for 32 nodes a level suffices.
+// takes up to 8 nodes from the top, where the lowest level is, and pushes at most 32 children. The stack then has no
+// other nodes of the children's level, so room for 32 nodes a level suffices.
 #pragma once
 
 #include <algorithm>
@@ -29,11 +29,11 @@ inline constexpr int largest_searched_count = 4 << 25;
 
 /// A node of the stack, with its search.
 struct SearchNode {
-  /// from the top: 4 bits of the level, 3 of the search's slot in its group, 25 of the place in the level
+  /// from the top: 4 bits of the level, 3 of the search's number in its group, 25 of the place in the level
   unsigned bits;
 
-  /// Packs level < max_levels, slot of the search in its group, and place < 2²⁵ of the node in its level. The functions
-  /// below unpack them.
+  /// Packs level < max_levels, number of the search in its group, and place < 2²⁵ of the node in its level. The
+  /// functions below unpack them.
   __device__ static SearchNode of(int level, int slot, int j) {
     return {static_cast<unsigned>(level) << 28 | static_cast<unsigned>(slot) << 25 | static_cast<unsigned>(j)};
   }
@@ -53,7 +53,7 @@ struct SearchMemory {
   /// A round that adds items to a list finds at most 31 there and adds at most 32. `nodes` has one node for each search
   /// and at most 32 of each level.
   static constexpr int most_items = 31 + 32, most_nodes = largest_group + 32 * (max_levels - 1);
-  Search searches[largest_group];  ///< by slot
+  Search searches[largest_group];  ///< by number in the group
   /// two stacks; is_pair moves items from the first to the second
   SearchItem candidates[most_items], pairs[most_items];
   SearchNode nodes[most_nodes];

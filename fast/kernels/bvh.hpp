@@ -221,7 +221,8 @@ struct Reach {
     nearest.squared = smaller(nearest.squared, squared_to_segment(u, e));
     nearest.size = larger(nearest.size, add(norm_1(u), norm_1(e)));
   }
-  /// Returns the reach, rounded up. It adds 2⁻⁴⁶ `size`, four times the error of the root of squared_to_segment.
+  /// Returns the reach: the smaller of r_q and the nearest distance, rounded up. 2⁻⁴⁶ `size` is added to the distance;
+  /// this is four times the error of the root of squared_to_segment.
   OGC_HD float above(const Nearest& nearest) const {
     return smaller(*query_radius, round_up(add(square_root(nearest.squared), mul(0x1p-46, nearest.size))));
   }
@@ -402,8 +403,9 @@ struct HilbertKeys {
   SurfaceView surface;
   const Vec* positions;    ///< by vertex [m]
   TreeView facets, edges;  ///< refitted; their roots give the extent
-  std::uint64_t* keys;     ///< 0, 1 or 2 for vertex, edge, facet from bit kind_bit on; place on the curve below it
-  int* values;             ///< number of the vertex, edge or facet; the sort moves it with its key
+  /// the upper bits, from kind_bit on: 0 vertex, 1 edge, 2 facet; the lower bits: place on the curve
+  std::uint64_t* keys;
+  int* values;  ///< number of the vertex, edge or facet; the sort moves it with its key
 
   OGC_HD void operator()(int i) const {
     const int e = i - surface.searched_vertices, t = e - surface.searched_edges, place = e < 0 ? i : (t < 0 ? e : t);

@@ -1,6 +1,6 @@
 // Computes the distance of a point and a triangle in rounded double, with a bound of its error, the slack. Exact signs
 // find the face that holds the closest point. The distance is continuous across faces, so its computation does not need
-// this face. Only pairs nearer than r need it.
+// this face; only pairs nearer than r need the face.
 #pragma once
 
 #include "compare/stages/closest_face.hpp"
@@ -60,7 +60,7 @@ inline constexpr unsigned corners_in_order = 4;
 /// dimension. The signs assign each x to one face; for a triangle without area several faces may fit, and the first is
 /// taken. `descending` is explained at Facet.
 OGC_HD inline TriangleFeature closest_feature(const Vec& x, const Corners& t, unsigned descending = corners_in_order) {
-  // [k][0]: x projects before the first end of edge k, which goes from corner k to k + 1; [k][1]: before the second end
+  // [k][i]: x does not project beyond end i of edge k, which goes from corner k to corner k + 1
   bool before[3][2];
   for (int k = 0; k < 3; ++k) {
     const Vec &a = t[k], &b = t[(k + 1) % 3];

@@ -1,7 +1,7 @@
 // Computes the distance of two edges in rounded double, with a bound of its error, the slack. Exact signs find the
 // faces that hold the closest points. Nearly parallel edges follow method.md §1.4. The distance is convex in both
-// parameters, so the first-order conditions of each pair of faces decide whether the pair is right, and no system is
-// solved.
+// parameters, so the first-order conditions of a pair of faces decide whether these faces hold the closest points. No
+// system is solved.
 #pragma once
 
 #include "compare/stages/closest_points.hpp"
@@ -56,7 +56,7 @@ OGC_HD inline Distance edge_edge_distance(const Ends& p, const Ends& q) {
 /// Returns the faces that hold the closest points, at any angle. If several pairs of faces are equally near (parallel
 /// edges, or edges of zero length), returns the first of them.
 OGC_HD inline EdgePairFeatures closest_edge_features(const Ends& p, const Ends& q) {
-  // p_before[i][j]: along q, end i of p projects before end j of q, so not beyond it; q_before: with p and q exchanged
+  // p_before[i][j]: end i of p does not project beyond end j of q; q_before: the same with p and q exchanged
   bool p_before[2][2], q_before[2][2];
   for (int i = 0; i < 2; ++i) {
     for (int j = 0; j < 2; ++j) {
@@ -104,10 +104,10 @@ struct EdgeParameters {
   double first = 0, second = 0;
 };
 
-/// Returns one end of the overlap of two nearly parallel edges, as parameters on p and on the line of q. This is the
-/// end `end` of q or, if that end projects beyond p, an end of p. For an end of q, the parameter on q is computed
-/// relative to this end. Relative to an end of p it would have the rounding error of p's length, 10⁷ times as large if
-/// q is 10⁻⁷ times as long as p.
+/// Returns one end of the overlap of two nearly parallel edges, as parameters on p and on the line of q. If end number
+/// `end` of q projects beyond p, the overlap ends at the nearest end of p instead. For an end of q, the parameter on q
+/// is computed relative to this end. Relative to an end of p it would have the rounding error of p's length, 10⁷ times
+/// as large if q is 10⁻⁷ times as long as p.
 OGC_HD inline EdgeParameters overlap_end(const Ends& p, const Ends& q, int end) {
   const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), u = difference<Rounded>(q[end], p.a);
   const double along = dot(u, e).value, ee = squared(e), ff = squared(f);

@@ -2,15 +2,15 @@
 // vertex update reads. Closest points are computed in single precision from relative coordinates; they give weights,
 // normal and distance. A vertex has the force −g' w n and the block g'' w² n nᵀ (method.md §4.2; §7.4 for w²).
 //
-//   kind              slots of the first | second side
+//   kind              vertices of the first | second side, by index in ContactIncidence (slot)
 //   point_point       0 | 2
 //   point_segment     0 | 2 3
 //   segment_segment   0 1 | 2 3   (no segment_point: a record's first face is never of higher dimension)
 //   point_triangle    0 | 1 2 3   (compare/stages/detect_edge_edge.hpp)
 //
 // The weights add up to 0, so action equals reaction. Σ w_i x_i is the vector d n from the closest point of the second
-// side to the closest point of the first. Slots that a kind does not have repeat slot 0 with weight 0, so that formulas
-// need no branch.
+// side to the closest point of the first. Vertices that a kind does not have repeat vertex 0 with weight 0, so that
+// formulas need no branch.
 #pragma once
 
 #include <cmath>
@@ -24,7 +24,7 @@
 
 namespace ogc::fast {
 
-/// Names the faces that meet; the head of this file lists the slots of each kind.
+/// Names the kinds of faces between which a contact acts; the head of this file lists the vertices of each kind.
 enum class ContactKind : std::uint8_t { point_point, point_segment, segment_segment, point_triangle };
 
 /// Holds the constants of contacts between two bodies (method.md §4.5).
@@ -172,12 +172,12 @@ OGC_HD inline SegmentParameters closest_on_segments(const TwoSegments<float>& at
   return at.beside(s);
 }
 
-/// Holds the weights w of the closest points by slot [1]; 0 for a slot that the kind does not have.
+/// Holds the weights w of the closest points by vertex of the contact [1]; 0 for a vertex that the kind does not have.
 template <class T>
 struct ContactWeightsOf {
   T slot[4] = {};  ///< w; their sum is 0 up to rounding
 
-  /// Returns w of slot k. It selects, because an index would move the array from registers to memory.
+  /// Returns w of vertex k. It selects, because an index would move the array from registers to memory.
   OGC_HD T of(int k) const {
     const T low = k == 0 ? slot[0] : slot[1], high = k == 2 ? slot[2] : slot[3];
     return k < 2 ? low : high;
@@ -185,7 +185,7 @@ struct ContactWeightsOf {
 };
 using ContactWeights = ContactWeightsOf<float>;
 
-/// Return the weights by slot for two segments, and for a point and a triangle.
+/// Return the weights by vertex for two segments, and for a point and a triangle.
 template <class T>
 OGC_HD ContactWeightsOf<T> weights_of(const SegmentParametersOf<T>& at) {
   return {{1.0f - at.first, at.first, at.second - 1.0f, -at.second}};
@@ -199,7 +199,8 @@ OGC_HD ContactWeightsOf<T> weights_of(const TriangleWeightsOf<T>& at) {
 /// are omitted.
 enum class PairKind { any, vertex_facet, edge_edge };
 
-/// Returns the weights of the closest points of a contact; `x` are the positions of its vertices by slot.
+/// Returns the weights of the closest points of a contact; `x` are the positions of its four vertices, in the order
+/// given at the head of this file.
 template <PairKind pairs = PairKind::any>
 OGC_HD ContactWeights contact_weights(ContactKind kind, const Vec* x) {
   if (kind == ContactKind::point_point) return {{1, 0, -1, 0}};
@@ -213,7 +214,7 @@ OGC_HD ContactWeights contact_weights(ContactKind kind, const Vec* x) {
   return weights_of(closest_on_triangle(x));
 }
 
-/// Returns Σ w_i x_i, computed from differences to slot 0.
+/// Returns Σ w_i x_i, computed from differences to x[0].
 template <class T>
 OGC_HD Vector<T> weighted_sum(const ContactWeightsOf<T>& weights, const Vector<T>* x) {
   return weights.slot[1] * (x[1] - x[0]) + weights.slot[2] * (x[2] - x[0]) + weights.slot[3] * (x[3] - x[0]);

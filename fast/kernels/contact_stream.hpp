@@ -1,6 +1,6 @@
-// Converts the records of a detection into the stream that the sweep reads. Each incidence gets slots, stiffness with
-// the mollifier of this detection, friction, and the buffer from which each neighbour is read. This happens once for
-// each detection, so that the sweep needs no tables.
+// Converts the records of a detection into the stream that the sweep reads. Each incidence gets vertices, stiffness
+// with the mollifier of this detection, friction, and the buffer from which each neighbour is read. This happens once
+// for each detection, so that the sweep needs no tables.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ OGC_HD inline ContactIncidence meeting(const ContactTables& tables, int first, i
   return contact;
 }
 
-/// Sets the kind of a contact, and its vertices a, b, c, d by slot.
+/// Sets the kind of a contact, and its vertices a, b, c, d in the order of contact_force.hpp.
 OGC_HD inline void set_slots(ContactIncidence& contact, ContactKind kind, int a, int b, int c, int d) {
   contact.kind = kind;
   contact.index[0] = a;
@@ -59,8 +59,8 @@ OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const Ver
   return contact;
 }
 
-/// Returns the factor e_k of the stiffness of two edge interiors. If both edges have triangles it is the mollifier; if
-/// one has, 1. If neither has, it is overlap_share for nearly parallel edges that overlap, otherwise 1.
+/// Returns the factor e_k of the stiffness of two edge interiors. It is the mollifier if both edges have triangles, and
+/// 1 if only one has. If neither has, it is overlap_share for nearly parallel edges that overlap, otherwise 1.
 OGC_HD inline float energy_share(const ContactTables& tables, const EdgeEdgeRecord& record) {
   const Vec* x = tables.previous;
   const Ends p{x[record.first[0]], x[record.first[1]]}, q{x[record.second[0]], x[record.second[1]]};
@@ -94,20 +94,20 @@ OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const Edg
   return contact;
 }
 
-/// Returns the slots that a kind has, as bits: bit k for slot k.
+/// Returns which of the four vertices of a ContactIncidence a contact of this kind has: bit k is set for vertex k.
 OGC_HD inline int slots_of(ContactKind kind) {
   return kind == ContactKind::point_point ? 0b0101 : kind == ContactKind::point_segment ? 0b1101 : 0b1111;
 }
 
-/// Returns the slot of a vertex, given its role in the record (contact_view.hpp). The corners of a triangle have the
-/// slots 1, 2, 3. The vertices of a smaller facet begin at slot 2.
+/// Returns the index of a vertex in ContactIncidence, given its role in the record (contact_view.hpp). The corners of a
+/// triangle have the indices 1, 2, 3. The vertices of a smaller facet begin at index 2.
 OGC_HD inline std::uint8_t slot_of_role(bool edge_edge, ContactKind kind, int role) {
   const bool shifted = !edge_edge && role > 0 && kind != ContactKind::point_triangle;
   return static_cast<std::uint8_t>(shifted ? role + 1 : role);
 }
 
-/// Writes each vertex's row of the stream. Runs once for each slot. `Item` is a type of incidence; a row may be in any
-/// order.
+/// Writes each free vertex's row of the contact stream: its begin and its numbers of contacts. Runs once for each slot.
+/// `Item` is a type of incidence; the incidences of a row may be in any order.
 template <class Item>
 struct CopyContactRows {
   const int* incidence_offsets;  ///< by vertex, vertices + 1
@@ -125,13 +125,13 @@ struct CopyContactRows {
   }
 };
 
-/// Writes the contact of an incidence to its place in the stream, which is the index. step_detection.hpp passes the
-/// incidence, too; otherwise it is read from view.incidences.
+/// Converts one incidence: writes the contact, as its vertex sees it, to the stream. The argument `place` is the index
+/// of both the incidence and the contact. A caller may pass the incidence; otherwise it is read from view.incidences.
 struct ResolveContact {
   ContactView view;  ///< records of the detection
   ContactTables tables;
   const int* colour;         ///< by vertex; −1: not free
-  ContactIncidence* stream;  ///< by place of the incidence in view.incidences, written
+  ContactIncidence* stream;  ///< by index of the incidence in view.incidences, written
 
   OGC_HD void operator()(int place) const { (*this)(place, view.incidences[place]); }
   OGC_HD void operator()(int place, Incidence incidence) const {

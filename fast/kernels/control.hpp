@@ -78,7 +78,7 @@ struct StepControl {
   /// with volumes: 1 if a row of contacts was full; the lists of a detection have a flag of their own (ListStatus)
   int short_rows = 0;
   /// With volumes, at the end of the step: number of contacts, vertices inside, bits of the largest depth at the last
-  /// detection [m], sheets without a way out.
+  /// detection [m], sheets without a path to the boundary.
   int volume_contacts = 0, vertices_inside = 0, deepest = 0, depth_unresolved = 0;
   /// With rods, at the end of the step: bits of the largest ‖D‖/l [1]; smallest distance of contacts that exert a force
   /// [m].
@@ -98,8 +98,8 @@ struct StepControl {
 };
 
 /// Returns whether a detection is due because of cuts, and resets the counts. It is due if at least `least_cut`
-/// vertices were cut, or one while a vertex is deep inside a volume. It is also due if prescribed vertices lag and one
-/// of them has moved since the last detection. If none of them has moved, it is due only once in a step.
+/// vertices were cut, or if any vertex was cut while one is deep inside a volume. It is also due if prescribed vertices
+/// lag and one of them has moved since the last detection. If none of them has moved, it is due only once in a step.
 OGC_HD inline bool take_request(StepControl& c, int least_cut) {
   const bool lag_asks = c.lagging > 0 && (c.advanced > 0 || c.lag_asked == 0),
              asks = c.cut >= least_cut || (c.cut > 0 && c.deep_inside > 0);
@@ -184,8 +184,7 @@ struct EndRound {
 };
 
 /// Ends an iteration. A detection follows if enough vertices were cut (Alg. 3 line 29) or `detection_every` iterations
-/// have passed. `number` is the number of this iteration: nothing happens if another iteration is next. With −1 this is
-/// not checked.
+/// have passed. Nothing happens if `number`, the number of this iteration, is not the turn; −1 omits this check.
 struct EndIteration {
   StepControl* control;  ///< on the backend
   ControlSettings settings;

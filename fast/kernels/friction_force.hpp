@@ -1,6 +1,6 @@
-// Adds the friction of one contact on one vertex: IPC's lagged potential with f₁, in the stabilised form of Vertex
-// Block Descent (method.md §4.4). The derivatives treat λ, n and the weights, taken at the positions that the update
-// reads, as constants.
+// Adds the friction of one contact on one vertex: IPC's lagged potential with f₁, stabilised as in Vertex Block Descent
+// (method.md §4.4). The derivatives treat λ, n and the weights, taken at the positions that the update reads, as
+// constants.
 #pragma once
 
 #include "fast/kernels/arithmetic/accumulator.hpp"

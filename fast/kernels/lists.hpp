@@ -186,8 +186,8 @@ struct ListsView {
     return static_cast<std::uint64_t>(static_cast<std::uint32_t>(above)) << 32 | static_cast<std::uint32_t>(below);
   }
 
-  /// Returns the slot at which the search for a key begins. The hash distributes the slots of neighbouring faces and
-  /// buckets, which have consecutive keys.
+  /// Returns the slot at which the search for a key begins. Neighbouring faces and buckets have consecutive keys; the
+  /// hash spreads these over the table.
   OGC_HD std::uint32_t home(std::uint64_t key) const {
     constexpr std::uint64_t spread = 0x9e3779b97f4a7c15U;  // 2⁶⁴ times the golden ratio
     key *= spread;

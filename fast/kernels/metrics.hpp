@@ -24,7 +24,8 @@ struct StepRow {
   /// at the end [J]; without StepSettings::energies, `elastic` is only the energy of tetrahedra, and `contact` is 0
   double kinetic = 0, gravity = 0, elastic = 0, contact = 0;
   int inverted = 0;  ///< tetrahedra with J ≤ 0
-  /// at the last detection: contacts with volumes, vertices inside, sheets without a way out, largest depth [m]
+  /// at the last detection: contacts with volumes, vertices inside, sheets without a path to the boundary, largest
+  /// depth [m]
   int volume_contacts = 0, vertices_inside = 0, depth_unresolved = 0;
   float deepest = 0;
   /// with rods: smallest distance of contacts that exert a force [m], largest and mean ‖D‖/l − 1 of segments

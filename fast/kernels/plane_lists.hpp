@@ -58,7 +58,7 @@ struct PlaneListsView {
     const NotedPair raw = noted[i];
     return {raw.first, raw.second < 0 ? ~raw.second : raw.second};
   }
-  /// Holds the vertices of a pair. The second side consists of those from index `second_from` on.
+  /// Holds the vertices of a pair. Those from index `second_from` on are its second side.
   struct Vertices {
     int at[4], second_from;
   };
@@ -119,7 +119,7 @@ struct MeasurePairs {
   OGC_HD void operator()(int i) const {
     const NotedPair pair = lists.pair(i);
     const PlaneListsView::Vertices of = lists.vertices(pair);
-    RowPlaces places;  // places before the distance, whose computation hides the latency of the atomics
+    RowPlaces places;  // first, so that computing the distance hides the latency of the atomics
     for (int k = 0; k < 4; ++k)
       places.at[k] = lists.is_fixed[of.at[k]] != 0 ? nowhere : atomic_add(&lists.pair_counts[of.at[k]], 1);
     lists.places[i] = places;

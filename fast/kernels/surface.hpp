@@ -1,4 +1,4 @@
-// Holds the mesh in the form that kernels read: numbers and adjacency in plain arrays, without positions.
+// Holds the mesh as kernels read it: numbers and adjacency in plain arrays, without positions.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace ogc::fast {
 
-/// A triangle with its edges. Bit k of `descending` is set if edge k starts at its higher-numbered vertex. It lets all
-/// triangles at an edge evaluate the edge's predicate with the same operands in the same order.
+/// A triangle with its edges. Bit k of `descending` is set if edge k starts at its higher-numbered vertex. With this,
+/// all triangles at an edge evaluate the edge's predicate with the same operands in the same order.
 struct alignas(16) Facet {
   int corner[3];  ///< vertices in the order of the mesh
   int edge[3];    ///< 01, 12 and 20, as numbers of SurfaceView::edges

@@ -84,13 +84,13 @@ struct alignas(16) SweepVertex {
   Row rows[2];        ///< rows of the kinds with `row_in_vertex` ≥ 0
 };
 
-/// A contact as one of its vertices sees it. contact_force.hpp defines the slots; `own` is the slot of this vertex.
+/// A contact as one of its vertices sees it. contact_force.hpp defines the order of its four vertices.
 struct alignas(16) ContactIncidence {
-  int index[4] = {0, 0, 0, 0};                  ///< vertices by slot, encoded
+  int index[4] = {0, 0, 0, 0};                  ///< the vertices, encoded
   float stiffness = 0, friction = 0;            ///< k_c [N/m], times e_k at the detection if the pair has one; μ [1]
-  ContactKind kind = ContactKind::point_point;  ///< decides which slots the contact has
-  std::uint8_t own = 0;                         ///< 0 … 3
-  std::uint8_t together = 0;                    ///< bit k: the vertex of slot k is another vertex, of the same colour
+  ContactKind kind = ContactKind::point_point;  ///< decides which of the four vertices the contact has
+  std::uint8_t own = 0;                         ///< number of the vertex that sees the contact, 0 … 3
+  std::uint8_t together = 0;                    ///< bit k: vertex k is not `own`, but has the same colour
 };
 
 /// The contacts of a vertex in the stream: first the vertex–facet contacts, then the edge–edge contacts.
@@ -144,8 +144,8 @@ struct SweepShared {
 
   /// Returns whether another iteration is next, so that this one must do nothing.
   OGC_HD bool is_off() const { return turn != nullptr && *turn != iteration; }
-  /// Returns the same for a slot whose vertex is being loaded. The vertex number, which is ≥ 0, is tested in the same
-  /// expression without a branch, so that a device issues both loads at once.
+  /// Returns the same as is_off() while a vertex is being loaded. The vertex number, which is ≥ 0, is tested in the
+  /// same expression without a branch, so that a device issues both loads at once.
   OGC_HD bool is_off(const SweepVertex& vertex) const {
     return turn != nullptr && ((*turn != iteration) | (vertex.vertex < 0));
   }

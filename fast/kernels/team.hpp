@@ -92,7 +92,7 @@ struct SerialTeam : OneLane {
   static_assert(W >= 1 && W <= 32 && (W & (W - 1)) == 0, "W is a power of two, at most 32");
   static constexpr int width = W;  ///< W, the number of team lanes
 
-  /// Does nothing. Other teams may prefetch this number of bytes from this address on into a cache.
+  /// Does nothing. Teams on a device may load this number of bytes, beginning at this address, into a cache.
   OGC_HD static void prefetch(const void*, int) {}
 
   /// Does nothing. A team that has no vertex to update calls leave() instead of sum(), because each team of a launch
@@ -110,7 +110,8 @@ struct SerialTeam : OneLane {
     return lanes[0];
   }
 
-  /// Returns whether this thread has the total. Only threads that have it may call `first` and `smallest`, together.
+  /// Returns whether this thread has the total. `first` and `smallest` must be called by all threads of the team that
+  /// have it, and by no others.
   OGC_HD bool holds_total() const { return true; }
   /// Returns whether this thread writes the team's result; if so it also has the total.
   OGC_HD bool leader() const { return true; }

@@ -1,6 +1,6 @@
 // Computes how contacts shorten a vertex's move in the guess loop (method.md §5.2). A vertex in contact does not move
-// into its partner, and friction slows it. So a sweep begins with nearly the forces with which it ends, and long slips
-// do not stop at each detection.
+// into its partner, and friction slows it. So the sweeps change forces only a little, and long slips do not stop at
+// each detection.
 #pragma once
 
 #include "fast/kernels/sweep_view.hpp"

@@ -38,7 +38,7 @@ namespace ogc::fast {
 
 /// Holds a tree and the data that its refit needs.
 struct PartTree {
-  TreeView tree;            ///< refitted at these positions
+  TreeView tree;            ///< refitted at the positions of the volume's vertices
   int* arrivals = nullptr;  ///< counters of its nodes, as in RefitTrees
   int first_item = 0;       ///< index of its first item in a launch that refits all trees, each padded to whole warps
 };

@@ -68,7 +68,7 @@ struct ProbeElement {
   }
 };
 
-/// Holds a batch of cases of a kind. Case i is element i, with its own body and vertices.
+/// Holds a batch of cases of one kind of element. Case i is element i, with its own body and vertices.
 template <class Kind>
 struct ElementBatch {
   std::vector<typename Kind::Rest> rest;
@@ -82,7 +82,8 @@ struct ElementBatch {
   std::vector<Row> rows;
   std::vector<compare::Vec3f> positions, start;  ///< by vertex: x, xᵗ [m]
 
-  /// Adds a case, seen from its vertex of this role. The caller adds its body, and `beside` if the kind has these data.
+  /// Adds a case: the force of `element` on its vertex with this role. The caller also adds the entries of `materials`,
+  /// `by_body` and `beside` that the kind reads.
   void add(const typename Kind::Rest& element, int role, const SurfaceModels& of_body, bool usual = false) {
     const int i = static_cast<int>(rest.size()), v = Kind::vertices(element)[role];
     const std::vector<int> colour(static_cast<std::size_t>(v) + 32, 0);
@@ -178,7 +179,7 @@ compare::ForceOut probe_spring(Backend& backend, const compare::SpringIn& in) {
   return batch.ask<Springs, Springs>(backend);
 }
 
-/// Returns a tetrahedron at rest with the numbers of a case. Weights that corner 0 does not read stay 0.
+/// Returns a tetrahedron at rest with the values of a case. Weights that corner 0 does not read stay 0.
 inline TetrahedronRest tetrahedron_rest(const compare::TetrahedronCase& c, int number) {
   TetrahedronRest rest{
       {4 * number, 4 * number + 1, 4 * number + 2, 4 * number + 3}, number, {}, c.inverse, {}, c.volume};

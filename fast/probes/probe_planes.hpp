@@ -47,7 +47,8 @@ struct ProbeRegion {
 
   OGC_HD void operator()(int i) const {
     const FeasibleRegion region{balls.ball(i), planes + offsets[i], offsets[i + 1] - offsets[i]};
-    // H is positive definite; if rounding spoils its pivots, the shortest way out is taken.
+    // H is positive definite. If rounding makes a pivot too small, BlockMetric returns n, the shortest move into a
+    // half-space.
     const Truncated kept = is_prescribed[i] != 0 ? held_on_path(region, current[i], position[i])
                                                  : held(region, current[i], position[i], BlockMetric{block[i], 1.0F});
     result[i] = kept.position;

@@ -71,7 +71,7 @@ struct CountAtPoint {
   VolumeView volume;
   const VolumeAsker* askers;
   const int* first_facet;  ///< by part: any of its facets
-  int* nearest;            ///< by point and part, in the form in which AskVolumes stores it, written
+  int* nearest;            ///< by point and part, written: result of answer_of; for a solid part the facet, or −1
   int* count;              ///< by point, written
   int* unresolved;         ///< by point: sheets without a path to the boundary, written
 

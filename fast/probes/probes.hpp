@@ -64,7 +64,7 @@ compare::ClosestFaceOut probe_closest_face(Backend& backend, const compare::Clos
   return out;
 }
 
-/// Parameters in the form of compare::ClosestPointsOut.
+/// Holds parameters with the layout of compare::ClosestPointsOut.
 struct StoredParameters {
   float first, second;
 };

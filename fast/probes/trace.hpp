@@ -1,5 +1,5 @@
-// Records a step of the resident simulation for the judge, event by event. Only events that StepControl has counted are
-// recorded.
+// Records the events of a step of the resident simulation for the judge (compare::StepEventKind). Only events that
+// StepControl has counted are recorded.
 #pragma once
 
 #include <algorithm>

@@ -157,8 +157,8 @@ bool eject(const compare::CompressedRows& graph, std::vector<int>& colour, int v
   return true;
 }
 
-// Moves the vertices of the last class to other classes where this works by moving direct neighbours only. Returns
-// whether the last class is empty now; false if it is the only class.
+// Moves each vertex of the last class to another class if, besides it, at most its direct neighbours must change
+// colour. Returns whether the last class is empty now; false if it is the only class.
 bool dissolve_last_class(const compare::CompressedRows& graph, const std::vector<int>& vertices, int count,
                          std::vector<int>& colour) {
   const int last = count - 1;

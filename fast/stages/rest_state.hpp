@@ -30,8 +30,8 @@ RestState build_rest_state(const compare::Scene& scene, const compare::Topology&
 /// Returns the simulation's rest state in the judge's format.
 compare::RestStateOut rest_state_out(const compare::RestStateIn& in);
 
-/// Returns the rest state with the numbers of `out`. Mobility and materials are those of the scene, because `out` does
-/// not contain them.
+/// Returns the rest state with the rest values of `out`. Mobility and materials are those of the scene, because `out`
+/// does not contain them.
 RestState rest_state_of(const compare::RestStateIn& in, const compare::RestStateOut& out);
 
 }  // namespace ogc::fast

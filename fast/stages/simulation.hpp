@@ -123,7 +123,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
   /// enqueued launch by launch, not replayed from a recording.
   void observe(StepObserver* observer) { step_.observe(observer); }
   float query_radius() const { return query_radius_; }  ///< r_q of the last step [m]
-  /// For the observer only, between launches. Any change to these objects changes the run.
+  /// Return objects for the observer, to be used between launches only. Any change to these objects changes the run.
   Backend& backend() { return backend_; }
   StepState<Backend>& state() { return state_; }
   Detection<Backend>& detection() { return detection_; }

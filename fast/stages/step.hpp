@@ -63,15 +63,15 @@ struct StepState {
   Buffer<double> sums;                     ///< in the order in which FinishStep reads them
 };
 
-/// Follows a step on the host, event by event (fast/probes/trace.hpp, fast/stages/way.hpp). Observed steps are not
-/// replayed from a recording.
+/// Follows the events of a step on the host (compare::StepEventKind: detections, rounds of the guess loop, iterations).
+/// fast/probes/trace.hpp and fast/stages/way.hpp implement it. Observed steps are not replayed from a recording.
 class StepObserver {
  public:
   virtual ~StepObserver() = default;
   /// Called when a step begins; again if the step is repeated.
   virtual void begin() = 0;
-  /// Called after the launches of an event of this kind, which may have done nothing. StepControl counts the events
-  /// that happened. `position`: x after these launches, on the backend.
+  /// Called after the launches of an event, even if the device skipped them. StepControl counts the events that were
+  /// not skipped. `position`: x after these launches, on the backend.
   virtual void after(compare::StepEventKind kind, const Vec* position) = 0;
   /// Called when contacts with volumes have been found at the positions of the guess loop's last detection.
   virtual void after_finding() = 0;

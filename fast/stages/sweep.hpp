@@ -165,7 +165,8 @@ class Sweep {
   /// previous launch writes, except StepControl::turn.
   void iterate(const SweepView& view, Start start = Start::after_previous) {
     const int prescribed = static_cast<int>(prescribed_host_.size());
-    // UpdatePrescribed writes only what a colour reads after its sum, so the first colour may overlap it.
+    // The first colour may begin before UpdatePrescribed ends: only its sums read the positions that UpdatePrescribed
+    // writes, and a sum first waits for the previous launch.
     backend_.for_each(prescribed, UpdatePrescribed{view, prescribed_.data()});
     rods_.enqueue(backend_, view, prescribed == 0);
     const bool is_before = prescribed > 0 || rods_.colours() > 0;

@@ -184,7 +184,7 @@ class Volumes {
     stream.corner_capacity = corner_capacity_;
     return stream;
   }
-  /// Returns the data of the contacts that the stream does not contain, at the same places.
+  /// Returns the contacts as the search found them, at the same indices as in the stream.
   const FoundVolumeContact* found() const { return found_.data(); }
   /// Return, by row, the tested vertex, and the number of sheets without a path to the boundary (null if there are no
   /// solids). Both are on the backend.

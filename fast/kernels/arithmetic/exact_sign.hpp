@@ -21,7 +21,7 @@ namespace ogc::fast {
 struct Rounded {
   double value = 0;
 
-  /// Convert the two inputs of polynomials: the difference of two coordinates, rounded once, and a constant.
+  /// Return the difference of two coordinates, rounded once, and a constant: the two inputs of polynomials.
   OGC_HD static Rounded difference(float a, float b) { return {sub(static_cast<double>(a), static_cast<double>(b))}; }
   OGC_HD static Rounded exact(double a) { return {a}; }
   friend OGC_HD Rounded operator+(Rounded a, Rounded b) { return {add(a.value, b.value)}; }
@@ -45,8 +45,8 @@ OGC_HD inline int sign_of(double a) { return (a > 0) - (a < 0); }
 struct Single {
   float value = 0, scale = 0;  ///< scale: Σ of the moduli of the terms of value
 
-  /// Returns a difference of floats. Its relative error is u = 2⁻²⁴, however small it is. Its modulus counts as at
-  /// least 2⁻³⁰, so no scale of degree 4 is below 2⁻¹²⁰. Then underflow of products, 2⁻¹⁵⁰ each, is far less than u ·
+  /// Returns a difference of floats. Its relative error is u = 2⁻²⁴, however small it is. Its scale is at least 2⁻³⁰,
+  /// so a polynomial of degree 4 has a scale of at least 2⁻¹²⁰. Underflow of products, 2⁻¹⁵⁰ each, is far less than u ·
   /// scale.
   OGC_HD static Single difference(float a, float b) {
     const float d = a - b;
@@ -58,8 +58,9 @@ struct Single {
   friend OGC_HD Single operator-(Single a, Single b) { return {a.value - b.value, a.scale + b.scale}; }
   friend OGC_HD Single operator*(Single a, Single b) { return {a.value * b.value, a.scale * b.scale}; }
 
-  /// Returns the sign. It is certain if |value| exceeds 2⁻¹⁸ of the scale, by the count of Filtered::sign with
-  /// roundings of 2⁻²⁴. After an overflow no sign is certain, because no value exceeds an infinite scale.
+  /// Returns the sign. It is certain if |value| exceeds 2⁻¹⁸ of the scale. This is the limit of Filtered::sign for
+  /// roundings of 2⁻²⁴ instead of 2⁻⁵³. After an overflow no sign is certain, because no value exceeds an infinite
+  /// scale.
   OGC_HD Sign sign() const { return {(value > 0) - (value < 0), fabsf(value) > scale * 0x1p-18F}; }
 };
 
@@ -78,9 +79,9 @@ struct Filtered {
   friend OGC_HD Filtered operator-(Filtered a, Filtered b) { return {sub(a.value, b.value), add(a.scale, b.scale)}; }
   friend OGC_HD Filtered operator*(Filtered a, Filtered b) { return {mul(a.value, b.value), mul(a.scale, b.scale)}; }
 
-  /// Returns the sign. A term of a polynomial of degree d ≤ 6 has at most d differences, d − 1 products and 8 sums (2
-  /// for degree 2, 5 for degree 4). These are under 32 roundings of 2⁻⁵³, and the scale has as many. 2⁻⁴⁷ exceeds both
-  /// errors together.
+  /// Returns the sign, which is certain if |value| exceeds 2⁻⁴⁷ of the scale. A term of a polynomial of degree d ≤ 6
+  /// has at most d differences, d − 1 products and 8 sums (2 for degree 2, 5 for degree 4). These are under 32
+  /// roundings of 2⁻⁵³. The scale has as many, so 2⁻⁴⁷ exceeds both errors together.
   OGC_HD Sign sign() const { return {sign_of(value), modulus(value) > mul(scale, 0x1p-47)}; }
 };
 
@@ -88,7 +89,8 @@ struct Filtered {
 struct Wide {
   double high = 0, low = 0, scale = 0;  ///< scale: Σ of the moduli of the terms of high + low
 
-  /// Convert the two inputs of polynomials, both exactly: two doubles hold the difference of any two floats.
+  /// Return the difference of two coordinates, and a constant. Both are exact, because two doubles hold the difference
+  /// of any two floats.
   OGC_HD static Wide difference(float a, float b) { return sum_of(static_cast<double>(a), -static_cast<double>(b)); }
   OGC_HD static Wide exact(double a) { return {a, 0, modulus(a)}; }
   friend OGC_HD Wide operator+(const Wide& a, const Wide& b) {
@@ -116,7 +118,7 @@ struct Wide {
   }
 };
 
-/// Returns p − q. In double it is exact if the coordinates are of similar size, in Wide always.
+/// Returns p − q. It is exact in Wide, and in double if the coordinates are of similar size.
 template <class N>
 OGC_HD Vector<N> difference(const Vec& p, const Vec& q) {
   return {N::difference(p.x, q.x), N::difference(p.y, q.y), N::difference(p.z, q.z)};

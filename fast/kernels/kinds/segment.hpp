@@ -9,7 +9,7 @@ namespace ogc::fast {
 /// Holds the data of rods that the sweep reads and writes: the stream of segments by vertex, and the segments'
 /// quaternions.
 struct RodStream : StreamView<RodIncidence, NoData, NoData, float, true> {  // by body: k_d/h [1]
-  const SegmentSlot* slots = nullptr;                                       ///< by slot of the segments
+  const SegmentSlot* slots = nullptr;  ///< free segments, in the order of their colours
   /// by segment: direction c of rod_rest_direction; null if no segment has damping of strains
   const Vec* direction = nullptr;
   const Quat* orientation_start = nullptr;  ///< by segment: qᵗ

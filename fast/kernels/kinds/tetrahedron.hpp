@@ -323,7 +323,8 @@ struct Tetrahedra {
              own.moved}};
   }
 
-  /// Returns whether add_packs can add the tetrahedra of a vertex: none, or undamped ones.
+  /// Returns whether add_packs can add the tetrahedra of a vertex: the scene has none, or they are undamped and their
+  /// form of damping is that of strains.
   template <class View>
   static bool is_packed(const View& view, const SweepVertex& vertex) {
     return view.tetrahedra.rows == nullptr ||

@@ -49,9 +49,9 @@ OGC_HD inline void add_neighbour(const NeighbourRest& neighbour, bool is_ahead, 
   b = b + pull_towards(damping * neighbour.weight, asked_orientation(is_ahead, now, relative), old);
 }
 
-/// Returns the larger root ν of (β₊/ν)² + (β₋/(ν + 2σ))² = 1 for β₊ = `upper` > 0 and β₋ = `lower`. Newton's method on
-/// 1/√(left side) converges from below. It usually needs one step, and up to twenty if β₋ is about 2σ and β₊ is nearly
-/// 0.
+/// Returns the larger root ν of (β₊/ν)² + (β₋/(ν + 2σ))² = 1. β₊ = `upper` > 0 and β₋ = `lower` are the norms of the
+/// parts of b in the eigenspaces of M/σ with eigenvalue 1 and −1. Newton's method on 1/√(left side) converges from
+/// below. It usually needs one step, and up to twenty if β₋ is about 2σ and β₊ is nearly 0.
 template <class T>
 OGC_HD T secular_root(const T& upper, const T& lower, const T& sigma) {
   constexpr int most_steps = 32;
@@ -69,7 +69,7 @@ OGC_HD T secular_root(const T& upper, const T& lower, const T& sigma) {
   return nu;
 }
 
-/// Computes M q/σ = −D q c with unit vectors D and c; this map is its own inverse.
+/// Computes M q/σ (compare/rods.md), which is −D q c with D and c as unit vectors; this map is its own inverse.
 template <class T>
 struct ReflectedFrameOf {
   QuatOf<T> apart, direction;  ///< D/‖D‖, c/‖c‖
@@ -84,8 +84,8 @@ struct ReflectedFrameOf {
 };
 using ReflectedFrame = ReflectedFrameOf<float>;
 
-/// Largest ‖P₊b‖/‖b‖ that counts as rounding error; P₊b is the part of b in the eigenspace of eigenvalue 1. Two
-/// products of quaternions and half a sum err by 17 · 2⁻²⁴ (compare/stages/orientation.hpp); this is about twice as
+/// Largest ‖P₊b‖/‖b‖ that counts as rounding error; P₊b is the part of b in the eigenspace of M/σ with eigenvalue 1.
+/// Two products of quaternions and half a sum err by 17 · 2⁻²⁴ (compare/stages/orientation.hpp); this is about twice as
 /// much.
 inline constexpr float lost_part = 0x1p-19f;
 
@@ -101,8 +101,8 @@ OGC_HD inline Quat nearest_upper(const ReflectedFrame& frame, const Quat& old) {
   return unit(part);
 }
 
-/// Returns the minimiser of rod_orientation in the usual case, and sets `is_usual`: σ > 0, b is not 0, and its part P₊b
-/// is not only rounding.
+/// Returns the minimiser of rod_orientation in the usual case, and sets `is_usual`: σ > 0, b is not 0, and P₊b (see
+/// lost_part) is not only rounding.
 template <class T>
 OGC_HD QuatOf<T> usual_orientation(const T& stretch, const Vector<T>& apart, const Vector<T>& direction,
                                    const QuatOf<T>& b, Mask<T>& is_usual) {

@@ -1,5 +1,5 @@
-// Computes the smallest distance among the contacts that exert a force, for the reports of scenes with rods. d_min says
-// little there: it is usually the length of one segment, which separates each segment from its second neighbour.
+// Computes the smallest distance among the contacts that exert a force, for the reports of scenes with rods. d_min is
+// less useful there: usually it is the length of one segment, the distance of each segment from its second neighbour.
 #pragma once
 
 #include "fast/kernels/contact_stream.hpp"

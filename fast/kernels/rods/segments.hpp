@@ -1,5 +1,5 @@
-// Holds the segments of rods in the form that kernels read: rest data, and streams in the order of the sweep. All are
-// empty in a scene without rods.
+// Holds the segments of rods as kernels read them: rest data, and streams in the order of the sweep. All are empty in a
+// scene without rods.
 #pragma once
 
 #include "fast/kernels/models/orientation.hpp"

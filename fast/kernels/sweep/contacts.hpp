@@ -7,7 +7,7 @@
 
 namespace ogc::fast {
 
-/// Returns the weights of the closest points of a contact; `x` are the positions of its vertices by slot.
+/// Returns the weights of the closest points of a contact; `x` are the positions of its vertices (contact_force.hpp).
 template <PairKind pairs>
 OGC_HD ContactWeights closest_weights(const OneItem<ContactIncidence>& one, const Vec* x) {
   return contact_weights<pairs>(one.item.kind, x);
@@ -17,7 +17,7 @@ OGC_HD inline float own_weight(const OneItem<ContactIncidence>& one, const Conta
   return weights.of(one.item.own);
 }
 /// Returns |w| Σ |w_u|, with the sum over all vertices u of the contact that have the colour of the updated vertex,
-/// itself included. If there is no other one, this is w².
+/// itself included. If no other vertex has this colour, the result is w².
 OGC_HD inline float majorant_of(const OneItem<ContactIncidence>& one, const ContactWeights& weights) {
   const float own = fabsf(own_weight(one, weights));
   float together = own;
@@ -28,9 +28,9 @@ OGC_HD inline float majorant_of(const OneItem<ContactIncidence>& one, const Cont
 /// Holds one contact, or several side by side, at the positions that a vertex update reads.
 template <class N>
 struct ContactAtOf {
-  Vector<N> x[4], start[4];     ///< by slot: x, and with friction xᵗ [m]
+  Vector<N> x[4], start[4];     ///< by vertex of the contact: x, and with friction xᵗ [m]
   N friction{};                 ///< μ
-  ContactWeightsOf<N> weights;  ///< w by slot
+  ContactWeightsOf<N> weights;  ///< w by vertex of the contact
   ContactShapeOf<N> shape;
   N weight{};    ///< w of the vertex that is updated
   N majorant{};  ///< replaces w² in the block

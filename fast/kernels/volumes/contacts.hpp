@@ -77,7 +77,7 @@ struct ListVolumeContacts {
   const Vec* position;         ///< x at the detection, by vertex [m]
   const StepControl* control;  ///< if it is not active the old rows stay
   const int* answers;          ///< by item, from AskVolumes
-  ContactTables tables;        ///< k and μ of the bodies that meet
+  ContactTables tables;        ///< k and μ by pair of bodies
   int capacity;                ///< contacts that fit in a row
   int* counts;                 ///< by row, at most `capacity`, written
   VolumeIncidence* stream;     ///< row by row, written

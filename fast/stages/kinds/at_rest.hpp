@@ -3,7 +3,7 @@
 //
 //   elements, rest_beside        its elements, and the data that some models read beside them (RestBeside)
 //   add(build)                   adds the elements of a scene, and their masses
-//   add(in, out)                 adds the elements whose numbers a contestant answered to the judge
+//   add(in, out)                 adds the elements with the rest values of a contestant's answer to the judge
 //   give                         writes the elements in the judge's format
 //   reads_beside, beside         whether a model of the scene reads data beside an incidence; these data (Beside)
 //   damps                        whether an element is damped

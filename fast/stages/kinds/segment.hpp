@@ -18,14 +18,15 @@ struct RodsAtRest {
   bool empty() const { return segments.empty(); }
 };
 
-/// Returns the rods of a scene at rest. Also adds half of ρ l of each segment of a moving body to the mass of both its
+/// Returns the rods of a scene at rest. Also adds half the mass of each segment, except on fixed bodies, to each of its
 /// ends [kg].
 RodsAtRest rods_at_rest(const compare::Scene& scene, std::vector<double>& mass);
 
 /// Returns the segments in the judge's format.
 std::vector<compare::RestSegment> rest_segments(const RodsAtRest& rods);
 
-/// Returns the scene's rods with the numbers of `segments`, which a contestant answered to the judge.
+/// Returns the scene's rods. Their lengths, orientations and neighbours are taken from `segments`, the rest state that
+/// a contestant has computed for the judge.
 RodsAtRest rods_of(const compare::Scene& scene, const std::vector<compare::RestSegment>& segments);
 
 template <>
