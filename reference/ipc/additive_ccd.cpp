@@ -57,8 +57,8 @@ class Motion {
     const Triple<double> apart = separation(form.weight, slab.x);
     slab.width = -1;
     widen(slab, apart);
-    // The direction of the connection has an error of 2⁻⁵³ S over the gap, which tilts the slab. Normals of lines and
-    // planes are more precise.
+    // The direction between the closest points has an error of 2⁻⁵³ S over the gap, so the slab is tilted and may be
+    // too narrow. Normals of lines and planes are more precise.
     if (slab.width < 0.9 * length(apart)) widen(slab, normal_of(form, slab.x, apart));
     return slab;
   }
@@ -90,8 +90,8 @@ class Motion {
     if (width > slab.width) slab.width = width, slab.normal = unit;
   }
 
-  /// Returns the normal of a slab: the normal of the form's plane, of its two lines, or the vector between its closest
-  /// points. It points to the side of `apart`.
+  /// Returns the direction of a slab's normal, on the side of `apart`. It is the normal of the plane or of the two
+  /// lines that hold the closest points, or the part of `apart` perpendicular to the line, or `apart` for two points.
   static Triple<double> normal_of(const ClosestForm& form, const Corners& x, const Triple<double>& apart) {
     const auto at = [&](std::size_t place) { return x[form.at[place]]; };
     if (form.kind == FormKind::points) return apart;

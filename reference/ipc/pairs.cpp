@@ -17,8 +17,8 @@ using compare::Topology;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Returns a term with only the form's vertices. Their order depends only on their numbers, so that equal terms are
-/// found by comparison.
+/// Returns a term with only the vertices of the closest features. The vertices are sorted by number, so that terms of
+/// the same features compare equal.
 BarrierTerm lone_term(const ClosestForm& form, const std::array<Index, 4>& vertex) {
   BarrierTerm term;
   term.count = form.kind == FormKind::points ? 2 : form.kind == FormKind::point_line ? 3 : 4;

@@ -43,8 +43,8 @@ class StepSolver {
 /// `guess_rounds`.
 enum class GuessEnd {
   rounds,  ///< no such condition: contacts stop vertices that approach, all others move on (method.md §5.2)
-  /// the first contact; if there are contacts at xᵗ, no round runs. A further round would move only vertices without
-  /// contact, and the mesh would distort
+  /// the loop ends at the first contact; if there are contacts at xᵗ, no round runs. A further round would move only
+  /// vertices without contact, and the mesh would distort
   contact
 };
 
