@@ -96,7 +96,7 @@ struct Doubted {
 struct Asked {
   std::vector<Meeting> ways;
   std::array<Doubted, 4> expected{};
-  std::array<double, 4> size{};  ///< of the terms of `expected` [m]
+  std::array<double, 4> size{};  ///< sum of the norms of the terms of `expected` [m]
   double friction = 0;
 };
 
