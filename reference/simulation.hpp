@@ -1,4 +1,4 @@
-// Simulations with the reference's solvers, which keep their state from step to step.
+// Starts simulations with the reference's solvers, which keep their state from step to step.
 #pragma once
 
 #include <memory>

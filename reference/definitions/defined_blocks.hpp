@@ -7,10 +7,9 @@
 
 namespace ogc::reference {
 
-/// Tests Eq. 7 exactly, independently of `in_block`: the foot of the perpendicular from x must lie in the interior of
-/// the face, and x minus the foot in the cone of normals, given by its generators. Points of the interior itself belong
-/// to the block even if the face has no normals. Eq. 8 and 9 include these points, Eq. 7 read literally does not
-/// (`has_normals`).
+/// Tests Eq. 7 exactly, independently of `in_block`. The foot of the perpendicular from x must lie in the interior of
+/// the face, and x minus the foot must lie in the cone of normals. Points of the interior itself belong to the block
+/// even if the face has no normals (`has_normals`). Eq. 8 and 9 include these points; Eq. 7 read literally does not.
 class DefinedBlocks {
  public:
   /// Finds the normals of all faces. Holds a view of the mesh, whose owner must outlive this.

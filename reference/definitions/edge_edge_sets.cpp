@@ -1,4 +1,4 @@
-// Computes E_OGC twice: by its definition over quotients, and by Algorithm 2 over all pairs.
+// Computes E_OGC twice: by its definition with exact quotients, and by Algorithm 2 over all pairs.
 #include <algorithm>
 #include <map>
 

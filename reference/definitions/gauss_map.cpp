@@ -1,4 +1,4 @@
-// Decides on the exact generators of the cone, then converts them to unit vectors.
+// Makes all decisions on the exact generators of the cone of normals, then converts the generators to unit vectors.
 #include "reference/definitions/gauss_map.hpp"
 
 #include <algorithm>
@@ -21,7 +21,8 @@ Unit normalised(const Unit& a) {
   return {a[0] / length, a[1] / length, a[2] / length};
 }
 
-/// Divides by the largest component, so that neither its square nor the conversion overflows or underflows.
+/// Returns the unit vector of a. Divides by the largest component first, so that neither squares nor the conversion to
+/// double overflow or underflow.
 Unit unit(const ExactVector& a) {
   const auto size = [](const Exact& x) { return sign_of(x) < 0 ? -x : x; };
   const Exact largest = std::max({size(a.x), size(a.y), size(a.z)});
@@ -77,8 +78,8 @@ double triangle_area(const Unit& a, const Unit& b, const Unit& c) {
   return 2 * std::atan2(inner(a, outer(b, c)), 1 + inner(a, b) + inner(b, c) + inner(c, a));
 }
 
-/// Returns the spokes of a vertex in order around it, from one end of the fan to the other; empty if its triangles are
-/// not one fan. A closed fan repeats its first spoke at the end.
+/// Returns the neighbours of a vertex in order around it, from one end of the fan of its triangles to the other. Empty
+/// if the triangles are not one fan. A closed fan repeats its first neighbour at the end.
 std::vector<Index> spokes_in_order(const Complex& mesh, Index vertex) {
   const auto triangles = mesh.topology.vertex_triangles[static_cast<std::size_t>(vertex)];
   const auto rim = [&](Index t) {

@@ -1,5 +1,5 @@
-// Finds the pair that has each smallest distance (Eq. 22, 24 and 26), without rounding. Its squared distance is an
-// exact fraction, so any bound can be compared with it.
+// Finds for each smallest distance (Eq. 22, 24 and 26) the pair that has it, without rounding. The pair's squared
+// distance is an exact fraction, so any bound can be compared with it.
 #pragma once
 
 #include <span>
@@ -18,7 +18,8 @@ struct Nearest {
   Margin gap;                   ///< the distance to it, as a gap
 };
 
-/// d_min,v has a triangle as partner (Eq. 22), d_min,e an edge (Eq. 24), d_min,t a vertex (Eq. 26).
+/// Holds the nearest partners: a triangle for each vertex (Eq. 22), an edge for each edge (Eq. 24), a vertex for each
+/// triangle (Eq. 26).
 struct NearestPrimitives {
   std::vector<Nearest> vertex, edge, triangle;  ///< by number of the primitive
 };

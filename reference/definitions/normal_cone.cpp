@@ -100,8 +100,8 @@ bool NormalCone::contains(const ExactVector& n) const {
       if (on_two(g[i], g[j], n)) return true;
     }
   }
-  // A pointed cone is the union of the triangles between its first generator and two others, so i = 0 suffices. A cone
-  // that contains lines has few generators.
+  // A pointed cone is the union of the cones over its first generator and two others, so i = 0 suffices. A cone that
+  // contains lines has few generators.
   const std::size_t roots = lineality_ == 0 ? std::min<std::size_t>(1, g.size()) : g.size();
   for (std::size_t i = 0; i < roots; ++i) {
     for (std::size_t j = i + 1; j < g.size(); ++j) {

@@ -1,5 +1,4 @@
-// Finds the contacts of a scene's volumes with all vertices that are tested against them (§3.9), in the form of the
-// contract.
+// Finds the contacts of a scene's volumes with all vertices that are tested against them (§3.9), as a VolumeDepthOut.
 #pragma once
 
 #include <span>

@@ -13,7 +13,8 @@
 
 namespace ogc::reference {
 
-/// Holds the data of a volume's tetrahedra that depend on no point. Holds views; their owners must outlive this.
+/// Holds the data of a volume's tetrahedra that do not depend on the tested point. Holds views; their owners must
+/// outlive this.
 class Solid {
  public:
   /// `mesh` has the volume's triangles. Boundary triangles of tetrahedra are found among them by their vertices.

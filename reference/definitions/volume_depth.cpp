@@ -1,8 +1,8 @@
 // Finds the faces that could be nearest. Uses the distances of all triangles of a part, each known to 16 · 2⁻²⁴ of the
 // triangle's coordinates, and the faces that closest_face accepts. The exactly nearest face is found without rounding.
 //
-// For a face that is nearest only by rounding, the side of x follows from another face. If the exactly nearest face
-// shares a vertex with the face and is not a rim, it decides. Otherwise the nearest triangle around the face decides,
+// For a face that is nearest only by rounding, another face decides on which side x is. This is the exactly nearest
+// face if it shares a vertex with the face and is not a rim. Otherwise it is the nearest triangle around the face,
 // because the edge of a valley alone would put every point inside. At a rim x is always outside.
 #include "reference/definitions/volume_depth.hpp"
 
@@ -42,8 +42,8 @@ class TrianglePart : public VolumeFaces {
     std::vector<Face> outside;  // faces with x on their outer side, each a possible contact
     for (const Face face : possible) {
       const bool holds = in_box && (face == nearest ? faces_in : is_inside(face, nearest, faces_in, candidates));
-      // A rim has no inner side. So if the nearest face is a rim, x may be inside by a nearby face that has an inner
-      // side.
+      // A rim has no inner side. So if the nearest face is a rim, a face that is nearest only by rounding and has an
+      // inner side may put x inside.
       const bool is_open = in_box && (on_surface || (face != nearest && is_rim(nearest) && !is_rim(face)));
       truth.may_be_inside = truth.may_be_inside || holds || is_open;
       truth.may_be_outside = truth.may_be_outside || !holds || is_open;

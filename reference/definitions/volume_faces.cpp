@@ -204,7 +204,7 @@ double VolumeFaces::normal_scale(Index t) const {
   const auto [a, b, c] = mesh_.triangle(t);
   const double first = length(mesh_.at(a), mesh_.at(b)), second = length(mesh_.at(a), mesh_.at(c)),
                third = length(mesh_.at(b), mesh_.at(c)), half = (first + second + third) / 2;
-  // Heron's formula, from differences
+  // Heron's formula
   const double area = std::sqrt(std::max(0.0, half * (half - first) * (half - second) * (half - third)));
   const double longest = std::max({first, second, third});
   return std::max(1.0, longest * longest / area);

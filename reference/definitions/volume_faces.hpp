@@ -1,5 +1,5 @@
-// Relates one point to the triangles of a volume: its distance from each, which distances are grey, and the contact at
-// each face. For volume_depth.cpp and solid_depth.cpp.
+// Computes for one point and each triangle of a volume: the distance, whether it is grey, and the contact at each face.
+// volume_depth.cpp and solid_depth.cpp use this.
 #pragma once
 
 #include <vector>
@@ -10,10 +10,10 @@
 
 namespace ogc::reference {
 
-/// The triangles of a volume, as one point x sees them. Holds views; their owners must outlive this.
+/// Relates the triangles of a volume to one point x. Holds views; their owners must outlive this.
 class VolumeFaces {
  public:
-  /// `own` is the number of x if x is a vertex of the volume, because x does not touch its own faces; otherwise −1.
+  /// `own`: the number of x if x is a vertex of the volume, which has no contact with its own faces; otherwise −1.
   VolumeFaces(const Complex& mesh, const Vec3f& x, float radius, Index own);
   VolumeFaces(const VolumeFaces&) = default;
   virtual ~VolumeFaces() = default;
@@ -34,10 +34,10 @@ class VolumeFaces {
   Face exactly_nearest(const std::vector<Index>& triangles) const;
   Face face_of(Index t, int feature) const;
   /// Returns the faces that may be nearest, the exactly nearest first. A face is possible if every triangle around it
-  /// accepts it. If one triangle refuses it, the closest point is certainly off the face, and this triangle is nearer.
-  /// But if the difference is too small for distances in double, the face is possible nevertheless. An error of 16 ·
-  /// 2⁻²⁴ of the closest point changes the distance by at most (16 · 2⁻²⁴)². The limit is four times this, because
-  /// distances are known only to half of the limit.
+  /// accepts the face. If a triangle refuses the face, that triangle is nearer. But if t is farther than `least` by at
+  /// most 4 · 16 · 2⁻²⁴ doubt(t), the faces that t accepts are possible nevertheless. An error of 16 · 2⁻²⁴ of the
+  /// closest point changes the distance by at most the square of this error. The limit is four times the square,
+  /// because distances in double are known only to half of the limit.
   std::vector<Face> possible_faces(const std::vector<Index>& candidates, Face nearest, double least) const;
   std::vector<Index> around(Face face) const;
   bool is_rim(Face face) const;
@@ -45,10 +45,11 @@ class VolumeFaces {
   /// Returns whether x is on the face's inner side. `nearest_inside` is the answer for the exactly nearest face
   /// `nearest`.
   bool is_inside(Face face, Face nearest, bool nearest_inside, const std::vector<Index>& candidates) const;
-  /// Returns whether both sides of a face are accepted.
+  /// Returns whether x is accepted as inside and as outside at this face, because volumes of tetrahedra at the face may
+  /// not be positive.
   virtual bool is_vague(Face) const { return false; }
-  /// Adds contacts outside: faces whose outward block holds x nearer than r, certainly or possibly. `faces_in`: whether
-  /// x is on the inner side of the nearest face.
+  /// Adds contacts for the case that x is outside: with each face whose outward block holds x nearer than r, certainly
+  /// or possibly. `faces_in`: whether x is on the inner side of the nearest face.
   void touch(const std::vector<Index>& triangles, Face nearest, bool faces_in, compare::VolumePartTruth& truth);
   /// Adds a contact at a face, unless it is already listed or x is certainly farther than r.
   void add_touching(Face face, compare::VolumePartTruth& truth) const;

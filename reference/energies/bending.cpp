@@ -34,10 +34,10 @@ std::vector<T> with_turn(const Inputs& inputs, const T& angle) {
   return {angle, angle + T(Input(value.value > 0 ? -2 * std::numbers::pi : 2 * std::numbers::pi))};
 }
 
-/// Scales of the errors that do not vanish with the first derivatives of force and block. The gradient ∇θ has an error
-/// of n u · condition, where n is bending_gradient and u is 2⁻²⁴. The block's error is the square of this error, times
-/// the curvature. The force's error is the product of this error and the error of the moment ∂E/∂θ; all roundings of
-/// the force except those of ∇θ count as the moment's.
+/// Holds the scales of second-order errors. They remain where the first derivatives of force and block are 0. The
+/// gradient ∇θ has an error of n u · condition, with n = bending_gradient and u = 2⁻²⁴. The second-order error of the
+/// block is the square of ∇θ's error, times the curvature. The one of the force is the product of ∇θ's error and the
+/// error of the moment ∂E/∂θ. All roundings of the force except those of ∇θ count as the moment's.
 struct SecondOrder {
   double force, block;
 };
@@ -74,7 +74,7 @@ struct Question {
     }
   }
   bool by_vertex() const { return !damps_strain(asked.damping_form); }
-  /// Returns the energy of the hinge with the angle θᵗ = `start`.
+  /// Returns `term` with the angle θᵗ = `start` at the start of the step.
   HingeTermOf<Input> from(const Input& start) const {
     HingeTermOf<Input> result = term;
     result.start = start;

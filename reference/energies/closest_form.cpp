@@ -14,7 +14,7 @@ ClosestForm points(std::uint8_t a, std::uint8_t b) {
   return form;
 }
 
-/// Returns the form of vertex p and the segment ab. p is the contact's first side.
+/// Returns the closest points of vertex p and the segment ab. p is the contact's first side.
 ClosestForm point_segment(const Corners& x, std::uint8_t p, std::uint8_t a, std::uint8_t b) {
   const Triple<double> edge = x[b] - x[a];
   const double along = dot(x[p] - x[a], edge), whole = dot(edge, edge);
@@ -36,8 +36,8 @@ const ClosestForm& nearer(const ClosestForm& a, const ClosestForm& b, const Corn
   return squared_distance(b, x) < squared_distance(a, x) ? b : a;
 }
 
-/// Returns the form of point and plane if the point's foot on the plane lies inside the triangle, otherwise the form of
-/// the point and the nearest edge.
+/// Returns the closest points of a point and the triangle's plane if the point's foot on the plane lies inside the
+/// triangle, otherwise those of the point and the nearest edge.
 ClosestForm point_triangle(const Corners& x) {
   const Triple<double> u = x[2] - x[1], v = x[3] - x[1], w = x[0] - x[1], normal = cross(u, v);
   const double area = dot(normal, normal), second = dot(cross(w, v), normal), third = dot(cross(u, w), normal);
@@ -56,8 +56,8 @@ ClosestForm negated(ClosestForm form) {
 double clamped(double s) { return std::clamp(s, 0.0, 1.0); }
 
 /// Applies the rule for nearly parallel edges (method.md §1.4) if ‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖² and the projections overlap.
-/// Sets `form` to the middle of the overlap on the first edge and its projection on the second edge. Returns whether
-/// the rule applies.
+/// Sets `form` to the middle of the overlap on the first edge and the middle's projection on the second edge. Returns
+/// whether the rule applies.
 bool parallel_rule(const Corners& x, ClosestForm& form) {
   const Triple<double> u = x[1] - x[0], v = x[3] - x[2], normal = cross(u, v);
   const double uu = dot(u, u), vv = dot(v, v);

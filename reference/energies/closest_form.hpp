@@ -25,15 +25,16 @@ enum class FormKind : std::uint8_t {
 /// negative weights.
 struct ClosestForm {
   FormKind kind = FormKind::points;  ///< features that hold the contact points
-  std::array<std::uint8_t, 4> at{};  ///< the contact's vertex at each place of the form
+  std::array<std::uint8_t, 4> at{};  ///< for each place of FormKind, the vertex's place in the contact
   /// by vertex of the contact; they add up to 1 on the first side, to −1 on the second
   std::array<double, 4> weight{};
 };
 
-/// Returns the form of a contact. A collapsed edge or triangle is replaced by the lower-dimensional face that holds the
-/// closest point.
+/// Returns the closest points of a contact's two sides. A collapsed edge or triangle is replaced by the
+/// lower-dimensional face that holds the closest point.
 ClosestForm closest_form(compare::ContactSides sides, const std::array<Triple<double>, 4>& x);
-/// Returns the form of two edges without the rule for nearly parallel edges; never `fixed_weights`.
+/// Returns the closest points of two edges without the rule for nearly parallel edges; the kind is never
+/// `fixed_weights`.
 ClosestForm closest_edges(const std::array<Triple<double>, 4>& x);
 
 /// Returns Σ w_i x_i, the vector from the second contact point to the first.
@@ -51,7 +52,7 @@ T height(const T& scaled, const Triple<T>& normal) {
   return sign_of(plain(scaled)) * scaled / sqrt(dot(normal, normal));
 }
 
-/// Returns the distance of a form's points, lines or planes [m].
+/// Returns the distance of the points, lines or planes that `form` selects [m].
 template <class T, std::size_t N>
 T form_distance(const ClosestForm& form, const std::array<Triple<T>, N>& x) {
   using std::sqrt;

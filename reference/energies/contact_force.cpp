@@ -23,7 +23,7 @@ struct Slopes {
 };
 
 Slopes slopes(const Meeting& meeting) {
-  // These activations have exactly 0 curvature at r, but the logarithm of r/r in double is not quite 0.
+  // Activations that end flat have exactly 0 curvature at r, but in double the logarithm of r/r is not quite 0.
   if (meeting.is_beyond() && form_of(meeting.activation).ends_flat) return {};
   const ByDistanceTwice variable(ByDistance(meeting.acting_distance(meeting.distance), 0), 0);
   const ByDistanceTwice energy = meeting.energy(variable);

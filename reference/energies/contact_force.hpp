@@ -6,8 +6,8 @@
 
 namespace ogc::reference {
 
-/// Returns the exact answer first. An answer for each other outcome of a grey decision follows: the features of the
-/// closest points, the stage of the activation, and d < r.
+/// Returns the exact answer first. Answers for all other outcomes of grey decisions follow. The decisions are the
+/// features of the closest points, the stage of the activation, and d < r.
 std::vector<compare::ForceAnswer> contact_force(const compare::ContactForceCase& question);
 
 /// Computes all cases, in parallel over them.

@@ -28,7 +28,7 @@ struct Derivative {
   Derivative() = default;
   Derivative(const T& constant) : value(constant) {}
   Derivative(double constant) requires(!std::is_same_v<T, double>) : value(constant) {}
-  /// Makes the variable that is the input with the number `direction`.
+  /// Makes the input with the number `direction`, as a variable with the value `at`.
   Derivative(const T& at, std::size_t direction) : value(at), count(direction + 1) { slope[direction] = T(1.0); }
 
   friend Derivative operator+(Derivative a, const Derivative& b) {

@@ -72,7 +72,8 @@ compare::ForceAnswer answer(const Inputs& inputs, const ByVertex& energy, const 
 compare::ForceAnswer damped_by_vertex(const Inputs& inputs, const VertexSystemOf<Input>& elastic, const Input& damping,
                                       const Triple<Input>& moved);
 
-/// Multiplies the units of error. Needed for a model whose tolerances differ from those of its stage.
+/// Multiplies the units of error of force and block by `force` and `block`, for a model whose tolerances differ from
+/// those of its stage.
 compare::ForceAnswer with_units(compare::ForceAnswer answer, double force, double block);
 /// Returns the sum of two answers that are rounded separately; their units of error add up.
 compare::ForceAnswer sum(compare::ForceAnswer a, const compare::ForceAnswer& b);

@@ -193,8 +193,8 @@ std::vector<Input> energy_shares(const ContactForceCase& q, Inputs& inputs) {
   return rule.exact ? std::vector{share, one} : std::vector{one, share};
 }
 
-/// Returns the vertices relative to the origin of Meeting: end 0 of the first edge, or the second side's first vertex
-/// if the first side is a point.
+/// Returns the vertices relative to an origin: end 0 of the first edge, or the second side's first vertex if the first
+/// side is a point.
 Vertices relative(ContactSides sides, const std::array<Vec3f, 4>& at, Inputs& inputs) {
   Vertices vertices;
   const std::size_t base = sides == ContactSides::edge_edge ? 0 : 1;
@@ -203,7 +203,8 @@ Vertices relative(ContactSides sides, const std::array<Vec3f, 4>& at, Inputs& in
   return vertices;
 }
 
-/// Returns a meeting whose weights and e_k are not yet set.
+/// Returns a Meeting with vertices, radius, stiffness k_c and activation of the case. Its weights, which place the
+/// contact points, and the factor e_k of its stiffness are not yet set.
 Meeting begun(const ContactForceCase& q) {
   Meeting meeting;
   meeting.vertex = relative(q.sides, q.vertex, meeting.inputs);
@@ -221,9 +222,9 @@ void measure(Meeting& meeting) {
   meeting.distance_doubt = factor * meeting.inputs.condition({&meeting.distance, 1});
 }
 
-/// Returns whether the triangle is a needle, or one edge is much shorter than the other. With the longest side as unit
-/// of length, let a point have distance d from a triangle of height h. Then its foot has an error of u d/h (u = 2⁻²⁴),
-/// which is u d/h² of the height: 3/64 for h = 2⁻⁹ and d = 3.
+/// Returns whether the triangle is a needle, or one edge is much shorter than the other. The longest side is the unit
+/// of length. The foot of a point at distance d from a triangle of height h has an error of u d/h (u = 2⁻²⁴). In units
+/// of the height this is u d/h²: 3/64 for h = 2⁻⁹ and d = 3.
 bool has_needle(const ContactForceCase& q, const Vertices& x) {
   constexpr double least_squared = 0x1p-18;
   const auto squared = [&](std::size_t a, std::size_t b) { return dot(x[a] - x[b], x[a] - x[b]).value; };

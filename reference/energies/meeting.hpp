@@ -1,6 +1,6 @@
-// Describes how the two sides of a contact meet, in Input numbers, for contact_force and friction_force. The features
-// with the closest points are decided exactly. The points' places on these features come from a formula, so that the
-// condition of an answer includes the sensitivity of the weights.
+// Computes the contact points of one contact and what follows from them, in Input numbers, for contact_force and
+// friction_force. The features with the closest points are decided exactly. The positions of the contact points on
+// these features come from a formula, so that the condition of an answer includes the sensitivity of the weights.
 //
 // Weights are constants of the outer differentiation (method.md §4.2): at the closest points the distance is stationary
 // in them, so the force is the same.
@@ -79,7 +79,8 @@ struct Meeting {
   static void set_plain(ByVertex& x, double value) { x.value.value = value; }
 };
 
-/// Returns the exact meeting first. A meeting for each other outcome of a grey decision follows.
+/// Returns the Meeting with the exact contact points first. One Meeting for each other outcome of a grey decision
+/// follows.
 std::vector<Meeting> meetings(const compare::ContactForceCase& question);
 
 /// Returns whether a decision of the contact is near, within near_factor. The decisions are the features of the closest
@@ -93,8 +94,8 @@ enum class Ends {
 };
 
 /// Returns a stage's accepted answers for all meetings of a contact. `acting` returns the answer of a meeting with a
-/// force. `largest` is used for needles, and if the contact points may coincide. It returns, as scales, upper limits of
-/// force and block at this distance [m] or beyond.
+/// force. `largest` takes a distance [m] and returns, as scales, upper limits of force and block at this distance or
+/// beyond. It is used for needles, and if the contact points may coincide.
 std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings, Ends end,
                                           const std::function<compare::ForceAnswer(double)>& largest,
                                           const std::function<compare::ForceAnswer(const Meeting&)>& acting);

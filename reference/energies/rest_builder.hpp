@@ -1,6 +1,6 @@
 // Collects the rest state. Each kind of element adds its own part. Each quantity is written once, as polynomials over a
-// number type. With exact numbers it gives the value: needles, flat hinges and folds lose no bit before the last root,
-// quotient or angle. With Input numbers it gives the unit of the value's error.
+// number type. Exact numbers give the quantity's value: needles, flat hinges and folds lose no bit before the last
+// root, quotient or angle. Input numbers give the unit of the value's error.
 #pragma once
 
 #include <CGAL/Mpzf.h>

@@ -25,7 +25,7 @@ struct Elastic {
         lambda(inputs.number(q.lame_lambda)),
         mu(inputs.number(q.lame_mu)) {}
 
-  /// Returns J = i det(x₁ − x₀, x₂ − x₀, x₃ − x₀).
+  /// Returns J = det(x₁ − x₀, x₂ − x₀, x₃ − x₀)/(6V), where V is the rest volume; `inverse` is 1/(6V).
   template <class T>
   T ratio(const std::array<Triple<T>, 4>& x) const {
     return inverse * dot(x[1] - x[0], cross(x[2] - x[0], x[3] - x[0]));

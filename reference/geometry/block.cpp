@@ -1,4 +1,4 @@
-// A question about a given point is one conjunction of conditions. A question about the closest point of an edge first
+// Decides by one conjunction of conditions whether a given point is in a block. For the closest point of an edge, first
 // decides which face of the edge holds that point. If several faces are possible, the answers for all of them are
 // accepted.
 #include "reference/geometry/block.hpp"

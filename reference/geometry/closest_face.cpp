@@ -18,8 +18,12 @@ namespace {
 
 constexpr int feature_count = 7;
 
-/// The nine margins that separate the regions, each examined at most once. Margin k belongs to edge k: position of the
-/// point along the edge from its first end. Margin 3 + k: along it from its second end. Margin 6 + k: across it.
+/// Holds the nine margins that separate the regions, and computes each at most once. The sign of a margin tells where
+/// the point lies relative to edge k:
+///
+///  margin k      > 0: ahead of the edge's first end, in the direction of the edge
+///  margin 3 + k  > 0: ahead of the edge's second end, in the opposite direction
+///  margin 6 + k  > 0: on the inner side of the edge's side plane
 class Regions {
  public:
   Regions(const Corners& triangle, const Vec3f& point) : corners_(triangle), point_(point) {}
@@ -158,8 +162,8 @@ double spread(const Vector& slope, const Vector& delta) {
   return std::abs(slope.x * delta.x) + std::abs(slope.y * delta.y) + std::abs(slope.z * delta.z);
 }
 
-/// Returns Σ|∂w/∂δ||δ| for the weight w of b on the edge e = b − a, w‖e‖² = (p − a)·e: ∂w/∂p = e/‖e‖², ∂w/∂b = (p − a −
-/// 2 w e)/‖e‖², ∂w/∂a = −∂w/∂p − ∂w/∂b.
+/// Returns Σ|∂w/∂δ||δ| for the weight w of b on the edge e = b − a, w‖e‖² = (p − a)·e. The coordinates δ are relative
+/// to `origin`. ∂w/∂p = e/‖e‖², ∂w/∂b = (p − a − 2 w e)/‖e‖², ∂w/∂a = −∂w/∂p − ∂w/∂b.
 double edge_spread(const Vec3f& a, const Vec3f& b, const Vec3f& p, const Vec3f& origin) {
   const Vector e = between(a, b), x = between(a, p);
   const double squared = dot(e, e), w = dot(x, e) / squared;

@@ -20,7 +20,8 @@ bool has_area(const Corners& triangle);
 /// closest, otherwise the lowest-numbered edge.
 TriangleFeature closest_feature(const Corners& triangle, const Vec3f& point);
 
-/// Returns whether a feature is the closest one: exactly, possibly and certainly, where grey conditions may flip.
+/// Returns whether a feature is the closest one: in exact numbers, possibly (if grey conditions may flip), and
+/// certainly (even if they flip).
 Membership is_closest(const Corners& triangle, TriangleFeature feature, const Vec3f& point);
 
 /// Returns a mask: bit k is set if feature k is the closest one or could be. If the closest feature is certain, only
@@ -30,8 +31,8 @@ std::uint8_t possible_features(const Corners& triangle, const Vec3f& point);
 /// Returns whether the point lies near the boundary of a feature's region (compare::near_factor).
 bool near_feature(const Corners& triangle, TriangleFeature feature, const Vec3f& point);
 
-/// Returns d² − r² (a gap) of the point and the corner, line or plane of a feature. For the closest feature, d is the
-/// distance to the triangle.
+/// Returns d² − r² (a gap) of the point and the corner, line or plane of a feature, with r = 0 (see with_radius). For
+/// the closest feature, d is the distance to the triangle.
 Margin feature_gap(const Corners& triangle, TriangleFeature feature, const Vec3f& point);
 
 /// Returns the truth of all cases; computes them in parallel.

@@ -35,9 +35,9 @@ inline EdgeFeatures edge_features(int number) {
 /// length zero counts as its end_0.
 EdgeFeatures closest_features(const EdgePair& pair);
 
-/// Returns whether the features are the closest ones: exactly, possibly and certainly, where grey conditions may flip.
-/// If they are certain, no other pair is possible, except the features at the other end of the overlap of exactly
-/// parallel edges.
+/// Returns whether the features are the closest ones: in exact numbers, possibly (if grey conditions may flip), and
+/// certainly (even if they flip). If they are certain, no other pair of features is possible. The only exception is the
+/// other end of the overlap of exactly parallel edges.
 Membership are_closest(const EdgePair& pair, EdgeFeatures features);
 
 /// Returns whether ‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖² and the projection of the second edge on the line of the first overlaps the
@@ -50,8 +50,8 @@ bool nearly_parallel(const EdgePair& pair);
 /// edges or, if the rule does not hold, a margin of the region of the closest features.
 bool is_near_decision(const EdgePair& pair, EdgeFeatures closest, bool is_parallel);
 
-/// Returns d² − r² (a gap), where d is the distance of the features' points, point and line, or lines. For the closest
-/// features, d is the distance of the edges.
+/// Returns d² − r² (a gap) with r = 0 (see with_radius), where d is the distance of the features' points, point and
+/// line, or lines. For the closest features, d is the distance of the edges.
 Margin feature_gap(const EdgePair& pair, EdgeFeatures features);
 
 /// Returns the truth of all cases; computes them in parallel.

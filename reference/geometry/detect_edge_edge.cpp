@@ -204,8 +204,8 @@ std::vector<Box> edge_boxes(const compare::DetectIn& in) {
   return boxes;
 }
 
-/// Returns whether a pair is certainly too far apart to be a contact, exactly or by rounding, and to lower a smallest
-/// distance.
+/// Returns whether a pair is certainly too far apart to be a contact, even with rounding, and too far apart to lower a
+/// smallest distance.
 bool changes_nothing(const compare::DetectIn& in, Index e, Index other, Smallest& of_edge) {
   const compare::Edge &a = in.topology->edges[static_cast<std::size_t>(e)],
                       &b = in.topology->edges[static_cast<std::size_t>(other)];

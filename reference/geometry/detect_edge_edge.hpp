@@ -6,7 +6,7 @@
 namespace ogc::reference {
 
 /// Detects contacts, in parallel over edges; the answer does not depend on the number of threads. Nearly parallel edges
-/// nearer than r count as interior–interior in two cases: closest points of both lie in each other's blocks, or neither
+/// nearer than r count as interior–interior in two cases: their closest points lie in each other's blocks, or neither
 /// edge has a triangle.
 compare::DetectEdgeEdgeTruth detect_edge_edge(const compare::DetectIn& in);
 

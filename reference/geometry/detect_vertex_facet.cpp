@@ -1,6 +1,6 @@
 // Runs Algorithm 1 in its order: distance, smallest distances, closest face, block. A separate pass examines the grey
-// zone for every face of every triangle within r. A doubtful face of a neighbour matters even if Algorithm 1 never
-// examines it.
+// zone for every face of every triangle within r. A doubtful face of a neighbouring triangle matters even if Algorithm
+// 1 never examines it.
 #include "reference/geometry/detect_vertex_facet.hpp"
 
 #include <tbb/blocked_range.h>
@@ -111,8 +111,8 @@ class VertexQuery {
     if (!has_area(corners)) note_ties(closest);
   }
 
-  /// Notes the closest faces of a collapsed triangle. It has several: Algorithm 1 takes one of them, and with another
-  /// order of the corners it would take another.
+  /// Notes all closest faces of a collapsed triangle, which may have several. Algorithm 1 takes one of them; the order
+  /// of the corners decides which.
   void note_ties(const std::vector<Face>& closest) {
     for (const Face face : closest) {
       if (!membership(face).possible) continue;
@@ -191,8 +191,8 @@ BoxTree triangle_tree(const compare::DetectIn& in) {
   return BoxTree(std::move(boxes));
 }
 
-/// Returns whether a pair is certainly too far apart to be a contact, exactly or by rounding, and to lower a smallest
-/// distance.
+/// Returns whether a pair is certainly too far apart to be a contact, even with rounding, and too far apart to lower a
+/// smallest distance.
 bool changes_nothing(const compare::DetectIn& in, Index v, Index t, Smallest& of_vertex, Smallest& of_triangle) {
   const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(t)];
   const auto at = [&](Index k) { return in.positions[static_cast<std::size_t>(k)]; };

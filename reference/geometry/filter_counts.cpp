@@ -1,5 +1,5 @@
 // Each thread writes only its own counters. The lock is taken only when a thread starts or ends and when the sum is
-// computed. The list is never destroyed, so that it outlives all threads.
+// computed. The list of counters is never destroyed, so that it outlives all threads.
 #include "reference/geometry/filter_counts.hpp"
 
 #include <atomic>

@@ -18,10 +18,11 @@ struct Generated {
   friend auto operator<=>(const Generated&, const Generated&) = default;
 };
 
-/// A doubtful pair of faces. Beyond one of its boundaries another pair takes its place (`joined`), or no pair does.
+/// Holds a doubtful pair of faces. Beyond one of the pair's boundaries, `other` is the contact instead (if `joined`),
+/// or there is no contact.
 struct Doubt {
-  FacePair faces, other;  ///< the doubtful pair, and the pair that takes its place
-  bool joined = false;    ///< whether `other` takes its place
+  FacePair faces, other;  ///< the doubtful pair, and the pair that replaces it
+  bool joined = false;    ///< whether `other` replaces `faces`
 };
 
 /// The canonical contacts of a detection, and its grey decisions.

@@ -12,7 +12,7 @@ namespace ogc::reference {
 template <class Key>
 class GreyGroups {
  public:
-  /// Adds a doubtful contact. `absence`: whether no other contact takes its place beyond some boundary.
+  /// Adds a doubtful contact. `absence`: whether there is a boundary with no contact on its other side.
   void add(const Key& key, bool absence) {
     Entry& entry = entries_.try_emplace(key, Entry{key}).first->second;
     entry.absence = entry.absence || absence;

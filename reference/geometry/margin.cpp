@@ -1,5 +1,6 @@
 // Tries double with an error bound first, then intervals, then exact numbers. About one in ten thousand random cases
-// needs exact numbers. Structured meshes with few digits need none, because intervals without rounding are points.
+// needs exact numbers. Regular meshes whose coordinates have few digits need none, because interval arithmetic rounds
+// nothing there.
 #include "reference/geometry/margin.hpp"
 
 #include <CGAL/Gmpq.h>
@@ -150,37 +151,40 @@ double spread(const Point<double>& slope, const Point<double>& x) {
 Point<double> operator*(double s, const Point<double>& a) { return {s * a.x, s * a.y, s * a.z}; }
 Point<double> operator+(const Point<double>& a, const Point<double>& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 
-/// For `side`, m = (e × p)·(e × c): ∂m/∂p = (e × c) × e, ∂m/∂c = (e × p) × e, ∂m/∂e = p × (e × c) + c × (e × p).
+/// Returns Σ|∂m/∂δᵢ||δᵢ| for `side`. m = (e × p)·(e × c): ∂m/∂p = (e × c) × e, ∂m/∂c = (e × p) × e, ∂m/∂e = p × (e × c)
+/// + c × (e × p).
 double side_sensitivity(const Points<double>& at) {
   const Point<double>&e = at[1], &c = at[2], &p = at[3], to_c = cross(e, c), to_p = cross(e, p);
   return spread(cross(to_c, e), p) + spread(cross(to_p, e), c) + spread(cross(p, to_c) + cross(c, to_p), e);
 }
 
-/// For `turn`, m = (q × v)·(x × v) with v = q₁ − q and the points x, q, q₁: ∂m/∂x = v × (q × v), at constant v ∂m/∂q =
-/// v × (x × v), and ∂m/∂v = (x × v) × q + (q × v) × x. The last one is added for q₁ and subtracted for q.
+/// Returns Σ|∂m/∂δᵢ||δᵢ| for `turn`. m = (q × v)·(x × v) with v = q₁ − q and the points x, q, q₁: ∂m/∂x = v × (q × v),
+/// at constant v ∂m/∂q = v × (x × v), and ∂m/∂v = (x × v) × q + (q × v) × x. The last one is added for q₁ and
+/// subtracted for q.
 double turn_sensitivity(const Points<double>& at) {
   const Point<double>&x = at[1], &q = at[2], v = at[3] - q, of_q = cross(q, v), of_x = cross(x, v),
         by_v = cross(of_x, q) + cross(of_q, x);
   return spread(cross(v, of_q), x) + spread(cross(v, of_x) - by_v, q) + spread(by_v, at[3]);
 }
 
-/// For `parallel`, m = 10⁶ c·c − (u·u)(v·v) with c = u × v: ∂m/∂u = 2·10⁶ v × c − 2 (v·v) u, ∂m/∂v = 2·10⁶ c × u − 2
-/// (u·u) v.
+/// Returns Σ|∂m/∂δᵢ||δᵢ| for `parallel`. m = 10⁶ c·c − (u·u)(v·v) with c = u × v: ∂m/∂u = 2·10⁶ v × c − 2 (v·v) u,
+/// ∂m/∂v = 2·10⁶ c × u − 2 (u·u) v.
 double parallel_sensitivity(const Points<double>& at) {
   const Point<double>&u = at[1], v = at[3] - at[2], c = cross(u, v);
   const Point<double> by_u = 2e6 * cross(v, c) - 2 * dot(v, v) * u, by_v = 2e6 * cross(c, u) - 2 * dot(u, u) * v;
   return spread(by_u, u) + spread(by_v, at[2]) + spread(by_v, at[3]);
 }
 
-/// For a point's gap from a line, m = c·c − r² e·e with c = e × p: ∂m/∂p = 2 c × e, ∂m/∂e = 2 (p × c − r² e).
+/// Returns Σ|∂m/∂δᵢ||δᵢ| for a point's gap from a line. m = c·c − r² e·e with c = e × p: ∂m/∂p = 2 c × e, ∂m/∂e = 2 (p
+/// × c − r² e).
 double line_sensitivity(const Points<double>& at, double radius) {
   const Point<double>&e = at[1], &p = at[2], c = cross(e, p);
   return 2 * (spread(cross(c, e), p) + spread(cross(p, c) - radius * radius * e, e));
 }
 
-/// For the gap between two lines or of a point from a plane, m = (w·n)² − r² n·n with n = u × v, s = 2 w·n and g =
-/// ∂m/∂n = s w − 2 r² n: ∂m/∂w = s n, ∂m/∂u = v × g, ∂m/∂v = g × u. The points are u, v, w for a plane, u, w, w + v for
-/// two lines.
+/// Returns Σ|∂m/∂δᵢ||δᵢ| for the gap between two lines, or of a point from a plane. m = (w·n)² − r² n·n with n = u × v,
+/// s = 2 w·n and g = ∂m/∂n = s w − 2 r² n: ∂m/∂w = s n, ∂m/∂u = v × g, ∂m/∂v = g × u. The points are u, v, w for a
+/// plane, u, w, w + v for two lines.
 double gap_sensitivity(const Points<double>& at, double radius, bool is_plane) {
   const Point<double>&u = at[1], w = is_plane ? at[3] : at[2], v = is_plane ? at[2] : at[3] - at[2], n = cross(u, v);
   const double s = 2 * dot(w, n);
@@ -208,9 +212,10 @@ double sensitivity_at(const Margin& margin, const std::array<std::array<double, 
 }
 
 /// Largest error of a value in double, relative to its modulus. At most 18 roundings lie between a coordinate and a
-/// margin. The gap from a plane has 18: a difference twice, a product and a difference for n; a difference, a product
-/// and two sums for the height; all this twice, the square, and the difference from r² n². The modulus may be too small
-/// by the same error. Nothing overflows or underflows: terms lie between 2⁻¹⁴⁹ˣ⁶ and 2¹²⁹ˣ⁶.
+/// margin; the gap from a plane has this number. Its normal n has 4 (two differences, a product and a difference). The
+/// height n·(p − a) adds 4 (a difference, a product and two sums). The square doubles these 8 and adds one, and the
+/// difference from r² n² is the 18th. The modulus may be too small by the same error. Nothing overflows or underflows:
+/// terms lie between 2⁻¹⁴⁹ˣ⁶ and 2¹²⁹ˣ⁶.
 constexpr double rounding = 0x1p-48;
 
 /// Returns the margin in double, with the sum of the moduli of its terms.
@@ -348,7 +353,7 @@ GapDistance measure(const Margin& gap) {
   if (known || !one_left) count_filter(Filtered::distance_below, !known);
   if (!known && !one_left) answer.below = settle_below(gap, round_down(answer.distance));
   if (!one_left) return answer;
-  // The distance rounded down is `below` or `next`. Mostly the distance is exactly `next`.
+  // The distance rounded down is `below` or `next`. In most of these cases the exact distance equals `next`.
   const Margin about_next = with_radius(gap, next);
   const std::optional<int> decided = interval_sign(about_next);
   count_filter(Filtered::distance_below, !decided);

@@ -38,7 +38,7 @@ struct FacetPair {
   TriangleFeature closest() const { return closest_feature(corners, point); }
   /// Returns the gap of vertex and triangle.
   Margin gap() const { return feature_gap(corners, closest(), point); }
-  /// Returns whether they are certainly farther apart than `distance` [m].
+  /// Returns whether vertex and triangle are certainly farther apart than `distance` [m].
   bool surely_beyond(double distance) const {
     return surely_beyond_triangle({point, corners[0], corners[1], corners[2]}, distance);
   }
@@ -60,7 +60,7 @@ struct EdgesPair {
   EdgeFeatures closest() const { return closest_features(ends); }
   /// Returns the gap of the edges.
   Margin gap() const { return feature_gap(ends, closest()); }
-  /// Returns whether they are certainly farther apart than `distance` [m].
+  /// Returns whether the edges are certainly farther apart than `distance` [m].
   bool surely_beyond(double distance) const {
     return surely_beyond_edge({ends.first[0], ends.first[1], ends.second[0], ends.second[1]}, distance);
   }

@@ -3,8 +3,8 @@
 // pair is not certainly far enough apart for its vertices' balls.
 //
 // Measures in double how far the vertices can move: the errors of distances (within 2⁻⁴⁰ of their scale) are far below
-// the units in which freedom is judged. A pair must have a plane only if a single-precision kernel, within its
-// tolerances, must find that, too.
+// the units in which freedom is judged. A pair must have a plane only if every single-precision kernel within its
+// tolerances finds that the pair must have one.
 #include "reference/geometry/plane.hpp"
 
 #include <CGAL/Gmpq.h>

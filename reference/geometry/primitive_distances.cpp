@@ -64,7 +64,8 @@ class Facets {
         if (other != t) meet(mesh_.opposite(other, e), t, in_.query_radius);
   }
 
-  /// Lowers both distances to that of the pair, unless the pair is surely beyond `known`.
+  /// Lowers the distances of vertex v and triangle t to the distance of the pair, unless the pair is surely beyond
+  /// `known`.
   void meet(Index v, Index t, float known) {
     const compare::Triangle& corners = mesh_.triangle(t);
     if (!in_.topology->on_surface(v) || !in_.topology->on_surface(corners)) return;
@@ -108,8 +109,8 @@ class Edges {
       for (const Index other : mesh_.edges_of(mesh_.opposite(t, e))) meet(e, other, of_edge_.so_far(at(e)));
   }
 
-  /// Lowers both distances to that of the pair, unless the pair is surely beyond `known`. Puts the lower-numbered edge
-  /// first like the detection, so that the last bit agrees.
+  /// Lowers the distances of both edges to the distance of the pair, unless the pair is surely beyond `known`. Puts the
+  /// lower-numbered edge first like the detection, so that the last bit agrees.
   void meet(Index e, Index other, float known) {
     const compare::Edge &a = mesh_.edge(std::min(e, other)), &b = mesh_.edge(std::max(e, other));
     if (!in_.topology->on_surface(a) || !in_.topology->on_surface(b)) return;

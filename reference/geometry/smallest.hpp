@@ -31,7 +31,7 @@ class Smallest {
   std::vector<float> values_;
 };
 
-/// Factor of the search radius beyond r_q. With it, detections find grey distances just outside r even if r_q = r. The
+/// Factor by which the search radius exceeds r_q. So detections find grey distances just outside r even if r_q = r. The
 /// grey zone is wider only for slender faces, whose distance has fewer than about ten correct bits.
 inline constexpr double search_margin = 1 + 1.0 / 64;
 

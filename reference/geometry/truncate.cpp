@@ -9,7 +9,7 @@
 //   s   storing, and steps that bring the stored position back inside: truncate_region_tolerance u (‖X_prev‖ + b)
 //   a   the standoff from a half-space: `truncate_standoff` u Σ|n_k x_k| along n, hence ‖w‖/(n·w) times that along w
 //   k   the solve w = H⁻¹n, with a backward error ε ‖H‖: ‖δw‖ ≤ ε κ/(1 − ε κ) ‖w‖, κ = ‖H‖ ‖H⁻¹‖. It moves the point
-//       where w meets the half-space by at most (1 + ‖n‖ ‖w‖/(n·w)) ‖δw‖/‖w‖ times the length of the way
+//       where w meets the half-space by at most (1 + ‖n‖ ‖w‖/(n·w)) ‖δw‖/‖w‖ times the length of the slide
 //
 // If the point is then scaled into the ball, a and k are multiplied by b over the point's distance.
 #include "reference/geometry/truncate.hpp"
@@ -65,7 +65,7 @@ struct Way {
   double relative_error = infinity;  ///< ‖δw‖/‖w‖
 };
 
-/// Solves by cofactors. κ is computed in Frobenius norms and is at most three times that of ‖·‖₂.
+/// Solves H w = n for w by cofactors. κ is computed in Frobenius norms and is at most three times that of ‖·‖₂.
 Way way_out(const std::array<float, 6>& block, const Vec3f& normal) {
   const auto [xx, xy, xz, yy, yz, zz] = std::array<Long, 6>{block[0], block[1], block[2], block[3], block[4], block[5]};
   const std::array<Long, 6> cofactor{yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy,
@@ -169,7 +169,8 @@ class RegionCheck {
   }
 
   /// Counts the half-spaces that the step does not approach and that the rounded end may violate. If there is one, a
-  /// step away from it mends this. If there are several, possibly no position near the end is inside all.
+  /// small step away from this half-space brings the end inside. If there are several, possibly no position near the
+  /// end is inside all of them.
   std::ptrdiff_t beside(const Point& end, const Point& step) const {
     return std::ranges::count_if(half_spaces_, [&](const HalfSpace& h) {
       const Point n = wide(h.normal);
@@ -177,8 +178,8 @@ class RegionCheck {
     });
   }
 
-  /// Returns the half-space if exactly one is violated, even with a kernel's rounding; otherwise null. Sets `is_ball`
-  /// if none is violated.
+  /// Returns the half-space that the proposal certainly violates if it can violate no other one, even with a kernel's
+  /// rounding; otherwise null. Sets `is_ball` to whether the proposal certainly violates no half-space.
   const HalfSpace* only_violated(bool& is_ball) const {
     const HalfSpace* only = nullptr;
     int count = 0;

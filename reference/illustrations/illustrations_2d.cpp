@@ -68,8 +68,8 @@ DrawingLayer arrows(const std::string& name, const Slice& slice, const std::vect
   return layer;
 }
 
-/// Returns the segments that sweep some triangles. If `without` is a vertex, leaves out segments that end at it: in the
-/// plane they contain the vertex (Eq. 3).
+/// Returns the segments that sweep the given triangles. If `without` is a vertex, leaves out segments that end at it:
+/// in the plane they contain the vertex (Eq. 3).
 std::vector<SliceFace> segments_of(const Slice& slice, const std::vector<Index>& triangles, Index without = -1) {
   const SliceFace own = without < 0 ? SliceFace{true, -2} : slice.face_of(vertex_face(without));
   std::vector<SliceFace> faces;
@@ -147,8 +147,8 @@ Slice hairpin() {
                 {-3, -0.8f}});
 }
 
-/// Returns the boundaries of a segment's block in the plane: one layer with the closed lines at distance r, one with
-/// the open walls.
+/// Returns the boundary of a segment's block in the plane as two layers. The first has the two lines at distance r,
+/// which belong to the block. The second has the two lines through the ends, which do not belong to the block.
 std::vector<DrawingLayer> segment_block(const Slice& slice, int segment, double r) {
   const Complex mesh = slice.mesh();
   Index t = 0;

@@ -90,8 +90,8 @@ class Motion {
     if (width > slab.width) slab.width = width, slab.normal = unit;
   }
 
-  /// Returns the normal of a slab: the normal of the form's plane, of its two lines, or the vector between its closest
-  /// points. It points to the side of `apart`.
+  /// Returns the direction of a slab's normal, on the side of `apart`. It is the normal of the plane or of the two
+  /// lines that hold the closest points, or the part of `apart` perpendicular to the line, or `apart` for two points.
   static Triple<double> normal_of(const ClosestForm& form, const Corners& x, const Triple<double>& apart) {
     const auto at = [&](std::size_t place) { return x[form.at[place]]; };
     if (form.kind == FormKind::points) return apart;

@@ -39,7 +39,8 @@ Second<1, Number> barrier_slopes(const Number& gap, double support) {
   return barrier(variable, support);
 }
 
-/// Returns the squared distance of a form's points, lines or planes [m²]; `fixed_weights` is not allowed.
+/// Returns the squared distance of the points, lines or planes that `form` selects [m²]. Its kind must not be
+/// `fixed_weights`.
 template <class T, std::size_t N>
 T squared_form_distance(const ClosestForm& form, const std::array<Triple<T>, N>& x) {
   const auto at = [&](std::size_t place) -> const Triple<T>& { return x[form.at[place]]; };

@@ -1,4 +1,4 @@
-// Differentiates several barriers of one form at once in the lanes of a register, like
+// Differentiates several barriers with the same kind of closest features at once in the lanes of a register, like
 // energies/stencils/stencil_kernels.hpp for other stencils.
 #pragma once
 
@@ -13,7 +13,7 @@ struct ShapedBarrierOf {
   BarrierTermOf<Number> barrier;
   BarrierShape shape;
 
-  /// Returns the energy at the vertices of the form [J].
+  /// Returns the energy at the positions x of the barrier's vertices [J].
   template <class T, std::size_t N>
   T energy(const std::array<Triple<T>, N>& x) const {
     return barrier.energy(shape, x);

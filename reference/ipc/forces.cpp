@@ -30,8 +30,9 @@ const BarrierKernels& barrier_kernels() {
   return barrier_kernels_baseline;
 }
 
-/// Returns a number that is equal for barriers that can be differentiated together. They must have the same form; if
-/// they are mollified, the form must also use the same of their four vertices.
+/// Returns a number that is equal for barriers that can be differentiated together. Their closest features must be of
+/// the same kind (FormKind). If the barriers are mollified, these features must also be at the same places among the
+/// four vertices.
 std::uint8_t group_of(const BarrierTerm& term) {
   const int form = static_cast<int>(term.form.kind);
   return static_cast<std::uint8_t>(term.rest_squared > 0 ? 16 * (1 + form) + 4 * term.form.at[0] + term.form.at[1]

@@ -33,7 +33,7 @@ double value_noise(const IpcEnergy& energy);
 struct IpcDerivatives {
   std::vector<StencilDerivatives> stencil;
   std::vector<StencilVertices> vertices;  ///< by stencil
-  State gradient;                         ///< by vertex [N], then by segment [N m]; 0 for what is not an unknown
+  State gradient;                         ///< by vertex [N], then by segment [N m]; 0 if not an unknown
   double energy_noise = 0;                ///< as in PotentialDerivatives [J]
 };
 

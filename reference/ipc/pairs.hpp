@@ -19,7 +19,7 @@ struct PrimitivePair {
   friend auto operator<=>(const PrimitivePair&, const PrimitivePair&) = default;
 };
 
-/// The constant data of pairs. Its owners must outlive the user.
+/// Holds views of the constant data of pairs. The owners of the data must outlive this.
 struct PairMesh {
   const compare::Topology& topology;
   const compare::Exclusions& exclusions;          ///< pairs that are left out (compare::exclusions)

@@ -318,8 +318,8 @@ bool IpcSolver::converged(const State& p) {
   return iterations_ > 1 && std::sqrt(mean) < ipc_.velocity_tolerance;
 }
 
-/// Returns whether there is no pull. A converged state with a pull minimises only the present Lagrangian. Then this
-/// doubles ρ, or updates λ once ρ has reached most_pull.
+/// Returns whether there is no pull. If there is a pull, the converged state minimises only the present Lagrangian. So
+/// this doubles ρ, or updates λ once ρ has reached most_pull.
 bool IpcSolver::pulled_home() {
   if (!forces_.pull()) return true;
   Pull pull = *forces_.pull();

@@ -172,8 +172,8 @@ void ContactStep::guess(GuessEnd end) {
   if (metrics_.guess_rounds > 0) metrics_.momentum_lost_guess = momentum_lost({x_, start_, target_}, potential_);
 }
 
-/// Two vertices at a distance d that moved by at most m each are still at least d − 2m apart, and so are all other
-/// faces. The smallest distances are known for surfaces only, so scenes with volumes get false.
+/// Returns whether x certainly has no contacts. Two faces at distance d whose vertices moved by at most m are still at
+/// least d − 2m apart. Returns false for scenes with volumes, because smallest distances are known for surfaces only.
 bool ContactStep::nothing_near() const {
   if (compare::has_volumes(scene_)) return false;
   double largest = 0;

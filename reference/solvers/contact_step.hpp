@@ -42,9 +42,9 @@ class StepSolver {
 /// Selects a condition that ends the guess loop early. Without it, the loop ends if few vertices are cut, or after
 /// `guess_rounds`.
 enum class GuessEnd {
-  rounds,  ///< no such condition: contacts stop vertices that approach, all others move on (method.md §5.2)
-  /// the first contact; if there are contacts at xᵗ, no round runs. A further round would move only vertices without
-  /// contact, and the mesh would distort
+  rounds,  ///< no early end: contacts stop vertices that approach, all others move on (method.md §5.2)
+  /// the loop ends at the first contact; if there are contacts at xᵗ, no round runs. A further round would move only
+  /// vertices without contact, and the mesh would distort
   contact
 };
 

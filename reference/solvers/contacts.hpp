@@ -37,7 +37,8 @@ ContactStencil stencil_of(const compare::Topology& topology, const compare::Vert
 /// Returns the stencil of a contact between two edges; its sides may be ends of the edges.
 ContactStencil stencil_of(const compare::Topology& topology, const compare::EdgeEdgeContact& contact);
 
-/// Returns the contact stiffness and friction of the contact's two bodies. `body` holds the body of each vertex.
+/// Returns ‖ē‖² of both edges of an edge–edge contact [m²], by which its energy is mollified. The entry of an edge
+/// without triangles is 0, and so are both entries of other contacts.
 std::array<float, 2> mollified_rest_squared(const compare::Topology& topology, const compare::RestStateOut& rest,
                                             const ContactStencil& stencil);
 

@@ -286,8 +286,8 @@ PotentialDerivatives Potential::derivatives(const State& x, HessianProjection pr
   return result;
 }
 
-/// Adds the stencil's effect of rounded positions on forces and energy to the noise of `result`. The effect is computed
-/// from the moduli of the stencil's derivatives.
+/// Adds to the noise of `result` how much rounded positions change the stencil's forces and energy. The change is
+/// computed from the moduli of the stencil's derivatives.
 void Potential::measure(std::size_t stencil, std::size_t corners, PotentialDerivatives& result) const {
   const StencilDerivatives& derivatives = result.stencil[stencil];
   const auto vertex = vertices(stencil);

@@ -18,7 +18,7 @@ namespace ogc::reference {
 /// Converts positions to double.
 State widened(const std::vector<compare::Vec3f>& positions);
 
-/// Whether a vertex never moves, follows its prescribed motion, or follows forces.
+/// Tells whether a vertex never moves, follows its prescribed motion, or follows forces.
 enum class Mobility : std::uint8_t { fixed, prescribed, free };
 /// Returns the mobility of each vertex.
 std::vector<Mobility> mobility_of(const compare::Scene& scene);
@@ -119,8 +119,7 @@ class Potential {
   template <class Use>
   auto in_its_list(std::size_t stencil, Use use) const;
   double stencil_energy(std::size_t stencil, const State& x) const;
-  /// Adds the stencil to the noise of `result`; `corners` is the number of its unknowns that are vertices. They come
-  /// first.
+  /// Adds the stencil's part of the noise of `result`. The stencil's first `corners` unknowns are vertices.
   void measure(std::size_t stencil, std::size_t corners, PotentialDerivatives& result) const;
   void add_frame_noise(const State& x, PotentialDerivatives& result) const;
   void sum_gradient(const State& x, PotentialDerivatives& result) const;

@@ -1,5 +1,5 @@
-// Stage step: Algorithm 3 (method.md §5.2). An answer's own positions and counts determine what is right for its other
-// parts; this file computes that.
+// Stage step: Algorithm 3 (method.md §5.2). Computes from the positions and counts of an answer what its other parts
+// must be.
 #pragma once
 
 #include <functional>

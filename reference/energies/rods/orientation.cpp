@@ -1,7 +1,7 @@
-// Computes the minimising orientation of a segment from the energy alone, by Newton's method on the unit sphere. It
-// uses neither the eigenvectors of M nor the equation of the Lagrange multiplier. A function of this kind has at most
-// one local minimiser that is not global (Martínez 1994), so a few starts in double find the global one. The last steps
-// use 113 bits, which resolve b even if M is 10²⁰ times as large.
+// Computes the unit quaternion q that minimises a segment's energy −½ qᵀ M q − b·q (compare/rods.md), by Newton's
+// method on the unit sphere. Uses neither the eigenvectors of M nor the equation of the Lagrange multiplier. A function
+// of this kind has at most one local minimiser that is not global (Martínez 1994), so a few starts in double find the
+// global one. The last steps use 113 bits, which resolve b even if M is 10²⁰ times as large.
 #include "reference/energies/rods/orientation.hpp"
 
 #include <algorithm>
@@ -47,8 +47,9 @@ Four<Many> least(const Problem<Many>& problem, const Four<Many>& old, const Many
     }
   std::optional<Four<Many>> best;
   Many lowest = 0;
-  // If nearly a whole circle of quaternions has the same energy, the ends lie all around it. The four lowest ends are
-  // enough to find the minimiser.
+  // `ends` holds the minimisers that were found in double. If all quaternions of a circle have nearly the same energy,
+  // these minimisers are spread over the circle. The four of lowest energy are enough starts to find the least
+  // minimiser in 113 bits.
   std::ranges::sort(ends, {}, [&](const Four<double>& q) { return rough.energy(q); });
   ends.resize(std::min<std::size_t>(ends.size(), 4));
   for (const Four<double>& end : ends) {

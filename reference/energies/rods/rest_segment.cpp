@@ -25,7 +25,8 @@ Frame normalised(const Frame& q) {
   return unit;
 }
 
-/// The smallest rotation from one direction to another. `factor` is how much it magnifies the directions' errors.
+/// The smallest rotation from one direction to another. `factor` is the ratio of the rotation's error to the error of
+/// the directions.
 struct Turn {
   Frame rotation;
   double factor;  ///< 1/cos(θ/2)

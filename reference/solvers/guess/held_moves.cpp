@@ -79,7 +79,7 @@ namespace {
 /// Roundings from the inputs to the move that one contact leaves. Their sum is 65:
 /// - the normal: 36, as in the stage contact_force
 /// - another vertex's move: 2; its product with the weight and the sum over three vertices: 3
-/// - opening and closing: 3 each (scalar products); their difference and the quotient: 2
+/// - opening or closing (independent scalar products): 3; their difference and the quotient: 2
 /// - the product with the normal and the sum: 2
 /// - the relative move: 2; its normal part: 4; the difference: 1; the length: 4
 /// - the limit of friction: 2; quotients: 2; product and difference: 2
@@ -96,7 +96,7 @@ struct Doubted {
 struct Asked {
   std::vector<Meeting> ways;
   std::array<Doubted, 4> expected{};
-  std::array<double, 4> size{};  ///< of the terms of `expected` [m]
+  std::array<double, 4> size{};  ///< sum of the norms of the terms of `expected` [m]
   double friction = 0;
 };
 

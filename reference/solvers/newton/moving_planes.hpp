@@ -36,7 +36,7 @@ class MovingPlanes {
   /// Moves the vertices that must stay at X_prev to X_prev. x must be X_prev up to rounding.
   void enter(State& x) const;
   /// Returns a step of the free vertices near `step` [m] that stays inside; x must be inside. First cuts the step to
-  /// the balls. Then moves the sides of pairs that would come too near apart, in sweeps. Finally scales the steps of
+  /// the balls. Then moves apart, in sweeps, the sides of pairs that would come too near. Finally scales the steps of
   /// vertices whose pairs are still too near.
   State truncated(const State& x, State step) const;
   /// Returns a share in [0, 1] for which x + share · step is certainly inside, the largest except for rounding.

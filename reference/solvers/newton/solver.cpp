@@ -269,9 +269,9 @@ void NewtonSolver::truncate(Direction& direction) const {
   }
 }
 
-/// Adds springs to the matrix that hold cut vertices at their positions; factorises the matrix and returns whether that
-/// succeeded. With these springs, a vertex with only inertia moves exactly to the limit of its ball, and so do sheets
-/// that move together.
+/// Adds springs, which hold cut vertices at their positions, to the matrix. Factorises the matrix and returns whether
+/// that succeeded. With these springs, a vertex with only inertia moves exactly to the limit of its ball, and so do
+/// sheets that move together.
 bool NewtonSolver::pin(const Direction& direction, std::vector<double>& pins) {
   const std::vector<std::size_t>& free = matrix_.free_vertices();
   const std::vector<double> inertias = potential_.inertias();

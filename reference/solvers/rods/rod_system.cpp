@@ -201,7 +201,7 @@ Frame least(const on_sphere::Problem<double>& problem, const Frame& old, double 
   return best;
 }
 
-/// Returns the solution as printed in Hsu et al. 2025: q ∝ (μ + M) b with μ = σ + ‖b‖.
+/// Returns the solution as printed in Hsu et al. 2025: q ∝ (μ + M) b with μ = σ + ‖b‖ (M, b, σ: compare/rods.md).
 Frame as_published(const on_sphere::Problem<double>& problem, double sigma, double pull) {
   return unit(on_sphere::sum(on_sphere::scaled(sigma + pull, problem.vector), problem.turned(problem.vector)));
 }

@@ -100,7 +100,7 @@ class RodSystem {
   void turn_by(const std::vector<Triple<double>>& x);
 
   double elastic_energy(const std::vector<Triple<double>>& x) const;  ///< without damping [J]
-  /// Returns the mean torque ‖(I − q qᵀ)(M q + b)‖ over the free segments (compare/rods.md) [N m].
+  /// Adds the elastic energy without damping to `sum` [J].
   void add_elastic(const std::vector<Triple<double>>& x, double& sum) const { sum += elastic_energy(x); }
   /// Returns the mean of ‖(I − q qᵀ)(M q + b)‖ over the free segments [N m].
   double mean_torque(const std::vector<Triple<double>>& x) const;

@@ -13,7 +13,7 @@ namespace ogc::reference {
 /// The contacts of one set.
 struct ListedContacts {
   std::vector<compare::VertexFacetContact> vertex_facet;  ///< sorted by vertex and triangle
-  std::vector<compare::EdgeEdgeContact> edge_edge;        ///< sorted by the edges that generate them
+  std::vector<compare::EdgeEdgeContact> edge_edge;        ///< sorted by the pairs of edges that generate them
 };
 
 /// Returns the contacts nearer than in.contact_radius; does not read in.query_radius. `body` holds the body of each
