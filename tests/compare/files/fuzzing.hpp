@@ -38,7 +38,7 @@ class Mutator {
  public:
   Mutator(std::string whole, std::mt19937_64& random) : bytes_(std::move(whole)), random_(random) {}
 
-  /// Returns the file after one to four changes, each applied to the result of the last one.
+  /// Returns the file after one to four changes, each applied to the result of the previous change.
   std::string mutated() {
     for (std::size_t k = 1 + below(4); k-- > 0 && !bytes_.empty();) change();
     return bytes_;

@@ -1,7 +1,7 @@
 // Declares wrong contestants that the judge must catch: each changes the exact answer in one way. Most follow from the
 // wrong forms of a stage (compare/judge/report/wrong_forms.hpp). Others are written by hand because no form can express
-// them: a last bit, a share of 0.1 %, one item of a list, the order of events, a whole step. The exact contestant must
-// pass, which checks the judge, its tolerances and its grey zone.
+// them: a last bit, a share of 0.1 %, one item of a list, the order of a step's events, a whole step. The exact
+// contestant must pass, which checks the judge, its tolerances and its grey zone.
 #pragma once
 
 #include <functional>
@@ -17,11 +17,11 @@ namespace ogc::tests {
 /// Returns the contestant with the authority's exact answers, rounded to single precision where the contract allows.
 compare::Contestant exact_contestant(const compare::Authority& authority);
 
-/// Returns the contestant that answers as the form does. The form must have an authority. It must not be a form of
-/// Stage::step, which accepts other guesses but does not make any.
+/// Returns the contestant that makes the form's mistake. `form.wrong` must not be empty. Forms of Stage::step are not
+/// allowed, because they accept other guesses but make none.
 compare::Contestant contestant_of(const compare::WrongForm& form, const compare::Authority& authority);
 
-/// Returns the forms from which a contestant can be made, because they give an answer.
+/// Returns the wrong forms of a stage that `contestant_of` accepts.
 std::vector<compare::WrongForm> answering_forms(compare::Stage stage);
 
 struct Fault {

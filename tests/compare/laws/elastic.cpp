@@ -34,12 +34,13 @@ TEST_CASE("laws' elastic energy: a stretched triangle, a bent hinge, both by han
   std::vector<Vec3> x = scene.rest_positions;
   const std::vector<Vec3> none(4);
   CHECK(elastic(scene, x, none).energy == 0);
-  // The second triangle is stretched to s across the edge: the only entry of G is (s² − 1)/2, ψ = (λ/2 + μ) G², A =
-  // 1/2.
+  // The second triangle is stretched to s across the edge. The only entry of its Green strain G is (s² − 1)/2, its
+  // energy density is ψ = (λ/2 + μ) G², and its area is 1/2.
   const double s = 1.2, strain = (s * s - 1) / 2;
   x[3] = {s, 0, 0};
   CHECK(elastic(scene, x, none).energy == Approx(4 * strain * strain / 2));
-  // The second triangle turns by θ about the edge. Then c = 3 k_b · 1/(1/2 + 1/2), E = c θ²/2 and dE/dθ = c θ.
+  // The second triangle turns by θ about the edge. Then E = c θ²/2 and dE/dθ = c θ, with c = 3 k_b · 1/(1/2 + 1/2)
+  // (method.md §4.7).
   const double angle = 0.7;
   x[3] = {std::cos(angle), std::sin(angle), 0};
   const std::vector<Vec3> turning{{}, {}, {}, {-std::sin(angle), std::cos(angle), 0}};

@@ -126,9 +126,9 @@ TEST_CASE("laws of rods hold of their closed answers, and of nothing a tenth off
   }
 }
 
-// In the last step an outer corner is moved out by s. Everything else is at rest, so the step leaves a force f = M Δ/h²
-// + ∇U − M a, at that corner only. Equation (5) of beams.cpp derives a limit of the energy gained from f. The limit
-// applies to few sweeps, but not to many.
+// In the last step an outer corner is moved by Δ = 1 cm, and everything else is at rest. So the step leaves a force f
+// at this corner only: −f = M Δ/h² + ∇U − M a, with the elastic energy U and the acceleration a by gravity. Equation
+// (5) of beams.cpp derives a limit of the energy gained from f. The limit applies to few sweeps, but not to many.
 TEST_CASE("laws: energy is gained by what few sweeps leave, and by nothing else", "[unit]") {
   const Law& pinned = find_law("pinned_sheet");
   const std::vector<Scene> scenes = pinned.scenes(LawSize::least);
@@ -195,8 +195,8 @@ TEST_CASE("laws: readings are held by side, tolerance and limit", "[unit]") {
   CHECK_THROWS_AS(find_law("free_fal"), InputError);
 }
 
-// v' = v − h b f₁(v'/ε) is quadratic below ε: with h b = ε and v = 7/4 ε, y' = 7/4 − (2 y' − y'²), so y'² − 3 y' + 7/4
-// = 0, y' = (3 − √2)/2.
+// Below the friction velocity ε, v' = v − h b f₁(v'/ε) is a quadratic equation; b is the brake. With h b = ε, v = 7/4 ε
+// and y' = v'/ε it is y' = 7/4 − (2 y' − y'²), so y'² − 3 y' + 7/4 = 0 and y' = (3 − √2)/2.
 TEST_CASE("laws: the step of a body with friction solves its equation", "[unit]") {
   using law_measures::slid;
   CHECK(slid(1.75, 0, 10, 1, 0.1) == Approx((3 - std::sqrt(2.)) / 2));
@@ -210,6 +210,6 @@ TEST_CASE("laws: the step of a mass on a contact's spring", "[unit]") {
   const auto free = bounced({1, 2}, -10, 100, 0.5, 0.01);
   CHECK(free.x == Approx(1 + 0.02 - 0.001));
   CHECK(free.v == Approx(1.9));
-  // With κ = 1 the answer lies halfway between the target 0.4 and r.
+  // With h² k_c/m = 1 the answer lies halfway between the target 0.4 and r = 0.5.
   CHECK(bounced({0.4, 0}, 0, 1e4, 0.5, 0.01).x == Approx(0.45));
 }

@@ -148,7 +148,8 @@ TEST_CASE("triangles that are folded onto each other along an edge are listed by
   const std::vector<Vec3> folded{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 0}};
   const Topology topology = build_topology(4, std::array{Triangle{0, 1, 2}, Triangle{1, 0, 3}});
   const auto edge = [&](Index a, Index b) { return find_edge(topology, a, b); };
-  // Vertex 2 lies on triangle 1, which does not contain it, and vertex 3 on triangle 0; sides meet in that corner.
+  // Vertex 2 lies on triangle 1, which does not contain it, and vertex 3 lies on triangle 0. At this point, (0, 1, 0),
+  // sides of both triangles meet.
   CHECK(audit(topology, folded).intersections == std::vector{Intersection{Kind::vertex_triangle, 2, 1},
                                                              Intersection{Kind::vertex_triangle, 3, 0},
                                                              Intersection{Kind::edge_edge, edge(0, 2), edge(1, 3)},

@@ -155,8 +155,8 @@ TEST_CASE(
   CHECK(result.count % 2 == 1);
   int change = 0;
   for (const Meeting& m : result.meetings) {
-    // The motion is a translation, so two edges meet at most once, and one of them changes to the other's opposite
-    // side.
+    // The second ring is translated, so two edges meet at most once. When they meet, the second edge passes from one
+    // side of the first edge to the other side.
     std::vector<Vec3> before = from, after = from;
     const auto place = [&](std::vector<Vec3>& x, double t) {
       for (std::size_t v = at(n); v < x.size(); ++v) x[v].x = from[v].x + 3 * t;
@@ -170,7 +170,7 @@ TEST_CASE(
     change += (sense(after, along(m.first), along(m.second)) - sense(before, along(m.first), along(m.second))) / 2;
   }
   CHECK(std::abs(change) == std::abs(linking_number(to, n) - linking_number(from, n)));
-  // Neither has meetings: a motion of both rings together, and a motion after which the rings are still linked.
+  // No edges meet if both rings move together, or if the second ring moves so little that the rings stay linked.
   for (std::size_t v = 0; v < to.size(); ++v) to[v] = {from[v].x + 3, from[v].y - 2, from[v].z + 7};
   CHECK(meetings(topology, from, to).count == 0);
   to = from;

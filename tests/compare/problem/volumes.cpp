@@ -69,8 +69,8 @@ TEST_CASE("a volume's parts are its connected surfaces, with the edges that have
   CHECK(parts[0].triangles.size() == 12);
   CHECK(parts[0].rims.empty());
   CHECK(parts[1].triangles.size() == 10);
-  // The rim has the vertices 1, 5, 7, 3 of the cube without its lid, in the directions of the box's triangles; the
-  // cube's vertices begin at 3 + 8.
+  // In the open box's own vertex numbers its rim is 1 → 3 → 7 → 5, in the directions of its triangles. In the scene, 11
+  // vertices precede the box: 3 of the sheet and 8 of the cube.
   std::vector<Edge> rims = parts[1].rims;
   std::ranges::sort(rims);
   CHECK(rims == std::vector<Edge>{{12, 14}, {14, 18}, {16, 12}, {18, 16}});
@@ -137,7 +137,7 @@ TEST_CASE("an island in a void is a part of its own, and a cavity belongs to the
   CHECK(parts[0].triangles.front() == 1);
   CHECK(parts[0].triangles.back() == 24);
   CHECK(parts[1].triangles.front() == 25);
-  // Another part overlaps the cavity without containing it, so the cavity is one of the part around it.
+  // Another part overlaps the cavity without containing it, so the cavity belongs to the part around it.
   CHECK(volume_parts(scene_of(joined(joined(cube_of(4), void_of(2)), shifted(cube_of(1), 1)))).size() == 2);
 }
 

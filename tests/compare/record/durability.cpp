@@ -152,7 +152,7 @@ TEST_CASE("frames are reported as written once they have their names, within sec
 TEST_CASE(
     "the trajectory grows with the frames, and is that which is assembled from them, whatever the size of a frame",
     "[property]") {
-  // Numbers of vertices: fewer than a packed chunk needs; enough for one; more than one chunk holds.
+  // The mesh has too few vertices for a packed chunk, enough for one chunk, or more than one chunk holds.
   const Index vertices = GENERATE(10, 1500, 70001);
   const Scratch folder;
   RunWriter run(folder / "run", strip_scene(vertices), recorded_provenance(), {});

@@ -120,7 +120,7 @@ TEST_CASE(
     const Complex mesh{topology, surface.positions};
     const auto contacts = reference::vertex_facet_over_all_pairs(question(surface, topology, 1, 1));
     CHECK(reference::ipc_face_set(mesh, 4, 1) == std::vector<Index>{0, 1});
-    // Both slopes are equally near, so the printed argmin is not unique.
+    // Both slopes are equally near, so the argmin that defines the paper's SDF set is not unique.
     CHECK(reference::sdf_face_set(mesh, mesh.at(4), 1) == std::vector<Index>{0, 1});
     const Vec3f beside{0, 0x1p-20f, 0.5f};
     // One slope is nearer. Over the ridge the nearest point is still on the crest, which belongs to both slopes.

@@ -87,7 +87,7 @@ TEST_CASE(
   CHECK_FALSE(reference::is_hull_edge(mesh, 4, e));
   const Vec3f above{1, 1, 0.5f};
   CHECK(in_block(mesh, vertex_face(4), above, 1));
-  // The point lies on the plane of that edge, half a radius from the vertex.
+  // The point lies on the plane through vertex 4 perpendicular to edge e, half a radius from the vertex.
   CHECK(reference::sign(reference::along(mesh.at(4), mesh.at(3), above)) == 0);
 }
 

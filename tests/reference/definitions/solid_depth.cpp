@@ -1,5 +1,6 @@
-// Tests the truth of stage volume_depth for tetrahedra. If the map is locally injective, the exact answer is that of
-// TetVolume. Tetrahedra without positive volume neither hold a point nor let a path through.
+// Tests the truth of stage volume_depth for tetrahedra. If the map from the rest shape to the positions is locally
+// injective, the exact answer is the answer of TetVolume. Tetrahedra without positive volume neither hold a point nor
+// let a path through.
 #include "reference/definitions/solid_depth.hpp"
 
 #include <algorithm>
@@ -70,7 +71,7 @@ compare::Topology surface_of(const Cells& body) {
   return compare::build_topology(static_cast<Index>(body.positions.size()), triangles);
 }
 
-/// Returns the depths of the exact answer, ascending.
+/// Returns the depths of the exact contacts on the given side of the surface, ascending.
 std::vector<double> depths(const VolumePartTruth& part, bool inside) {
   std::vector<double> all;
   for (const compare::VolumeAnswer* answer : compare::exact_answers(part))
@@ -176,7 +177,7 @@ TEST_CASE("a sheet that nothing but tetrahedra without volume surrounds has no w
   std::vector<compare::Triangle> triangles;
   for (std::size_t t = 1; t < 5; ++t) {
     const auto [a, b, c, apex] = body.tetrahedra[t];
-    // The side abc is shared with the first tetrahedron and is its outward side.
+    // The first tetrahedron has the side abc, too; the order a, b, c turns outward from it.
     for (const auto& [p, q] : {std::array{a, b}, std::array{b, c}, std::array{c, a}}) triangles.push_back({p, q, apex});
   }
   const compare::Topology topology = compare::build_topology(8, triangles);

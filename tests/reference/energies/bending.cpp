@@ -119,7 +119,8 @@ TEST_CASE("the reference's hinge exerts no net force and no net torque", "[prope
       scale += answer.force_scale;
     }
     // The angle depends only on the four points, so only rounding in double remains: some tens of 2⁻⁵³ on arms shorter
-    // than 2 m. Scales of the isometric model are at most a quarter of the condition.
+    // than 2 m. The isometric model's elastic force counts in force_scale with at most a quarter of Σ |∂f/∂q| |q| over
+    // its inputs q.
     CHECK(norm(force) < 1e-13 * scale);
     CHECK(norm(torque) < 1e-13 * scale);
   }
@@ -136,8 +137,8 @@ TEST_CASE("the reference's hinge block is positive semidefinite, and the force v
     c.rest_angle = static_cast<float>(angle(points(c.vertex)));
     c.damping = 0;
     const compare::ForceAnswer rest = reference::bending(c)[0];
-    // θ₀ is the angle, rounded to single precision. force_scale includes the sensitivity to θ₀, so this error is at
-    // most one unit.
+    // θ₀ is the angle, rounded to single precision. force_scale includes the sensitivity to θ₀, so this rounding
+    // changes the force by at most 2⁻²⁴ force_scale.
     CHECK(norm({rest.force.x, rest.force.y, rest.force.z}) <= 2 * compare::unit_roundoff * rest.force_scale);
   }
 }
@@ -197,8 +198,8 @@ TEST_CASE(
       const compare::ForceAnswer hinge = reference::bending(c)[0];
       const double apart = std::hypot(quadratic.force.x - hinge.force.x, quadratic.force.y - hinge.force.y,
                                       quadratic.force.z - hinge.force.z);
-      // Forces are at most 3 · 2 · θ. The models differ by θ² times this, and by rounded coordinates: a few times c w²
-      // 2⁻²⁴.
+      // Forces are at most c w θ, with c = 3 (`stiffness`) and the largest weight w = 2. The two models' forces differ
+      // by θ² times this. Rounded coordinates add a few c w² 2⁻²⁴.
       if (theta < 0.1) CHECK(apart <= 1e-5);
     }
   }
@@ -252,8 +253,8 @@ TEST_CASE("a force that vanishes because angle and gradient both do keeps the pr
   const compare::ForceAnswer answer = reference::bending(c)[0];
   const double error = compare::bending_force_tolerance * compare::unit_roundoff * answer.force_scale;
   CHECK(norm({answer.force.x, answer.force.y, answer.force.z}) < 1e-20);
-  // A single-precision kernel has an error of 1.5e-22 N here: the error of the moment times the error of the gradient,
-  // which is 2⁻²⁴ over the height.
+  // A single-precision kernel has an error of 1.5e-22 N here: the product of the moment's error and the gradient's
+  // error. The gradient's error is 2⁻²⁴ over the triangles' height.
   CHECK(error > 1.5e-22);
   CHECK(error < 1e-3 * c.stiffness / 0.0668945 * 0x1p-24);
 }

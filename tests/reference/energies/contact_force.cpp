@@ -225,7 +225,7 @@ TEST_CASE("where a decision is grey both answers are accepted, the exact one fir
   const auto on_side = reference::contact_force(beside);
   REQUIRE(on_side.size() == 2);
   REQUIRE(on_side[0].force.z == 0);
-  // Within rounding the point may touch: every force up to that at 2^-23 r is accepted.
+  // Within rounding the point may touch, so every force up to the force at the distance 2^-23 r is accepted.
   REQUIRE(reference::contact_force(above(1e-7f)).size() == 2);
 }
 
@@ -236,7 +236,8 @@ TEST_CASE("of a needle no force is accepted that is larger than at the exact dis
   const auto needle = reference::contact_force(c);
   REQUIRE(needle.size() == 2);
   CHECK(needle[1].force == compare::Vec3{});
-  // The accepted error of the force is k (r − d), that of the block is k.
+  // The accepted error of the force is k (r − d), with the exact distance d = 0.3. The accepted error of the block is
+  // k.
   CHECK(compare::contact_force_tolerance * compare::unit_roundoff * needle[1].force_scale ==
         Approx(8 * (0.5 - 0.3)).epsilon(1e-4));
   CHECK(compare::contact_block_tolerance * compare::unit_roundoff * needle[1].block_scale == Approx(8).epsilon(1e-4));

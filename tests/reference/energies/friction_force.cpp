@@ -24,7 +24,7 @@ FrictionForceCase random_friction(Draw& draw, ContactSides sides) {
   return c;
 }
 
-/// Returns f₀ with f₀' = f₁ and f₀(ε) = ε.
+/// Returns f₀(y), with f₀' = f₁ (method.md §4.4), f₀(ε) = ε and ε = `limit`.
 double potential(double y, double limit) {
   return y < limit ? y * y / limit - y * y * y / (3 * limit * limit) + limit / 3 : y;
 }

@@ -102,7 +102,7 @@ double angle_to(const OrientationCase& c, const Quaternion& q, bool is_ahead) {
   return std::acos(std::clamp((trace - 1) / 2, -1.0, 1.0));
 }
 
-/// Returns k_s l/2 ‖D/l − R e₃‖² plus w (1 − cos θ/2) for each neighbour.
+/// Returns k_s l/2 ‖D/l − R e₃‖² plus w (1 − cos θ/2) for each neighbour, with the neighbour's `weight` w and angle θ.
 double physical_energy(const OrientationCase& c, const Quaternion& q) {
   const auto r = matrix_of(q);
   const Point d = minus(point(c.vertex[1]), point(c.vertex[0]));
@@ -131,8 +131,8 @@ TEST_CASE("the reference's force of a rod is minus the slope of its energy, its 
       const compare::ForceAnswer exact = reference::rod(c);
       const Point x = point(c.vertex[static_cast<std::size_t>(own)]),
                   by_differences = slope([&](const Point&at) { return energy(c, at); }, x, 1e-3);
-      // A parabola has no truncation error. Rounding gives 2⁻⁵³ of 200 J over the step. Quaternions have length 1
-      // within 2⁻²³, with forces of at most 300 N.
+      // A parabola has no truncation error. Energies of 200 J have a rounding error of 2⁻⁵³ · 200 J, which the
+      // difference divides by the step. Quaternions have length 1 up to 2⁻²³, which changes forces of at most 300 N.
       CHECK(std::abs(exact.force.x + by_differences[0]) <= 1e-4);
       CHECK(std::abs(exact.force.y + by_differences[1]) <= 1e-4);
       CHECK(std::abs(exact.force.z + by_differences[2]) <= 1e-4);
@@ -155,7 +155,7 @@ TEST_CASE("a rigid motion meets no force of a rod that rested, elastic or viscou
     c.vertex = {compare::Vec3f{}, along(c.orientation)};
     c.start = {compare::Vec3f{}, along(c.orientation_start)};
     const compare::ForceAnswer exact = reference::rod(c);
-    // Coordinates and quaternions are rounded: 2⁻²² of k_s (1 + k).
+    // Rounded coordinates and quaternions leave a force of at most 2⁻²² k_s (1 + k), and k_s (1 + k) is at most 15 N.
     CHECK(std::hypot(exact.force.x, exact.force.y, exact.force.z) <= 15 * 0x1p-22);
   }
 }
@@ -198,7 +198,7 @@ TEST_CASE("from a near old q it minimises the energy of stretch, shear, bend and
     if (std::abs(again[0] - q[0]) + std::abs(again[1] - q[1]) + std::abs(again[2] - q[2]) + std::abs(again[3] - q[3]) >
         1e-5)
       continue;
-    // Skips turns near π: beyond π lies a turn of opposite sign, which may have less energy.
+    // Skips turns near π: the turn beyond π has the opposite sign and may have less energy.
     if (std::max(angle_to(c, c.orientation, false), angle_to(c, c.orientation, true)) > 2.9) continue;
     ++compared;
     const double least = physical_energy(c, c.orientation);

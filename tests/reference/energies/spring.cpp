@@ -27,7 +27,7 @@ double energy(const Point& own, const SpringCase& c) {
          ((length - c.rest_length) * (length - c.rest_length) + c.damping * (length - before) * (length - before));
 }
 
-/// Returns the energy of a stitch with its vertex `own` at the position `own`.
+/// Returns the energy of a stitch whose vertex `c.own` is at the position `own`.
 double seam_energy(const Point& own, const SpringCase& c) {
   const auto length = [&](const std::array<compare::Vec3f, 3>& at, const Point* moved) {
     std::array<Point, 3> x{point(at[0]), point(at[1]), point(at[2])};
@@ -97,7 +97,7 @@ TEST_CASE("a spring to a point of an edge: its forces are minus the energy's slo
       const Point force = force_of(reference::spring(c)),
                   fallen = slope([&](const Point&x) { return seam_energy(x, c); }, point(c.vertex[own]), 1e-5);
       for (std::size_t k = 0; k < 3; ++k) {
-        CHECK(std::abs(force[k] + fallen[k]) < 1e-3);  // the same energies, at lengths that may be shorter
+        CHECK(std::abs(force[k] + fallen[k]) < 1e-3);  // energies as above, but lengths may be shorter than 0.1 m
         sum[k] += force[k];
         moment[k] += outer(point(c.vertex[own]), force)[k];
       }
@@ -174,8 +174,8 @@ TEST_CASE("what a lost length leaves of a stitch's block is accepted, no block i
     c.rest_length = rest_length;
     const compare::ForceAnswer answer = reference::spring(c);
     const double accepted = compare::spring_block_tolerance * compare::unit_roundoff * answer.block_scale;
-    // The lost part of the block is the multiple of I − n nᵀ with n = e₂. `missing` is the norm of xx and zz, without
-    // yy.
+    // If rounding loses the length, the block lacks its multiple of I − n nᵀ, with n = e₂. `missing` is the norm of
+    // this multiple: of the entries xx and zz, without yy.
     const double missing = std::sqrt(answer.block[0] * answer.block[0] + answer.block[5] * answer.block[5]);
     CHECK((missing <= accepted) == (rest_length > 0));
     CHECK(std::sqrt(missing * missing + answer.block[3] * answer.block[3]) > accepted);

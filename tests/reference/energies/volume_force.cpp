@@ -40,7 +40,7 @@ double depth(const VolumeForceCase& c, const std::array<Point, 4>& x) {
   return std::max(0.0, c.contact_radius - height);
 }
 
-/// Returns f₀ with f₀' = f₁ and f₀(ε) = ε.
+/// Returns f₀(y), with f₀' = f₁ (method.md §4.4), f₀(ε) = ε and ε = `limit`.
 double potential(double y, double limit) {
   return y < limit ? y * y / limit - y * y * y / (3 * limit * limit) + limit / 3 : y;
 }
@@ -71,8 +71,8 @@ TEST_CASE("the reference's force of a volume is minus the slope of its energy", 
         std::array<Point, 4> above = points(c.vertex), below = above;
         above[static_cast<std::size_t>(own)][axis] += step;
         below[static_cast<std::size_t>(own)][axis] -= step;
-        // Third derivatives of f₀ are at most 2/ε² times μ λ ≤ 10 N: 2e5 step². Rounding gives 2⁻⁵² of 10 J over the
-        // step.
+        // Third derivatives of μ λ f₀ are at most 2 μ λ/ε², with μ λ ≤ 10 N, so truncation gives 2e5 step². Energies of
+        // 10 J have a rounding error of 2⁻⁵² · 10 J, which the difference divides by the step.
         REQUIRE(std::abs(force[axis] + (energy(c, above) - energy(c, below)) / (2 * step)) <= 1e-6);
       }
     }

@@ -50,7 +50,7 @@ class Mesh {
     return reference::block({&topology_, surface_.positions, questions});
   }
 
-  /// Returns all questions of one kind about all faces.
+  /// Returns the questions of one kind about all faces.
   std::vector<BlockQuestion> questions(Kind kind) const {
     std::vector<BlockQuestion> all;
     const auto count = kind == Kind::edge_in_edges ? topology_.edges.size()
@@ -219,8 +219,8 @@ TEST_CASE(
 }
 
 TEST_CASE("block: a boundary is grey within rounding of it, and decided exactly", "[unit]") {
-  // The edge from vertex 0 to vertex 1 is slanted, so that terms cancel in the margin of its end plane at vertex 0:
-  // with x = 2 + δ it is (1 + δ) − 1.
+  // The edge from vertex 0 to vertex 1 is slanted. At x = 2 + δ the margin of its end plane at vertex 0 is (1 + δ) − 1,
+  // so its terms cancel.
   const auto about = [](float x) {
     const Surface surface{{{1, 1, 0}, {2, 2, 0}, {x, 0, 5}, {9, 9, 9}, {9, 8, 9}}, {}, {{0, 1}, {2, 3}, {3, 4}}, {}};
     return Mesh(surface).ask({{Kind::vertex_in_surface, 2, {FaceKind::vertex, 0}}});
@@ -236,8 +236,8 @@ TEST_CASE("block: a boundary is grey within rounding of it, and decided exactly"
 }
 
 TEST_CASE("block: the point of an edge is that inside it or its nearer end", "[unit]") {
-  // The closest point of the edge lies above vertex 0, above it at the edge's end, beside it, and beside it because the
-  // edge is slanted.
+  // The point of edge 5–6 that is closest to vertex 0 lies, case by case: above vertex 0; above vertex 0, at the end of
+  // edge 5–6; beside it, at an end; beside it, because edge 5–6 is slanted.
   const auto inside = [](const Vec3f& from, const Vec3f& to, Face a) {
     return Mesh(patch(from, to)).ask({{Kind::edge_in_edges, 8, a}}).inside[0];
   };
@@ -247,8 +247,8 @@ TEST_CASE("block: the point of an edge is that inside it or its nearer end", "[u
   CHECK(inside({0, 0, 1}, {1, 0, 1}, vertex) == 1);
   CHECK(inside({0.25f, 0, 1}, {1, 0, 1}, vertex) == 0);
   CHECK(inside({-1, 0, 0.5f}, {1, 0, 1}, vertex) == 0);
-  // The point of edge 0 (from vertex 0 to vertex 1) that is closest to the edge is its middle in two cases, and vertex
-  // 0 in the others.
+  // The point of edge 0 (from vertex 0 to vertex 1) that is closest to edge 5–6 is the middle of edge 0 in two cases,
+  // and vertex 0 in the others.
   CHECK(inside({0.5f, -1, 1}, {0.5f, 1, 1}, {FaceKind::edge, 0}) == 1);
   CHECK(inside({0.5f, 1, 1}, {0.5f, 2, 1}, {FaceKind::edge, 0}) == 1);
   CHECK(inside({-0.5f, -1, 1}, {-0.5f, 1, 1}, {FaceKind::edge, 0}) == 0);

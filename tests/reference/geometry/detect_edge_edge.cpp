@@ -392,7 +392,8 @@ TEST_CASE("detect_edge_edge: boundaries of every kind are grey on both sides", "
 
 TEST_CASE("detect_edge_edge: moving every coordinate by a unit in the last place stays within the grey decisions",
           "[property]") {
-  // Coordinates and differences have the same size, so a last place is less than 16 · 2⁻²⁴ of every difference.
+  // Coordinates and their differences have the same size, so one unit in the last place is less than 16 · 2⁻²⁴ of every
+  // difference.
   std::mt19937 random(18);
   std::uniform_int_distribution<int> step(-1, 1);
   const Surface flat = together(mapped(grid(4), turned), mapped(grid(4, 0.5f), turned));

@@ -323,7 +323,8 @@ TEST_CASE("detect_vertex_facet: a distance next to r is grey, and absence is acc
 
 TEST_CASE("detect_vertex_facet: moving every coordinate by a unit in the last place stays within the grey decisions",
           "[property]") {
-  // Coordinates and differences have the same size, so a last place is less than 16 · 2⁻²⁴ of every difference.
+  // Coordinates and their differences have the same size, so one unit in the last place is less than 16 · 2⁻²⁴ of every
+  // difference.
   std::mt19937 random(12);
   std::uniform_int_distribution<int> step(-1, 1);
   const Surface flat = together(mapped(grid(4), turned), mapped(grid(4, 0.5f), turned));

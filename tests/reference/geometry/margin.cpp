@@ -71,7 +71,8 @@ TEST_CASE("margin: the sum of derivatives times coordinates is that of the diffe
       const Margin margin = some_margin(static_cast<MarginKind>(kind), random);
       const double exact = differentiated(margin);
       INFO("kind " << kind << ", case " << i);
-      // Both are sums of products of coordinates up to 4, up to 10⁶ for `parallel`, with about twenty roundings.
+      // Both numbers are sums of products of coordinate differences up to 4, with about twenty roundings. The formula
+      // of `parallel` has a factor of 10⁶.
       REQUIRE(reference::sensitivity(margin) ==
               Approx(exact).epsilon(1e-12).margin(kind == static_cast<int>(MarginKind::parallel) ? 1e-7 : 1e-12));
     }

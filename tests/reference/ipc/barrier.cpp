@@ -78,7 +78,8 @@ TEST_CASE("barrier: value, slope and curvature are those of -(g - H)^2 ln(g/H), 
       const Second<1> b = barrier_slopes(gap, support);
       const Many g(gap), h(support), step = g * Many("1e-25");
       const Many before = exact_barrier(g - step, h), here = exact_barrier(g, h), after = exact_barrier(g + step, h);
-      // Near its end the barrier is the cube of 1 − g/H, which has a rounding error of 2⁻⁵³.
+      // Near the end of its support H the barrier is the cube of 1 − g/H, with the gap g. 1 − g/H has a rounding error
+      // of 2⁻⁵³.
       const double loss = 1e-14 / (1 - share);
       CHECK(b.value == Approx(static_cast<double>(here)).epsilon(3 * loss));
       CHECK(b.slope[0] == Approx(static_cast<double>((after - before) / (2 * step))).epsilon(3 * loss));

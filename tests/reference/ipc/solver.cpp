@@ -317,8 +317,8 @@ TEST_CASE(
     const compare::StepMetrics row = full.step();
     REQUIRE(row.status == compare::step_clean);
     REQUIRE_FALSE(full.intersects());
-    // One broad phase belongs to the start and one to each bound of a step. The others are tests by the guard. If their
-    // number is that of accepted states, the guard has rejected none.
+    // One broad phase belongs to the start of the step, and one to each bound of a step length. The guard makes all
+    // others. If the guard made one for each accepted state, it has rejected no state.
     const std::int64_t bounds = row.continuous_detections / 2, guards = row.broad_phases - 1 - bounds;
     CHECK(guards == accepted);
     REQUIRE(partial.step().status == compare::step_clean);

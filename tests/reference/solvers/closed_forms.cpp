@@ -41,7 +41,7 @@ compare::Mesh strip(compare::Index count, double a) {
 TEST_CASE("Newton: a cantilever strip sags as the hinges' moments say", "[property]") {
   // In a bend about z, a cell's four corners lie on two parallel lines, so diagonals stay flat and only the transverse
   // edges resist. Their energy is k_b/2 · 3 w²/(w a) θ² over the width w, hence the moment is (3 k_b w/a) θ. The moment
-  // at row i is the weight beyond it times its arm.
+  // at row i is the weight beyond row i times the arm of this weight.
   const compare::Index count = 10;
   const double a = 0.01, weight = 0.2 * 9.81 * 0.01 * a, stiffness = 2e-4;
   compare::Material material;

@@ -37,7 +37,7 @@ compare::Scene above_a_wall() {
 
 double mass(const compare::Scene& scene) { return scene.bodies[0].material.density * 0x1p-11; }  // of the triangle [kg]
 
-/// A step of this scene, written event by event.
+/// Builds the answer of a step (StepOut), event by event.
 class Told {
  public:
   Told(const compare::Scene& scene, const Vec3f& velocity)
@@ -60,7 +60,8 @@ class Told {
     happens(StepEventKind::detection, 0).vertex_facet.contacts = std::move(contacts);
     return *this;
   }
-  /// Adds a round or a sweep that moves the first `count` vertices to y; the others stay and count as cut.
+  /// Adds a round of the guess loop or a sweep, which moves the first `count` vertices to their targets. The others
+  /// stay and count as cut.
   Told& moves(StepEventKind kind, std::size_t count) {
     for (std::size_t v = 0; v < count; ++v) now_[v] = step_.target[v];
     happens(kind, 3 - count);

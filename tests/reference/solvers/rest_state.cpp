@@ -177,7 +177,8 @@ TEST_CASE("rest state: fixed bodies weigh nothing, and they and models of kind n
 }
 
 TEST_CASE("rest state: units of errors follow Euler's rule for what scales with the shape", "[property]") {
-  // Σ ‖∂f/∂q‖‖q‖ ≥ |Σ ∂f/∂q · q| = degree · |f|.
+  // A scale is Σ ‖∂f/∂q‖ ‖q‖ over the inputs q of a result f. If f is homogeneous of degree n, then Σ ∂f/∂q · q = n f,
+  // so the scale is at least n |f|.
   Scene scene = crumpled(7);
   const RestStateTruth rest = rest_of(scene);
   for (std::size_t t = 0; t < rest.area.size(); ++t) {

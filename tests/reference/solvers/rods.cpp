@@ -121,7 +121,8 @@ TEST_CASE("rods: the rest shape has no energy and no torque, and neighbours meet
   Bent bent(0);
   bent.system.set_start({});
   CHECK(bent.system.elastic_energy(bent.start) == Approx(0).margin(1e-15));
-  // Frames are rounded to single precision, which causes torques of 2⁻²⁴ (σ + Σ w), with σ + Σ w = 2·10⁻³ N m.
+  // Frames are rounded to single precision, which causes torques of 2⁻²⁴ (σ + Σ w), with σ and w of compare/rods.md.
+  // Here σ + Σ w is 2·10⁻³ N m.
   CHECK(bent.system.mean_torque(bent.start) < 1e-9);
   const std::vector<Index> colour = reference::segment_colours_of(
       bent.rest, compare::segment_groups(bent.scene, compare::rod_segments(bent.scene)));

@@ -138,7 +138,7 @@ TEST_CASE("without energies a sweep takes every vertex to its target", "[unit]")
 TEST_CASE("a sheet at rest stays", "[unit]") {
   const Question q(scene_of({sheet(3, 0)}));
   const std::vector<Vec3f> x = q.swept().position;
-  // Rest gradients are rounded, which causes strains of 2⁻²⁴ and moves a vertex by a few times that.
+  // Rest gradients are rounded, which causes strains of 2⁻²⁴ and moves a vertex by a few times 2⁻²⁴.
   for (std::size_t v = 0; v < x.size(); ++v) CHECK(distance({x[v].x, x[v].y, x[v].z}, q.old[v]) <= 8 * 0x1p-24);
 }
 
@@ -217,7 +217,7 @@ TEST_CASE("forces of all stencils add up to nothing where all vertices are read 
     }
   }
   CHECK(moduli > 1);
-  // The gradients ∇N₀ of two corners are rounded to single precision, which changes each force by 2⁻²⁴ of it.
+  // The gradients ∇N₀ of two corners are rounded to single precision, which changes each force by 2⁻²⁴ of the force.
   CHECK(std::hypot(sum.x, sum.y, sum.z) <= 0x1p-24 * moduli);
 }
 
@@ -233,8 +233,7 @@ TEST_CASE("with inertia ahead of stiffness every sweep lowers the energy until n
   for (int sweep = 0; sweep < 60; ++sweep) {
     q.old = q.swept().position;
     const double after = energy(q, q.old);
-    // Positions are rounded to 2⁻²⁴, which can raise the energy by this times its slope. The remaining energy limits
-    // the slope.
+    // Rounding positions by 2⁻²⁴ can raise the energy by 2⁻²⁴ times its slope. The remaining energy limits this slope.
     CHECK(after <= before + 1e-6 * start);
     before = after;
   }

@@ -1,5 +1,6 @@
 // Tests whether a vertex's update lowers its incremental potential (method.md §4.2, §7.1). If normals and closest
-// points stay and no stage is logarithmic, it never raises the potential; otherwise it rarely does.
+// points stay and no contact is in the logarithmic stage of its activation, an update never raises the potential;
+// otherwise it rarely does.
 #include <algorithm>
 #include <cmath>
 #include <random>

@@ -1,5 +1,5 @@
-// Tests how many digits of text files are found: in each file format, with each way to print numbers, and for numbers
-// whose digits mean nothing.
+// Tests how the digits of coordinates are counted in text files: in each file format, with each way to print numbers,
+// and for numbers whose digits show no precision.
 #include "compare/files/frames/printed_digits.hpp"
 
 #include <cmath>

@@ -161,7 +161,7 @@ TEST_CASE("faces that collapse, have no area or are there twice are left out, wi
                     Contains("m.obj: has 1 face that is none: 1 has the same vertices as another; the first: face 3 "
                              "(line 10); leave --strict out"));
   CHECK_THROWS_WITH(of_obj(square + "f 1 1 2\n"), Contains("has 4 vertex positions and no face that has an area"));
-  // Positions come from another file, so areas are unknown here.
+  // With keep_unused, positions come from another file, so areas are unknown.
   CHECK(of_obj("v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\nf 1 1 2\nf 3 2 1\n", {.keep_unused = true}).mesh.triangles ==
         std::vector<Triangle>{{0, 1, 2}});
 }

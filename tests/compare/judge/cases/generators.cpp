@@ -34,7 +34,7 @@ Index vertex_count(const TestCase& test) {
   return -1;
 }
 
-/// Returns whether any of the stage's first 20 cases has coordinates that may be made tiny.
+/// Returns whether any of the stage's first 20 cases has coordinates that the judge may make tiny (dust.hpp).
 bool has_coordinates(Stage stage) {
   for (std::uint64_t i = 0; i < 20; ++i) {
     TestCase test = generate({stage, std::string(generators(stage)[0].name), 1, i, "", {}});

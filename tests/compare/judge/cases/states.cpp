@@ -26,7 +26,8 @@ std::filesystem::path write_run(const std::filesystem::path& folder, const Scene
   return folder;
 }
 
-/// Returns a scene with cases for every stage except the solids': a fixed yarn, a hinge in the cloth, a spring.
+/// Returns a scene with cases for every stage except the stages of solids: a fixed yarn, a hinge in the cloth, a
+/// spring.
 Scene full_scene() {
   Scene scene = recorded_scene();
   scene.bodies[0].fixed = false;

@@ -210,9 +210,10 @@ TEST_CASE("contacts side by side have the derivatives of each alone, to the bit,
     }
 }
 
-/// Kernels differentiate such an energy by the weighted sum: three variables replace nine, and derivatives agree up to
-/// roundings. The Hessian by all vertices has the eigenvalues of the Hessian by the sum, times ‖w‖². So projections
-/// agree, too. The limit of 10⁻¹³ of the largest entry is about a thousand roundings of 10⁻¹⁶.
+/// Kernels differentiate an energy that depends on one weighted sum of positions by this sum. Three variables replace
+/// nine, and derivatives agree up to roundings. The Hessian by all vertices has the eigenvalues of the Hessian by the
+/// sum, times ‖w‖². So projections agree, too. The limit of 10⁻¹³ of the largest entry is about a thousand roundings of
+/// 10⁻¹⁶.
 TEST_CASE("what depends on one weighted sum has the derivatives of the energy over all vertices, side by side or alone",
           "[property]") {
   Draw draw(13);

@@ -239,8 +239,8 @@ TEST_CASE(
     for (std::size_t k = static_cast<std::size_t>(vertex_count(sides)); k < 4; ++k) x[k] = {};
     const ClosestForm form = closest_form(sides, x);
     const double d = form_distance(form, x);
-    // Skips cases whose differences would cross r or r/2, where stages of the activation end, or come near its pole d =
-    // 0.
+    // Skips cases whose differences would cross r or r/2, where the activation's stages end, or come near the
+    // activation's pole d = 0.
     if (d > 0.95 * r || d < 0.1 * r || std::abs(d - r / 2) < 1e-3 * r || form.kind == FormKind::fixed_weights) continue;
     ++forms[static_cast<std::size_t>(form.kind)];
     check_all<4>(x, 0.1 * r, true, [&](const auto& at) { return term.energy(form, at); });
@@ -309,7 +309,7 @@ TEST_CASE(
   }
 }
 
-/// As a difference of terms of size μ, as printed, the energy would be lost in rounding below strains of 10⁻⁸.
+/// The printed formula is a difference of terms of size μ. For strains below 10⁻⁸ their rounding would hide the energy.
 TEST_CASE("a stable Neo-Hookean triangle next to rest has the energy of small strains, not the rounding of its terms",
           "[property]") {
   MembraneTerm term;
@@ -320,7 +320,7 @@ TEST_CASE("a stable Neo-Hookean triangle next to rest has the energy of small st
   term.mu = 10;
   for (const double size : {0x1p-20, 0x1p-30, 0x1p-40}) {
     const Corners<3> x{Triple<double>{0, 0, 0}, Triple<double>{1 + size, 0, 0}, Triple<double>{size, 1 + 2 * size, 0}};
-    // To first order G is ε, ε/2, 2 ε.
+    // To first order the entries xx, xy and yy of G are ε, ε/2 and 2 ε, with ε = `size`.
     const double expected = 0.5 * size * size * (0.5 * 7 * 9 + 10 * (1 + 2 * 0.25 + 4));
     CHECK(term.energy(x) == Approx(expected).epsilon(4 * size));
     const StencilDerivatives at = stencil_derivatives<3>(x, HessianProjection::none,

@@ -126,7 +126,8 @@ TEST_CASE("what contacts took in a round is not expected of the others in the ne
   reference::HeldMoves twice = sheets.moves();
   const reference::State first = twice.round(sheets.contacts, previous, target),
                          second = twice.round(sheets.contacts, previous, target);
-  // Both sheets stop in the first round. In the second round neither expects the other to move, but both stop again.
+  // Both sheets stop in the first round. In the second round each sheet counts the other sheet's move without the part
+  // that contacts removed in the first round, and both stop again.
   CHECK(first != target);
   for (std::size_t v = 0; v < first.size(); ++v) CHECK(between(first[v], second[v]) < 1e-3);
 }

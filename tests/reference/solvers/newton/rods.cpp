@@ -101,7 +101,7 @@ TEST_CASE("rods: Newton's method and converged sweeps end at the same minimiser"
     vbd->advance(1);
   }
   const compare::Snapshot a = newton->snapshot(), b = vbd->snapshot();
-  // Both results are rounded to single precision in each of five steps, at 1 cm from the origin, by 2⁻²⁴ of it.
+  // Each of five steps rounds both results to single precision, within 1 cm of the origin, by 2⁻²⁴ of 1 cm.
   for (std::size_t v = 0; v < points.size(); ++v) CHECK(distance(a.positions[v], b.positions[v]) < 5e-9);
   for (std::size_t e = 0; e < a.orientations.size(); ++e)
     for (std::size_t k = 0; k < 4; ++k)

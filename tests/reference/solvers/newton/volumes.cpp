@@ -110,8 +110,8 @@ TEST_CASE("volumes: Newton's method and converged sweeps end at the same minimis
     CHECK(row.volume_contacts >= static_cast<std::int64_t>(cloth));
     CHECK(row.volume_contacts == swept.volume_contacts);
     const compare::Snapshot a = newton->snapshot(), b = vbd->snapshot();
-    // Both results are rounded to single precision in each step, within 0.1 m of the origin, by 2⁻²⁵ of it in each
-    // coordinate. Through h² a = h v each step adds less than twice the previous difference.
+    // Each step rounds both results to single precision, each coordinate by at most 2⁻²⁵ · 0.1 m. The rounded positions
+    // also change the velocities and thus the next targets, so a step adds less than twice the previous difference.
     for (std::size_t v = 0; v < cloth; ++v)
       CHECK(distance(a.positions[v], b.positions[v]) < std::pow(3, step) * std::sqrt(3) * 0x1p-25 * 0.1);
   }
