@@ -8,7 +8,7 @@ namespace {
 
 std::size_t place(Index i) { return static_cast<std::size_t>(i); }
 
-/// Returns the place of a number in an ascending list; −1 if the list lacks it.
+/// Returns the index of a number in an ascending list; −1 if the list lacks it.
 Index find(const std::vector<Index>& ascending, Index number) {
   const auto found = std::ranges::lower_bound(ascending, number);
   return found != ascending.end() && *found == number ? static_cast<Index>(found - ascending.begin()) : -1;
