@@ -28,7 +28,7 @@ Choice another(Random& random, Choice usual) {
   return count == 1 ? others[0] : random.pick(std::span<const Choice>(others.data(), count));
 }
 
-/// Sets a random activation and, in one of three scenes, another form of damping. Replaces each membrane and bending
+/// Sets a random activation and, in one of three scenes, DampingForm::per_vertex. Replaces each membrane and bending
 /// model of a body, except `none`, by a random model. Adds springs by add_springs and rounds the scene again.
 void choose_models(Random& random, Scene& scene);
 

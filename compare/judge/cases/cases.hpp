@@ -97,7 +97,7 @@ struct PlaneCase {
   std::vector<Vec3f> displacement{};   ///< by vertex [m], as in PlaneIn; may be empty
 };
 
-/// A volume and points whose depth is asked.
+/// A volume, and points whose depth in it is the question.
 struct VolumeDepthCase {
   std::shared_ptr<const Topology> topology;  ///< of the volume
   std::vector<Vec3f> positions;              ///< by vertex [m]
@@ -115,7 +115,7 @@ struct BlockCase {
   std::vector<BlockQuestion> questions;      ///< each counts as a case
 };
 
-/// A scene whose rest data are asked.
+/// A scene whose rest data are the question.
 struct RestStateCase {
   std::shared_ptr<const Scene> scene;        ///< rounded
   std::shared_ptr<const Topology> topology;  ///< of the mesh

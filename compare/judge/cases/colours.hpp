@@ -1,5 +1,5 @@
-// Colours the vertices and segments of a sweep's question. The judge colours them itself, so that no contestant chooses
-// its question.
+// Colours the vertices and segments of a sweep's question. The judge chooses the colours, so that no contestant
+// influences the question.
 #pragma once
 
 #include <set>
@@ -19,8 +19,8 @@ Neighbours element_neighbours(const Scene& scene, const Topology& topology);
 Neighbours segment_neighbours(const Scene& scene);
 
 /// Returns a colour for each free vertex and −1 for all others; no two vertices of an element share a colour. Colours
-/// are assigned greedily in a random order. They are few, so vertices of a contact may share a colour. In one of eight
-/// cases each vertex has a colour of its own (pure Gauss–Seidel).
+/// are assigned greedily in a random order. This gives few colours, so vertices of a contact may share one. In one of
+/// eight cases each vertex has a colour of its own (pure Gauss–Seidel).
 std::vector<Index> random_colours(Random& random, const Scene& scene, const Topology& topology);
 
 /// Returns a colour for each free segment of a rod and −1 for all others; no two neighbours share a colour.

@@ -2,7 +2,7 @@
 // the origin and the normal along z, so distance and slip along the normal are single coordinates. Ladders approach
 // - the boundaries between closest features, and collapsed triangles and edges as far as they are legal,
 // - parallel edges and the limit of nearly parallel ones,
-// - d = r, d ≫ r, d = τ and d = 0,
+// - d = r, d ≫ r, d = τ = r/2 (where the activation changes) and d = 0,
 // - for friction also a slip of 0, a slip of ε_v h, and motion along the normal.
 #include <algorithm>
 #include <array>
@@ -283,7 +283,7 @@ ContactActivation any_activation(Random& random) {
   return random.pick(std::span<const ContactActivation>(choices<ContactActivation>));
 }
 
-/// Returns a fine shape at a boundary between features, at d = r, or at d = τ.
+/// Returns a fine shape at a boundary between features, at d = r, or at d = r/2.
 Shape near_boundary(Random& random) {
   random.be_fine();
   switch (random.below(4)) {
@@ -307,7 +307,8 @@ CaseData contact_together(Random& random) {
   return question;
 }
 
-/// Approaches c = ε and c = 0 of the mollifier, where c is the squared sine of the edges' angle at the last detection.
+/// Approaches c = ε and c = 0 of the mollifier (method.md §4.3). c is the squared sine of the edges' angle at the last
+/// detection, and ε = 10⁻³.
 CaseData contact_mollifier(Random& random) {
   Shape shape = inside(random, ContactSides::edge_edge, any_share(random));
   const double sine = random.one_in(2) ? std::sqrt(1e-3) * (1 + random.rung()) : std::abs(random.rung());

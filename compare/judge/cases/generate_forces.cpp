@@ -1,5 +1,6 @@
 // Makes cases of membrane and bending: a rest shape, its deformation, a material. Ladders approach the rest shape,
-// where the terms of the strain cancel; collapsed triangles; tr G = 0, where the stress changes; and folds by ±π.
+// where the terms of the strain cancel; collapsed triangles; tr G = 0 for the Green strain G, where the stress changes;
+// and folds by ±π.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -115,7 +116,7 @@ CaseData membrane_collapse(Random& random) {
       random, [=](const Vec3& p) { return stretched(p, xx, xy, yy); }, lattice);
 }
 
-/// Takes tr G through 0, with stretch in one direction and compression in the other.
+/// Makes the trace of the Green strain nearly 0, with stretch in one direction and compression in the other.
 CaseData membrane_sign(Random& random) {
   const double xx = random.between(0.5, 1), along = 1 + random.rung();
   const double yy = std::sqrt(std::max(0.0, 2 - xx * xx)) * along;
@@ -135,8 +136,8 @@ CaseData membrane_corner(Random& random) {
   return question;
 }
 
-/// Replaces the default model of a case by another one. A generator keeps its name if models are added, because problem
-/// strings contain the name.
+/// Replaces the default model of a case by another one. Generators with other models have names of their own, because a
+/// problem string must keep its case.
 template <CaseData (*make)(Random&)>
 CaseData other_membrane(Random& random) {
   MembraneCase question = case_of<MembraneCase>(make(random));
@@ -144,7 +145,7 @@ CaseData other_membrane(Random& random) {
   return question;
 }
 
-/// Replaces strain damping by another form, and the model by a random one.
+/// Replaces DampingForm::strain by the other DampingForm, and the model by a random one.
 template <CaseData (*make)(Random&)>
 CaseData membrane_damped_otherwise(Random& random) {
   MembraneCase question = case_of<MembraneCase>(make(random));
@@ -291,7 +292,7 @@ CaseData bending_isometric(Random& random) {
                         with_angle(shape, std::clamp(angle + random.between(-0.3, 0.3), -3.0, 3.0)));
 }
 
-/// Approaches ℓ = 0, a flat hinge.
+/// Approaches a flat hinge, for which ℓ = Σ w_i x_i is 0 (compare/stages/bending.hpp).
 CaseData isometric_flat(Random& random) {
   const HingeShape shape = hinge_shape(random);
   return isometric_case(random, with_angle(shape, random.rung()), with_angle(shape, random.rung()));
@@ -309,7 +310,7 @@ CaseData isometric_damping(Random& random) {
   return question;
 }
 
-/// Replaces strain damping by another form.
+/// Replaces DampingForm::strain by the other DampingForm.
 template <CaseData (*make)(Random&)>
 CaseData bending_damped_otherwise(Random& random) {
   BendingCase question = case_of<BendingCase>(make(random));

@@ -333,7 +333,7 @@ CaseData seams(Random& random) {
 }
 
 /// Makes a fine case of a stack or of sheets: the radius differs from the gap by at most 10⁻⁵ of it, and jitter is at
-/// most 10⁻⁵. In a stack this gap is that of nearly every vertex and edge.
+/// most 10⁻⁵. In a stack nearly every vertex and edge has this gap.
 CaseData boundary(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 4> ladders{stack, stack, stack, sheets};
   random.be_fine();

@@ -1,5 +1,5 @@
-// Makes states for stage plane, in units of one edge length. General states are states of detection, with pairs within
-// r_q. Ladders approach
+// Makes states for stage plane, in units of one edge length. General states come from the generators of the detections,
+// with pairs within r_q. Ladders approach
 // - gaps of a few ulp, collapsed triangles and far origins, where planes cease to exist,
 // - vertices with more pairs than planes,
 // - pairs in which some or all vertices of a side are fixed.
@@ -35,8 +35,8 @@ PlaneCase with_planes(Random& random, const MeshCase& mesh, float query_radius) 
           fixed_flags(mesh.rigid_groups)};
 }
 
-/// Makes a case from the detections' generator of this name. Its r becomes r_q, because a larger r_q would give too
-/// many pairs.
+/// Makes a case from the detections' generator of this name. The r of the generated state becomes r_q, because a larger
+/// r_q would give too many pairs.
 CaseData of_detection(Random& random, std::string_view generator) {
   for (const Generator& row : detect_generators()) {
     if (row.name != generator) continue;

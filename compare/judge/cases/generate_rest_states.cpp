@@ -262,7 +262,8 @@ CaseData turned_rods(Random& random) {
   return finished(std::move(scene));
 }
 
-/// Makes five small bodies with equal, extreme and zero contact stiffnesses and frictions.
+/// Makes five small bodies with equal, extreme and zero contact stiffnesses and frictions. Each pair of bodies needs a
+/// MeetingMaterial.
 CaseData meetings(Random& random) {
   constexpr std::array<double, 6> stiffnesses{0, 0, 100, 100, 0x1p-30, 0x1p40},
       frictions{0, 0, 0.2f, 0.2f, 0x1p10, 0x1p-20};

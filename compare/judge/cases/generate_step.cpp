@@ -1,6 +1,6 @@
-// Makes scenes of one step, small enough for exact detections at every event. Sheets lie in planes z = const until one
-// symmetry of the cube is applied to all. Ladders approach what decides the order of events: the threshold of cut
-// vertices, the cap of r_q, contacts at the radius.
+// Makes scenes of one step, small enough for exact detections at every event (detection, guess round or sweep). Sheets
+// lie in planes z = const until one symmetry of the cube is applied to all. Ladders approach what decides the order of
+// events: the threshold of cut vertices, the cap of r_q (method.md §5.3), contacts at the radius.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -11,12 +11,12 @@ namespace ogc::compare {
 /// Collects parts of a mesh; vertices are numbered in the order in which they are added.
 struct MeshBuilder {
   std::vector<Vec3> points;         ///< in edge lengths
-  std::vector<Triangle> triangles;  ///< by numbers of points
+  std::vector<Triangle> triangles;  ///< by indices of points
   std::vector<Edge> loose_edges;
   std::vector<Index> groups;                   ///< as in Exclusions; if short, finish fills it with −1
   std::vector<std::array<Index, 2>> excluded;  ///< pairs of vertices, as in Exclusions
 
-  Index add(const Vec3& point);  ///< Returns the number of the new vertex.
+  Index add(const Vec3& point);  ///< Returns the index of the new vertex.
   /// Adds (nx + 1) × (ny + 1) vertices at origin + i u + j v, with two triangles a cell.
   void grid(int nx, int ny, const Vec3& origin, const Vec3& u, const Vec3& v);
   /// Adds `count` triangles about a vertex at `centre`, closed to a disk or open. The rim is at distance 1, lowered by
@@ -28,7 +28,7 @@ struct MeshBuilder {
   void append(const MeshBuilder& part, const Vec3& shift);
   /// Adds a shifted copy of the whole mesh.
   void repeat(const Vec3& shift) { append(MeshBuilder(*this), shift); }
-  /// Puts all vertices from number `first` on into a group.
+  /// Puts all vertices from index `first` on into a group.
   void group(Index first, Index number);
 };
 
@@ -62,7 +62,7 @@ RodPlan some_rod(Random& random);
 Mesh rod_mesh(Random& random, const RodPlan& plan);
 
 /// Turns a body made by rod_mesh into a rod with a stretch stiffness k_s of about `stretch` [N]. Bending is about as
-/// stiff for segments of this length [m]. ρ gives each vertex a mass of about `mass` [kg].
+/// stiff for segments of this length [m]. The density gives each vertex a mass of about `mass` [kg].
 void make_rod(Random& random, Body& body, double stretch, double length, double mass);
 
 }  // namespace ogc::compare

@@ -22,7 +22,7 @@ inline Vec3f single(const Vec3& a) {
 
 /// Returns the next larger number of single precision.
 inline float up(float x) { return std::nextafter(x, std::numeric_limits<float>::infinity()); }
-/// Returns x itself, one of its neighbours, or x (1 + rung).
+/// Returns x itself, the next smaller or larger number, or x (1 + rung).
 float beside(Random& random, float x);
 /// Returns a point of the box [low, high)³.
 Vec3 in_box(Random& random, double low, double high);

@@ -45,11 +45,11 @@ enum class Determinism : std::uint8_t {
   cpu_to_gpu   ///< on CPU and CUDA, if both are built without contraction (preset `strict`)
 };
 
-/// How cases of a stage are asked.
+/// Kinds of questions that the cases of a stage make.
 enum class CaseKind : std::uint8_t {
   single,   ///< a pair, a stencil or a vertex: many cases make one question
   mesh,     ///< a mesh, which makes one question
-  followed  ///< a mesh whose truth follows the contestant's answer, update by update; costly to judge
+  followed  ///< a mesh; the truth follows each update of the contestant's answer, which makes judging costly
 };
 
 /// A stage described in words: a row of the table in compare/README.md, which `ogc compare --list --markdown` prints.
@@ -58,7 +58,7 @@ struct StageInfo {
   std::string_view question;   ///< in a few words
   std::string_view unit;       ///< what counts as a case
   std::string_view reference;  ///< file of the reference's answer
-  CaseKind kind;               ///< how cases are asked
+  CaseKind kind;               ///< how cases make questions
   /// true if the answer has a discrete part; reports then count the cases near its boundary
   bool has_boundary;
   Determinism determinism;
@@ -68,7 +68,7 @@ struct StageInfo {
 struct MetricInfo {
   std::string_view name, unit;  ///< "force", "u cond"
   double tolerance;             ///< in that unit
-  /// Why our errors never come near the tolerance (compare/judge/engine/tally.hpp, loose_factor); empty if they do.
+  /// Why errors stay far below the tolerance (loose_factor in compare/judge/engine/tally.hpp); empty if they do not.
   std::string_view loose_because{};
 };
 
@@ -119,8 +119,8 @@ struct StageTraits {
   /// Returns the question that arises at the start of a scene's step, for benchmarks; null if the stage's own cases are
   /// used.
   CaseData (*of_scene)(const Scene&, const Contestant&);
-  /// Checks whether renumbering vertices and triangles leaves the answer the same; null if the answer depends on
-  /// numbers.
+  /// Checks whether renumbering vertices and triangles leaves the answer the same; null if the answer depends on their
+  /// indices.
   bool (*is_same_renumbered)(const TestCase&, Random&, const Contestant&);
 };
 
@@ -128,7 +128,7 @@ const StageTraits& traits_of(Stage stage);  ///< Returns the traits of a stage.
 
 const StageInfo& stage_info(Stage stage);  ///< Returns the stage in words.
 
-/// Returns the metrics of a stage, in the order of the numbers that Tally::error takes.
+/// Returns the metrics of a stage. Tally::error takes an index into this list.
 std::span<const MetricInfo> metrics(Stage stage);
 
 /// Returns the level's name, as "run_to_run".

@@ -43,7 +43,8 @@ class States {
   std::size_t frame(std::uint64_t index) const { return index % states_.size(); }
   std::size_t contact_frame(std::uint64_t index) const { return *frame_with_contact(frame(index)); }
 
-  /// Return cases of a whole frame. The detection case has r_q = r × 1 … cap; the block case has random questions.
+  /// Return cases of a whole frame. The detection case has r_q between r and its cap (method.md §5.3); the block case
+  /// has random questions.
   MeshCase whole(std::size_t frame, Random& random) const;
   PlaneCase plane(std::size_t frame, Random& random) const;
   BlockCase block(std::size_t frame, Random& random) const;

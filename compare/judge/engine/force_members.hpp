@@ -14,7 +14,7 @@
 namespace ogc::compare {
 
 // Each function calls visit(name, unit, member) for every member. The unit is "m" for lengths, "1" for pure numbers,
-// and "" for choices and numbers of vertices.
+// and "" for choices and indices of vertices.
 
 /// Visits the members of a triangle with a membrane.
 template <class Case, class Visit>

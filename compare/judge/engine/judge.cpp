@@ -1,5 +1,5 @@
-// Judges stages with several threads. Threads take batches by number and merge results in the same order, so threads
-// affect neither cases nor sums.
+// Judges stages with several threads. Threads take batches in ascending order and merge results in the same order, so
+// the number of threads affects neither cases nor sums.
 //
 // The number of batches that a mesh stage needs is unknown at the start. Merging stops when the wanted number of cases
 // is reached; batches beyond it are discarded. To discard few, threads do not begin batches far ahead of the merged
@@ -103,9 +103,9 @@ class GeneratorRun {
 
   bool is_over() const { return stopped_ || next_ == batches_; }
 
-  /// Returns how many batches may be begun beyond the merged ones. If the number of batches is known, these are four
-  /// for each thread. A mesh stage begins at most one for each thread, and at most as many as it still needs. This
-  /// number is estimated from the cases of the merged batches.
+  /// Returns how many batches may be begun beyond the merged ones: four for each thread if the number of batches is
+  /// known. A mesh stage begins at most one for each thread, and at most as many as it still needs. This number is
+  /// estimated from the cases of the merged batches.
   std::uint64_t ahead() const {
     if (!is_mesh_stage(stage_)) return 4 * options_.threads;
     if (merged_count_ == 0) return options_.threads;

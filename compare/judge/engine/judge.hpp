@@ -22,7 +22,7 @@ struct JudgeOptions {
   std::uint64_t seed = 1;        ///< seed of the generators
   /// threads that generate, call the authority and judge; one thread at a time calls the contestant
   unsigned threads = 2;
-  std::uint64_t batch = 1u << 14;  ///< cases in one question of a pair stage
+  std::uint64_t batch = 1u << 14;  ///< cases in one question of a stage with single cases
   std::string generator;           ///< the only generator to use; empty: all
   const States* states = nullptr;  ///< real states from which cases are also taken
   /// Called after each batch with the numbers of cases and of mismatches so far, by one thread at a time.

@@ -33,9 +33,9 @@ struct Primitives {
 /// A mesh of some primitives of a larger mesh. It has the vertices of these primitives, in their old order.
 struct MeshPart {
   std::shared_ptr<const Topology> topology;  ///< of the part
-  std::vector<Index> vertices;               ///< their numbers in the larger mesh
-  std::vector<std::size_t> edges;            ///< their numbers in the larger mesh
-  std::vector<std::size_t> triangles;        ///< their numbers in the larger mesh; empty if all are dropped
+  std::vector<Index> vertices;               ///< their indices in the larger mesh
+  std::vector<std::size_t> edges;            ///< their indices in the larger mesh
+  std::vector<std::size_t> triangles;        ///< their indices in the larger mesh; empty if all are dropped
 
   MeshPart(const Topology& whole, const Primitives& kept);
   /// Returns the entries that belong to the part's vertices, edges or triangles, from those of the larger mesh.

@@ -59,14 +59,15 @@ struct Mismatch {
 
 /// Counts of one generator, or of several.
 struct GeneratorTally {
-  /// numbers as in Tally::count, and the number of mismatches
+  /// counts as in Tally::count, and the number of mismatches
   std::uint64_t cases = 0, decisions = 0, grey = 0, near = 0, mismatches = 0;
-  /// grey decisions whose accepted answer differs from the exact one, or lies on the other side of a jump
+  /// grey decisions for which the answer is not the exact one, or lies on the other side of a jump
   std::uint64_t not_exact = 0;
 };
 
-/// Counts of one stage. In a mesh stage a case is a vertex (rest_state, bound, detect_vertex_facet), an edge
-/// (detect_edge_edge) or a question (block); in a step, a vertex at one event.
+/// Counts of one stage. In a mesh stage a case is
+/// - a vertex (rest_state, bound, detect_vertex_facet), an edge (detect_edge_edge) or a question (block),
+/// - in stage step a vertex at one event, that is, after one detection, guess round or sweep.
 class Tally {
  public:
   explicit Tally(Stage stage);
@@ -108,8 +109,8 @@ class Tally {
   double grey_share() const;
   /// Returns the share of cases within 2¹⁰ ulp of a decision boundary.
   double near_share() const;
-  /// Checks whether the share is compatible with grey_share_limit. Of n decisions m = n · limit may be grey; chance may
-  /// add 3 √m + 3. A Poisson count of mean m exceeds this in less than one run of a hundred.
+  /// Checks whether grey_share() is compatible with grey_share_limit. Of n decisions m = n · limit may be grey; chance
+  /// may add 3 √m + 3. A Poisson count of mean m exceeds this in less than one run of a hundred.
   bool grey_within_limit() const;
 
  private:

@@ -1,5 +1,5 @@
 // Makes the question of stage volume_depth for a detection of a step. It is made from the volumes of a scene and the
-// vertices that the volumes may push. Also converts answers between the numbers of the scene and of the question.
+// vertices that the volumes may push. Also converts answers between the indices of the scene and of the question.
 #pragma once
 
 #include <optional>
@@ -25,11 +25,11 @@ class VolumeQuestion {
   const std::vector<Index>& asking() const { return asking_; }
   /// Returns the question for a scene whose vertices are at these positions.
   VolumeDepthCase at(std::span<const Vec3f> positions) const;
-  /// Returns all accepted answers.
+  /// Returns all accepted answers to the question.
   static VolumeDepthTruth truth(const VolumeDepthCase& asked, const Authority& authority);
-  /// Returns the exact answer in the scene's numbers, rounded.
+  /// Returns the exact answer with the scene's indices, rounded.
   std::vector<VolumeContact> exact(const VolumeDepthCase& asked, const Authority& authority) const;
-  /// Converts an answer from the scene's numbers to those of the question. If it does not answer the question, returns
+  /// Converts an answer from the scene's indices to those of the question. If it does not answer the question, returns
   /// nothing and writes the reason into `problem`.
   std::optional<VolumeDepthOut> answer_of(const VolumeDepthOut& in_scene, std::string& problem) const;
 
@@ -37,7 +37,7 @@ class VolumeQuestion {
   const Topology& topology_;
   VolumeSurface surface_;
   std::shared_ptr<const Topology> own_;
-  /// tested vertices, and for each its own number if it is a vertex of a volume, otherwise −1
+  /// tested vertices; for each the same index if it is a vertex of a volume, otherwise −1
   std::vector<Index> asking_, asking_as_;
   float contact_radius_;
 };

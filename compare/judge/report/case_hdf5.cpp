@@ -25,8 +25,8 @@ Leaf leaf_of(const Json& json) {
   return json.is_string() && is_hexadecimal(json.get_ref<const std::string&>()) ? Leaf::single : Leaf::none;
 }
 
-/// A table: an array of numbers, or of arrays of equal length. `leaf` is the common type of its entries, `none` if
-/// there is none.
+/// A table: an array of numbers, or of arrays of equal length. `leaf` is the common type of its numbers; `none` if the
+/// JSON is no table of one type.
 struct Table {
   Leaf leaf = Leaf::none;
   std::size_t columns = 0;  ///< 0: an array of numbers

@@ -61,12 +61,12 @@ Quantity each(std::string name, std::string unit, const std::vector<Item>& items
   return numbers(std::move(name), std::move(unit), values);
 }
 
-/// Returns entries of n vertex numbers.
+/// Returns a list whose entries are n indices of vertices each.
 template <std::size_t n>
 Quantity indices(std::string name, const std::vector<std::array<Index, n>>& all) {
   return rows(std::move(name), "", all);
 }
-/// Returns a list of vertex numbers.
+/// Returns a list of indices of vertices.
 inline Quantity indices(std::string name, const std::vector<Index>& all) { return numbers(std::move(name), "", all); }
 
 /// Returns the quantity with labels for its entries.
@@ -75,7 +75,8 @@ inline Quantity labelled(Quantity quantity, std::vector<std::string> labels) {
   return quantity;
 }
 
-/// Return the parts of a mesh; and of a scene: settings that a stage reads, gravity, bodies with their materials.
+/// Return the arrays of a mesh, and the quantities of a scene: settings that a stage reads, gravity, bodies with their
+/// materials.
 std::vector<Quantity> mesh_quantities(const Topology& topology);
 std::vector<Quantity> scene_quantities(const Scene& scene);
 /// Returns a mesh with positions [m] and rigid groups by vertex, and excluded pairs if there are any.

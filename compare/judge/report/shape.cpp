@@ -83,8 +83,8 @@ class LegalMesh {
     return held;
   }
 
-  /// Returns a point beyond v, as seen from the centre of the first `count` points without v, at 1.5 times v's distance
-  /// from this centre. If v is at the centre, the direction is arbitrary.
+  /// Returns a point beyond v, at v + (v − c)/2 for the centre c of the first `count` points without v. If v is at c,
+  /// the direction is arbitrary.
   Vec3 away_from_others(std::size_t v, std::size_t count) const {
     Vec3 centre{};
     double spread = 0;

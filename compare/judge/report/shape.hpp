@@ -12,11 +12,11 @@ namespace ogc::compare {
 /// The points, triangles and lines of a case.
 struct Shape {
   std::vector<Vec3f> points;                    ///< [m]
-  std::vector<std::array<Index, 3>> triangles;  ///< by numbers of points
+  std::vector<std::array<Index, 3>> triangles;  ///< by indices of points
   std::vector<std::array<Index, 2>> lines;      ///< without the sides of triangles
   std::vector<Index> dots;                      ///< points that the question concerns
 
-  /// Returns the number of the new point.
+  /// Returns the index of the new point.
   Index add(const Vec3f& point);
   template <class Points>
   void add_all(const Points& more) {

@@ -35,7 +35,7 @@ struct WrongForm {
   bool is_vague = false;
 };
 
-/// Makes a form from an authority that has it as the truth.
+/// Makes a form. `wrong(authority)` returns an authority that makes the mistake and whose answer is the form's truth.
 WrongForm form_of(std::string name, std::string meaning, std::function<Authority(const Authority&)> wrong);
 
 /// Returns the forms of a stage. Some have a parameter found from the answers, for example how many contacts a list

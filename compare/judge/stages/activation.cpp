@@ -41,7 +41,7 @@ CaseData activation_radius(Random& random) {
   return ActivationCase{beside(random, r), r, static_cast<float>(random.magnitude(-1, 6))};
 }
 
-/// Approaches d = τ = r/2, where the quadratic and the logarithmic stage of the activation meet.
+/// Approaches d = τ = r/2, where the quadratic and the logarithmic piece of the activation meet.
 CaseData activation_switch(Random& random) {
   const float r = random.one_in(2) ? random.pattern() : 0.005f;
   return ActivationCase{beside(random, r / 2), r, static_cast<float>(random.magnitude(-1, 6))};
@@ -62,8 +62,8 @@ ActivationCase with_any_activation(Random& random, const CaseData& data) {
 
 CaseData activation_variants(Random& random) { return with_any_activation(random, activation_uniform(random)); }
 
-/// Approaches the places where an activation changes or terms cancel: d = r, d = τ (where logarithms may cancel, too)
-/// and d = 0.
+/// Approaches the distances where an activation changes or terms cancel: d = r, d = τ = r/2 (where logarithms may
+/// cancel, too) and d = 0.
 CaseData activation_ladders(Random& random) {
   switch (random.below(8)) {
     case 0: return with_any_activation(random, activation_touching(random));
@@ -142,8 +142,8 @@ bool is_logarithmic(const ActivationIn& in, std::size_t i) {
   return in.activation[i] == ContactActivation::ogc && 2 * double{in.distance[i]} < in.contact_radius[i];
 }
 
-/// Makes the form that multiplies k', the factor of the logarithmic stage. The energies of both stages remain equal at
-/// τ.
+/// Makes the form that multiplies k', the factor of the logarithmic piece (d < r/2). The energies of both pieces remain
+/// equal at d = r/2.
 WrongForm logarithm_times(float factor, std::string name, std::string meaning) {
   return form(std::move(name), std::move(meaning), &Authority::activation,
               [factor](const std::function<ActivationTruth(const ActivationIn&)>& right, const ActivationIn& in) {

@@ -1,4 +1,5 @@
-// Makes the traits of stage barrier. With D = squared distance, g = D − ξ² and H = d̂ (d̂ + 2ξ), ladders approach
+// Makes the traits of stage barrier. With D = squared distance, ξ = thickness, d̂ = activation distance, g = D − ξ² and
+// H = d̂ (d̂ + 2ξ), ladders approach
 // - g = H, above which energy, slope and curvature are 0,
 // - g = 0, where the logarithm grows,
 // - thicknesses ξ far above d̂.

@@ -1,6 +1,6 @@
 // Makes the traits of stage ccd. Generators start at the moment at which the faces are nearest, and extend the motion
 // backwards and forwards. Ladders approach
-// - rims that are barely hit or missed, parallel edges, motions in one plane,
+// - borders of faces that are barely hit or missed, parallel edges, motions in one plane,
 // - long slides at a small gap, gaps of 0, faces that touch at the start,
 // - edges that turn through each other.
 #include <algorithm>
@@ -140,7 +140,7 @@ CaseData lattice(Random& random) {
   return c;
 }
 
-/// Makes motions that hit or miss a rim or an end by a rung.
+/// Makes motions that hit or miss the border of a triangle or the end of an edge by a rung.
 CaseData grazing(Random& random) {
   Draft draft{.kind = some_kind(random), .at = random.unit()};
   const double a = random.rung(), b = random.one_in(2) ? random.rung() : inside(random);
@@ -182,7 +182,7 @@ CaseData gap(Random& random) {
   return placed(random, draft);
 }
 
-/// Makes motions in one plane, in which edges and rims meet.
+/// Makes motions in one plane. There faces can touch only at their edges and vertices.
 CaseData planar(Random& random) {
   Draft draft{.kind = some_kind(random)};
   draft.x = points_in_box(random);

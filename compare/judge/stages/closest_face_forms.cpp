@@ -295,8 +295,8 @@ constexpr unsigned inside_bit = 1u << static_cast<unsigned>(TriangleFeature::int
 /// A bound of the rounding error of a sum of three weights, each with ten roundings in double.
 constexpr double sum_rounding = 30 * 0x1p-53;
 
-/// Makes the form that decides by areas whether the foot is inside: the areas of its three triangles, added without
-/// signs, exceed the triangle's area by at most `slack(area)` [twice m²].
+/// Makes the form that decides by areas whether the foot is inside. It is inside if the areas of its three triangles,
+/// added without signs, exceed the triangle's area by at most `slack(area)`. All areas are doubled [m²].
 template <class Slack>
 WrongForm areas_add_up(std::string name, const std::string& slack_text, Slack slack) {
   return face_told(std::move(name),
@@ -307,8 +307,8 @@ WrongForm areas_add_up(std::string name, const std::string& slack_text, Slack sl
                      if (truth.exact.feature[i] == TriangleFeature::interior ||
                          !((sum_of(w) - 1) * seen.area() <= slack(seen.area())))
                        return;
-                     // The foot is on the rim. There the areas add up to the triangle's area, so the form accepts the
-                     // right feature and the interior.
+                     // The foot is on the triangle's boundary. There the areas add up to the triangle's area, so the
+                     // form accepts the right feature and the interior.
                      if (sum_of(w) - 1 <= sum_rounding) {
                        truth.accepted[i] = static_cast<std::uint8_t>(truth.accepted[i] | inside_bit);
                        return;

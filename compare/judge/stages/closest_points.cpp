@@ -256,7 +256,8 @@ double parallelism(const std::array<Vec3f, 2>& first, const std::array<Vec3f, 2>
 
 double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/// Answers by the rule for nearly parallel edges at any angle: with the middle of the overlap, if there is one.
+/// Answers by the rule for nearly parallel edges at any angle: the first contact point is the middle of the overlap, if
+/// there is one.
 void with_parallel_rule(const ClosestPointsIn& in, ClosestPointsTruth& truth, std::size_t i) {
   const auto& [a, a_end] = in.first[i];
   const auto& [b, b_end] = in.second[i];

@@ -125,9 +125,10 @@ inline double length(const Vec3f& a, const Vec3f& b) {
   return std::hypot(double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z);
 }
 
-/// Returns a scale for the error of a smallest distance. The exact scale is that of the nearest pair, max(d, Σ|δ|), but
-/// the judge does not know this pair. All its points are within d + (longest sides) of the case's first vertex, so each
-/// |δ| is at most √3 times that. A pair of four vertices has three δ.
+/// Returns an upper estimate of the unit of a smallest distance's error. The exact unit is max(d, Σ|δ|) of the nearest
+/// pair, but the judge does not know this pair. δ is a vertex of the pair relative to its first vertex, and |δ| sums
+/// the moduli of the coordinates of δ. Each δ is at most d + (longest sides) long, so |δ| is at most √3 times that. A
+/// pair of four vertices has three δ.
 inline double pair_scale(double d, double sides) { return 3 * std::sqrt(3.0) * (d + sides); }
 
 /// A stage whose answer is the contacts of a state. `S::kept(out)` returns the contacts as a set; `S::moved(out, to)`
@@ -207,11 +208,11 @@ struct DetectionStage : MeshStage<S, contestant, authority>, InEveryRun {
                ? ""
                : "grey: " + std::to_string(truth.grey.size()) + " decisions may go either way; the exact one is shown";
   }
-  /// Lists the exact answer in the form of a contestant's answer.
+  /// Lists the exact answer, with the same outputs as a contestant's answer.
   static std::vector<Quantity> outputs(const In& in, const Truth& truth) { return S::outputs(in, truth.exact); }
 
   /// Checks whether renumbering keeps the contacts. Owners and generating edges are not compared, because they depend
-  /// on numbers. Smallest distances are not compared, because their rounding depends on the order of corners and edges.
+  /// on indices. Smallest distances are not compared, because their rounding depends on the order of corners and edges.
   /// The check holds only for generic cases: for collapsed triangles or edges a contestant may break ties by order.
   static bool is_same_renumbered(const TestCase& test, Random& random, const Contestant& c) {
     const auto& before = case_of<Case>(test.data);
@@ -257,7 +258,7 @@ std::vector<WrongForm> question_forms(Detection<Truth> stage) {
           })};
 }
 
-/// Returns the number of the list that holds a contact: its vertex, triangle or edge, or one number for all contacts.
+/// Returns the index of the list that holds a contact: its vertex, triangle or edge, or one index for all contacts.
 template <class Contact>
 using Owner = Index (*)(const Contact&);
 

@@ -1,5 +1,5 @@
-// Makes the traits of stage initial_guess. Ladders approach bounds: a generator sets b_v to 1 + rung times ‖y − X_prev‖
-// in double. This differs from every contestant's value by only a few roundings to single precision.
+// Makes the traits of stage initial_guess. Ladders approach bounds: a generator sets b_v to (1 + rung) ‖y − X_prev‖ in
+// double. This differs from every contestant's value by only a few roundings to single precision.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,6 @@
-// Makes the traits of stage plane. An answer may choose the pairs for which it stores planes, so the truth is about the
-// answer: which pairs its planes and balls do not separate, and where they restrict vertices more than necessary.
+// Makes the traits of stage plane. An answer may choose the pairs for which it stores planes, so the truth is about one
+// answer: which pairs the answer's planes and balls do not separate, and where they restrict vertices more than
+// necessary.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -279,7 +280,7 @@ struct Plane : Numbered, InEveryRun {
   }
   static In question_of(const TestCase& test) { return question(case_of<Case>(test.data)); }
   static bool can_judge(const Contestant& c, const Authority& a) { return c.plane && a.plane; }
-  /// Calls the contestant first, because the truth follows the answer.
+  /// Calls the contestant first, because the truth is about the contestant's answer.
   static void ask(Cases cases, const Contestant& c, const Authority& a, Asker& asker, Tally& tally) {
     for (const TestCase& test : cases) {
       const In in = question_of(test);

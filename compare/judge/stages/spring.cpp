@@ -1,6 +1,6 @@
 // Makes the traits of stage spring. Ladders approach the rest length, length 0, a rest length of 0, and motion across
-// the spring, which strain damping ignores. Ladders of seams approach closed springs between a vertex and a point of an
-// edge, and points at the edge's ends.
+// the spring, which strain damping ignores. A seam is a spring between a vertex and a point of an edge. Ladders of
+// seams approach length 0, and points at the edge's ends.
 #include <array>
 #include <cmath>
 
@@ -104,7 +104,7 @@ CaseData stitch(Random& random) {
   return spring_case(random, size * random.rung(), size * random.rung(), 0);
 }
 
-/// Makes seams of any shape, open or nearly closed.
+/// Makes seams of any shape and length, also of nearly 0.
 CaseData seam(Random& random) {
   const double edge = some_length(random),
                length = edge * (random.one_in(2) ? random.magnitude(-1, 0.5) : std::abs(random.rung()));
@@ -112,21 +112,21 @@ CaseData seam(Random& random) {
                    random.one_in(2) ? 0 : length * random.magnitude(-0.5, 0.5), true);
 }
 
-/// Puts the point at an end of the edge, at its middle or its quarters, without rounding, closed or open.
+/// Puts the point at an end of the edge, at its middle or its quarters, without rounding. The length may be 0.
 CaseData seam_lattice(Random& random) {
   const double edge = std::ldexp(1.0, random.below(9) - 8);
   const double ratio = 0.25 * random.below(5);
   return seam_case(random, edge, ratio, edge * random.below(3), edge * random.below(3), edge * random.below(2), false);
 }
 
-/// Approaches s = 0 and s = 1, where the point on the edge is an end.
+/// Approaches ratios of 0 and 1, at which the point on the edge is an end.
 CaseData seam_end(Random& random) {
   const double edge = some_length(random), rung = std::abs(random.rung());
   return seam_case(random, edge, std::min(1.0, random.one_in(2) ? rung : 1 - rung), edge * random.magnitude(-2, 0),
                    edge, 0, random.one_in(2));
 }
 
-/// Makes seams that are closed or nearly closed: l and l₀ approach 0 independently.
+/// Makes seams whose l and l₀ approach 0 independently.
 CaseData closed(Random& random) {
   const double edge = some_length(random), ratio = random.unit(), length = edge * std::abs(random.rung()),
                before = edge * std::abs(random.rung());

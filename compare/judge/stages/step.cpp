@@ -121,7 +121,8 @@ struct Step : TakenWhole, Numbered {
     return c.step && a.step && a.rest_state && a.detect_vertex_facet && a.detect_edge_edge && a.bound &&
            a.initial_guess && a.truncate && a.sweep && a.volume_depth;
   }
-  /// Calls the contestant first: the truth follows the answer, and each event of the answer makes a question.
+  /// Calls the contestant first: the truth is about the contestant's answer, and each event of the answer makes a
+  /// question.
   static void ask(Cases cases, const Contestant& c, const Authority& a, Asker& asker, Tally& tally) {
     for (const TestCase& test : cases) {
       const StepIn in = question(test);

@@ -1,5 +1,6 @@
-// Judges a step. Each event is judged by its own stage, starting from the answer's state before it, so that the message
-// names the first wrong event. This event ends the case, because later events may be too wrong to make legal questions.
+// Judges a step. Each event is judged by its own stage, starting from the answer's state before the event, so that the
+// message names the first wrong event. The first wrong event ends the case, because later events may be too wrong to
+// make legal questions.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -290,7 +291,7 @@ class StepVerdict {
       }
       const bool is_cut = !(event.position[v] == out_.target[v]);
       cuts.certain += is_cut;
-      // in the guess loop the block is inertia alone
+      // in the guess loop H is that of inertia, which half_spaces_of sets
       const auto planes = detection_->planes.of(static_cast<Index>(v));
       const TruncateIn question{{at_[v]},
                                 {out_.target[v]},

@@ -327,7 +327,7 @@ struct Sweep : TakenWhole, Numbered, OwnCases {
     return c.sweep && a.sweep && a.rest_state && a.detect_vertex_facet && a.detect_edge_edge && a.bound &&
            a.volume_depth;
   }
-  /// Calls the contestant first, because the truth follows the answer.
+  /// Calls the contestant first, because the truth is about the contestant's answer.
   static void ask(Cases cases, const Contestant& c, const Authority& a, Asker& asker, Tally& tally) {
     for (const TestCase& test : cases) {
       const SweepQuestion question(case_of<Case>(test.data), a);

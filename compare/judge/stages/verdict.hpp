@@ -19,13 +19,14 @@ namespace ogc::compare {
 /// is never above the exact distance.
 void judge_closest_face(Cases cases, const ClosestFaceIn& in, const ClosestFaceTruth& truth, const ClosestFaceOut& out,
                         Tally& tally);
-/// Checks that the combination of features and nearly-parallel flag is accepted. If it is not the exact one, contact
-/// points may be elsewhere; then only their ranges and the one-sided distance are checked.
+/// Checks that the combination of features and nearly-parallel flag is accepted. If the flag is not the exact one, the
+/// contact points are elsewhere. Then only the ranges of the parameters, `distance_below`, and `contact_distance` ≥
+/// `distance_below` are checked.
 void judge_closest_points(Cases cases, const ClosestPointsIn& in, const ClosestPointsTruth& truth,
                           const ClosestPointsOut& out, Tally& tally);
 void judge_activation(Cases cases, const ActivationIn& in, const ActivationTruth& truth, const ActivationOut& out,
                       Tally& tally);
-/// Judges the position of one truncated vertex; `metric` is the number of its error's metric.
+/// Judges the position of one truncated vertex; `metric` is the index of the error's metric.
 void judge_position(const Vec3f& previous, const Vec3f& asked, float bound, const Vec3& exact, const Vec3f& stored,
                     bool cut, std::size_t metric, Tally& tally);
 /// Checks exactly, by the judge's own arithmetic, that the stored position obeys the bound. Also checks `cut` and the
@@ -57,23 +58,24 @@ void judge_detect_vertex_facet(const TestCase& test, const DetectVertexFacetTrut
                                const DetectVertexFacetOut& out, Tally& tally);
 void judge_detect_edge_edge(const TestCase& test, const DetectEdgeEdgeTruth& truth, const DetectEdgeEdgeOut& out,
                             Tally& tally);
-/// Checks whether the truth can follow the answer, which needs one finite position for each vertex. Reports a mismatch
-/// if not.
+/// Checks whether the answer has one finite position for each vertex and one finite orientation for each segment, so
+/// that the truth about it can be computed. Reports a mismatch if not.
 bool can_judge_sweep(const TestCase& test, const SweepIn& in, const SweepOut& out, Tally& tally);
 /// Checks exactly, by the judge's own arithmetic, that each stored position obeys its bound. Also checks that each
 /// position is accepted by the truth about this answer.
 void judge_sweep(const TestCase& test, const SweepIn& in, const SweepTruth& truth, const SweepOut& out, Tally& tally);
 
-/// Checks that events follow each other as Algorithm 3 prescribes. Each event is judged by its own stage, which starts
-/// from the answer's state before the event; the authority answers its question.
+/// Checks that the events (detections, guess rounds, sweeps) follow each other as Algorithm 3 prescribes. Each event is
+/// judged by its own stage. Its question starts from the answer's state before the event, and the authority answers it.
 void judge_step(const TestCase& test, const StepIn& in, const StepTruth& truth, const StepOut& out,
                 const Authority& authority, Tally& tally);
 /// Checks whether each array by vertex has one entry for each vertex. Reports a mismatch if not.
 bool can_judge_step(const TestCase& test, const StepIn& in, const StepOut& out, Tally& tally);
-/// Checks whether the truth can follow the answer; reports a mismatch if not. The answer needs one row and one ball for
-/// each vertex, finite numbers, and planes of pairs that contain their vertex.
+/// Checks whether the answer is complete and valid enough to compute the truth about it; reports a mismatch if not. The
+/// answer needs one bound and one row for each vertex. A row has finite planes in ascending order of pairs that contain
+/// the vertex; it is empty for a fixed vertex.
 bool can_judge_plane(const TestCase& test, const PlaneIn& in, const PlaneOut& out, Tally& tally);
-/// Checks that every pair is separated, and that no vertex is restricted more than this requires.
+/// Checks that every pair is separated, and that no vertex is restricted more than the separation requires.
 void judge_plane(const TestCase& test, const PlaneIn& in, const PlaneTruth& truth, const PlaneOut& out, Tally& tally);
 /// Judges each part separately. A point inside a part of triangles must have one contact, which is accepted. A point
 /// outside must have all certain contacts, and may have possible ones. In a part of tetrahedra each certain sheet with

@@ -1,5 +1,6 @@
-// Makes the traits of stage volume_force. In the canonical frame c is at the origin and n along z, so that φ and the
-// slip along n are single coordinates. Ladders approach
+// Makes the traits of stage volume_force. In the canonical frame the point c of the volume's triangle is at the origin
+// and the direction n out of the volume along z, so that φ and the slip along n are single coordinates. Ladders
+// approach
 // - φ = r, a slip of 0, a slip of ε_v h, and motion along n,
 // - weights of 0 (edges and corners of the volume),
 // - depths of many radii, and small and large units.

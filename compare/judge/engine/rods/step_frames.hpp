@@ -27,9 +27,9 @@ std::string wrong_orientation_count(const Scene& scene, const StepOut& out);
 /// `wrong` names it.
 TurnedFrames start_frames(const StepIn& in, const StepOut& out, std::string& wrong);
 
-/// Returns turns for the guess loop, which ended at x. They are those of free segments if the scene's rod_start turns
-/// them, and those of prescribed segments if their motion does not define a turn. If another segment has a wrong frame,
-/// `wrong` names it.
+/// Returns the turns of segments in the guess loop, which ended at x. Free segments have turns if the setting rod_start
+/// is `turned`. Prescribed segments have turns if their motion does not define them. If another segment has a wrong
+/// frame, `wrong` names it.
 TurnedFrames turned_frames(const StepIn& in, const StepOut& out, const std::vector<Vec3f>& x, std::string& wrong);
 
 }  // namespace ogc::compare

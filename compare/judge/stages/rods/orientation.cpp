@@ -34,7 +34,7 @@ using rod_cases::single;
 /// A segment to be built. D and Dᵗ are given by strains relative to the frames `aim` and qᵗ.
 struct Draft {
   double length = 1;     ///< l [m]
-  Four aim{0, 0, 0, 1};  ///< D has its director, except for the strain
+  Four aim{0, 0, 0, 1};  ///< an orientation; D is its director times l, except for the strain
   Four old{0, 0, 0, 1};
   Four start{0, 0, 0, 1};         ///< qᵗ
   Vec3 strain{}, strain_start{};  ///< strain of D relative to aim, of Dᵗ relative to qᵗ
@@ -76,7 +76,8 @@ OrientationCase placed(Random& random, const Draft& draft) {
   return question;
 }
 
-/// Returns σ of an undamped segment at its rest length [N m].
+/// Returns σ of an undamped segment at its rest length [N m], the stiffness that pulls the director to D
+/// (compare/rods.md).
 double stiffness_of(const OrientationCase& question) { return 2.0 * question.stretch * question.rest_length; }
 
 /// Returns a weight of similar size to the segment's σ.
@@ -237,7 +238,7 @@ CaseData sign(Random& random) {
   return question;
 }
 
-/// Returns a target with the director −D: the aim after a half turn about an axis across it, except for a rung.
+/// Returns a target whose director is −D/‖D‖: the aim after a half turn about an axis across D, except for a rung.
 Four against(Random& random, const Draft& draft) {
   const double angle = random.between(0, 2 * std::numbers::pi);
   const Four half{std::cos(angle), std::sin(angle), 0, 0};
@@ -250,7 +251,8 @@ Draft straight(Random& random) {
   return draft;
 }
 
-/// Approaches β₊ = 0: the directors of all targets are opposite to D.
+/// Approaches β₊ = 0, where neighbours do not pull towards D (β₊ is in compare/rods.md): the directors of all targets
+/// are opposite to D.
 CaseData reversed(Random& random) {
   if (random.one_in(2)) random.be_fine();
   const Draft draft = straight(random);
@@ -267,7 +269,8 @@ CaseData reversed(Random& random) {
   return question;
 }
 
-/// Approaches β₋ = 2σ with targets whose directors are opposite to D. There neighbours and stretch balance.
+/// Approaches β₋ = 2σ (compare/rods.md) with targets whose directors are opposite to D. There the pull of neighbours
+/// towards −D and the stretch balance.
 CaseData balance(Random& random) {
   const Draft draft = straight(random);
   OrientationCase question = placed(random, draft);
@@ -277,7 +280,8 @@ CaseData balance(Random& random) {
   return question;
 }
 
-/// Approaches b = 0: the targets of both neighbours are nearly half turns from the old q in opposite senses.
+/// Approaches b = 0, where the pulls of both neighbours cancel: their targets are nearly half turns from the old q in
+/// opposite senses.
 CaseData opposed(Random& random) {
   if (random.one_in(2)) random.be_fine();
   const Draft draft = near_rest(random);
@@ -292,7 +296,7 @@ CaseData opposed(Random& random) {
   return question;
 }
 
-/// Makes ‖b‖ ≪ σ and ‖b‖ ≫ σ, with ratios of up to 10¹⁴.
+/// Makes ‖b‖ ≪ σ and ‖b‖ ≫ σ, that is, weak and strong neighbours, with ratios of up to 10¹⁴.
 CaseData stiff(Random& random) {
   const Draft draft = near_rest(random);
   OrientationCase question = placed(random, draft);

@@ -24,7 +24,7 @@ void set_material(Random& random, RodCase& question) {
   question.own = random.below(2);
 }
 
-/// Returns a segment at a random place that runs along D, and ran along Dᵗ at the start.
+/// Returns a segment at a random position with D = `apart` and Dᵗ = `before`, where D is x₁ − x₀.
 CaseData placed(Random& random, double rest_length, const Vec3& apart, const Vec3& before, const Four& q,
                 const Four& start, bool around = true) {
   RodCase question;

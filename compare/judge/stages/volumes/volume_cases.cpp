@@ -194,7 +194,7 @@ CaseData lattice(Random& random) {
                 std::ldexp(1.0, random.below(21) - 10));
 }
 
-/// Makes points at these heights above places of a body.
+/// Makes points at heights `height_of` above feet on a body's surface, which `place_of` returns.
 template <class PlaceOf, class HeightOf>
 CaseData beside(Random& random, VolumeBody body, PlaceOf place_of, HeightOf height_of) {
   const double radius = some_radius(random);
@@ -301,7 +301,7 @@ CaseData units(Random& random) {
   const bool is_small = random.one_in(2);
   return placed(random, std::move(body), std::move(points), radius, !is_small, is_small ? small : large);
 }
-/// Takes cases with rungs of at most 10⁻⁵, next to the places where answers change.
+/// Takes cases with rungs of at most 10⁻⁵, next to positions where answers change.
 CaseData boundary(Random& random) {
   random.be_fine();
   switch (random.below(4)) {
