@@ -43,8 +43,8 @@ struct IterationMetrics {
   std::int64_t vertices_cut = 0;         ///< vertices cut in this iteration
   std::int64_t detected = 0;             ///< 1 if contacts were detected anew for this state
   double condition_number = 0;           ///< condition number of the matrix; not-a-number unless requested
-  /// Condition numbers of the matrix without friction terms, and without contact and friction terms. If such a matrix
-  /// is not positive definite, its terms are replaced by their projections.
+  /// Condition numbers of the matrix without friction terms, and without contact and friction terms. A matrix that is
+  /// not positive definite is replaced by the sum of its terms' projections.
   double condition_without_friction = 0, condition_without_contact = 0;
   /// counts of this iteration; StepMetrics defines them
   std::int64_t broad_phases = 0, discrete_detections = 0, continuous_detections = 0;
@@ -64,7 +64,7 @@ struct StepLedger {
   /// parts of motion_taken along, and away from, the nearest pair
   double motion_taken_tangential = 0, motion_taken_leaving = 0;
   double motion_taken_unpaired = 0;  ///< part of motion_taken at vertices without a pair within r_q
-  /// number of vertices that end where they began, and of vertices that truncation held there
+  /// number of free vertices whose step ends at xᵗ bit for bit, and of those that the last iteration cut
   double vertices_still = 0, vertices_held = 0;
 };
 
@@ -76,8 +76,8 @@ struct StepMetrics {
   std::int64_t vertex_facet_contacts = 0, edge_edge_contacts = 0;  ///< at the last detection
   /// number of passes that built or refitted the trees and searched them once for all pairs
   std::int64_t broad_phases = 0;
-  /// number of times that contacts or distances of all pairs were found at one state; a check that only guards a search
-  /// is not counted
+  /// number of times that contacts or distances of all pairs were found at one state; checks of a line search for
+  /// intersections are not counted
   std::int64_t discrete_detections = 0;
   /// number of times that the first contact of all pairs, or of the active pairs, was found along one motion
   std::int64_t continuous_detections = 0;
@@ -174,7 +174,8 @@ struct Contestant {
   /// Whether its steps implement bounds=planes and bounds=dat. False for plug-ins: the trace in compare/plugin.h has no
   /// planes.
   bool has_steps_with_planes = true;
-  /// Whether its planes divide gaps by approach. False for plug-ins: compare/plugin.h has no displacements.
+  /// Whether its planes divide a gap by the approach of both sides (bounds=dat). False for plug-ins: compare/plugin.h
+  /// has no displacements.
   bool divides_by_approach = true;
   /// Whether the judge tests it with volumes that have cavities. False for plug-ins: compare/plugin.h cannot describe
   /// cavities.

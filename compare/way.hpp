@@ -12,8 +12,8 @@ namespace ogc::compare {
 class WayTeller {
  public:
   virtual ~WayTeller() = default;
-  /// Runs one step and returns the row of Simulation::advance(1); sets `states` to X_prev [m] of each detection.
-  /// Changes no bit; the time of the row includes the copies of these states.
+  /// Runs one step as Simulation::advance(1) does, with the same result bit for bit, and returns its row. Sets `states`
+  /// to X_prev [m] of each detection. The time of the row includes the copies of these states.
   virtual std::vector<StepMetrics> advance_telling(std::vector<std::vector<Vec3f>>& states) = 0;
 };
 

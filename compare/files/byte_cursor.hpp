@@ -38,7 +38,7 @@ class ByteCursor {
     return bytes_.substr(at_ - count, count);
   }
 
-  /// Returns a number of entries of `size` bytes each; fails if the file has fewer bytes left.
+  /// Returns `count`, the announced number of entries of `size` bytes each; fails if the file has fewer bytes left.
   std::size_t counted(double count, std::size_t size, const std::string& what) const {
     if (!(count >= 0 && count <= static_cast<double>(left() / size)))
       fail(shortest(count) + " " + what + " can't stand in the " + std::to_string(left()) +

@@ -1,7 +1,7 @@
 // Wraps the part of HDF5's C interface that run folders need, with ownership and errors of C++. Only .cpp files include
-// HDF5's header; its printed error stacks are off. Debian's library is built for one thread, so every call into it
-// holds one lock. Any thread may use files, but each file only one thread at a time. Packing, which is slow, happens
-// without the lock (packing.hpp).
+// HDF5's header. HDF5 does not print its own error messages. Debian's library is built for one thread, so every call
+// into it holds one lock. Any thread may use files, but only one thread at a time may use one file. Packing, which is
+// slow, happens without the lock (packing.hpp).
 #pragma once
 
 #include <cstdint>
@@ -66,7 +66,7 @@ class Hdf5File {
 
   /// Writes an array that is already packed.
   void write_packed(const std::string& name, const PackedArray& array);
-  /// Reads a dataset of floats in packed form. If the file stores it in another form, it is packed after reading.
+  /// Reads a dataset of floats as a packed array. If the file does not store it so, it is packed after reading.
   PackedArray read_packed(const std::string& name) const;
   /// Makes a dataset without rows, for append_packed.
   void create_growing(const std::string& name, std::size_t columns, std::size_t chunk_rows);

@@ -28,7 +28,7 @@ Hdf5Handle packed_list(std::size_t columns, std::size_t chunk_rows) {
   return list;
 }
 
-/// Returns whether a dataset with this creation list stores its chunks in the form that `pack` produces.
+/// Returns whether a dataset with this creation list stores its chunks as `pack` produces them.
 bool is_packed_so(hid_t list, int rank, std::size_t columns, std::size_t chunk_rows) {
   Extents chunk{};
   if (H5Pget_layout(list) != H5D_CHUNKED || H5Pget_chunk(list, 2, chunk.data()) != rank) return false;

@@ -1,5 +1,5 @@
-// Reads JSON strictly: an unknown key is an error, and every error names its place. Problems are collected, so that one
-// run lists all of them.
+// Reads JSON strictly: an unknown key is an error, and every error names its line or the path of the value. Problems
+// are collected, so that one run lists all of them.
 #pragma once
 
 #include <functional>

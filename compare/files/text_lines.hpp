@@ -44,9 +44,10 @@ class TextLines {
 
   /// Returns the next word as a whole number. For another word, or none, throws InputError that names `what`.
   std::int64_t integer(const std::string& what) { return integer(word(), what); }
-  /// the same for a word that was already read
+  /// Converts a word that was already read; throws in the same way.
   std::int64_t integer(std::string_view found, const std::string& what) const;
-  /// Returns a number of entries of at least `least` bytes each; fails if the file has fewer bytes left.
+  /// Returns the number of entries that the word `found` announces. Fails if the file has fewer than `least` bytes left
+  /// for each.
   std::size_t count(std::string_view found, const std::string& what, std::size_t least = 1) const;
 
   /// Goes to the next line that has a word. If the file ends before it, throws InputError that names `what`.

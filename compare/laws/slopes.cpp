@@ -13,9 +13,10 @@
 // Tolerances. The normal force λ of friction lags by up to one solve or sweep. Barriers have no force at the start of a
 // motion, so their λ lags by another step (law_measures::lagged_steps). If λ lags by n steps of a slide of duration T,
 // friction's impulse misses up to n h μ m g cos α. That is a share n h/T of the velocity that friction changes, and a
-// share 2 n h/T of the way that it changes. Sweeps end with an error of λ; they are required to reach force_left of the
-// weight. An error e of λ changes the acceleration by the share e μ cos α over (sin α − μ cos α). Without friction
-// nothing acts along the floor but truncation: the guess loop may end with up to γ_e = 1 % of the vertices cut.
+// share 2 n h/T of the distance that it changes. Sweeps end with an error of λ; they are required to reach force_left
+// of the weight. An error e of λ changes the acceleration by the share e μ cos α over (sin α − μ cos α). Without
+// friction nothing acts along the floor but truncation: the guess loop may end with up to γ_e = 1 % of the vertices
+// cut.
 #include <cmath>
 
 #include "compare/laws/groups.hpp"
@@ -76,7 +77,7 @@ Scene block_on(const char* name, const Slope& slope, std::int64_t steps) {
   return scene;
 }
 
-/// Way [m] and velocity [m/s] by the discrete law, computed from the scene's own numbers.
+/// Distance [m] and velocity [m/s] by the discrete law, computed from the scene's own numbers.
 struct Slid {
   double way = 0, velocity = 0;
 };
@@ -91,8 +92,8 @@ Slid slid_down(const Trajectory& run, std::size_t steps) {
   return now;
 }
 
-/// Relative errors of a way and of a velocity that friction alone changes, caused by the lag of friction's normal force
-/// and by unfinished sweeps. The lag counts twice for a way.
+/// Relative errors of a distance and of a velocity that friction alone changes, caused by the lag of friction's normal
+/// force and by unfinished sweeps. The lag counts twice for a distance.
 struct Share {
   double way = 0, velocity = 0;
 };
@@ -160,7 +161,7 @@ std::vector<Reading> read_frictionless(std::span<const Trajectory> runs) {
            .tolerance = share * law.velocity}};
 }
 
-/// Reads the way until the body rests, after v/(μ g), and checks that it rests.
+/// Reads the distance until the body rests, after the time v/(μ g), and checks that it rests.
 std::vector<Reading> read_stop(std::span<const Trajectory> runs) {
   const Trajectory& run = runs[0];
   const Slid law = slid_down(run, run.rows.size());

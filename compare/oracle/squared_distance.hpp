@@ -41,7 +41,7 @@ struct LeastSquare {
 /// Keeps a number that is not above the least quotient.
 struct SquareBelow {
   double value = std::numeric_limits<double>::infinity();  ///< lower bound of the smallest quotient
-  /// Keeps a lower bound of n/d if it is less than the value so far; 0 if d may be 0.
+  /// Keeps a lower bound of n/d if it is less than the value so far. The lower bound is 0 if d may be 0.
   void offer(const Interval& n, const Interval& d) { value = std::min(value, d.inf() > 0 ? (n / d).inf() : 0.0); }
 };
 

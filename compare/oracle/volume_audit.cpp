@@ -1,6 +1,7 @@
 // Computes winding numbers from the crossings of a ray along +x. The ray starts at (x, y + ε, z + ε²) with vanishing ε,
-// so that it meets no edge; if x is not on the surface, the winding number there is that at x. The ray crosses a
-// triangle if x lies inside the triangle's projection along the x axis, and the triangle's plane lies ahead.
+// so that it meets no edge. This start and the point have the same winding number if the point is not on the surface.
+// The ray crosses a triangle if the point lies inside the triangle's projection along the x axis, and the triangle's
+// plane lies ahead.
 #include "compare/oracle/volume_audit.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -54,8 +55,8 @@ double to_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
   return std::hypot(w.x - s * e.x, w.y - s * e.y, w.z - s * e.z);
 }
 
-/// Returns the rounded distance to a triangle. If rounding leaves open whether the closest point of the plane is
-/// inside, the distance to the outline is returned, which is then as small.
+/// Returns the rounded distance to a triangle. If rounding leaves open whether the closest point of the plane is inside
+/// the triangle, the distance to the triangle's sides is returned, which then differs only by rounding.
 double to_triangle(const Vec3& x, const Corners& t) {
   const Vec3 n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
   const double square = dot(n, n);

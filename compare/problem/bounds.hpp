@@ -16,7 +16,7 @@ struct BoundsTraits {
   bool certifies = true;    ///< whether vertices within their bounds meet nothing until the next detection
   bool has_planes = false;  ///< whether near pairs have planes
   bool divides = false;  ///< whether displacements decide how a plane divides its gap; otherwise the halves are equal
-  bool slides = true;    ///< whether a cut vertex slides into its region; otherwise it stops on its way from X_prev
+  bool slides = true;    ///< whether a cut vertex slides into its region; otherwise it stops on its path from X_prev
 };
 
 /// Returns the traits of a policy.

@@ -21,8 +21,8 @@ std::string lines(const std::vector<std::size_t>& lines, std::initializer_list<I
   return (elements.size() == 1 ? "line " : "lines ") + text;
 }
 
-/// Returns the place of an element in its file, which is its line. Bodies of a scene have several files, so there the
-/// file's name comes first.
+/// Returns where an element is in its file: its line. If `body` names a body of a scene, the file's name comes first,
+/// because a scene may have several files.
 std::string file_and_line(const std::string& body, const MeshSource& source, const std::string& line) {
   if (body.empty()) return line;
   return source.file + (line.empty() ? "" : ", " + line);

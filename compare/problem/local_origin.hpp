@@ -11,9 +11,9 @@ namespace ogc::compare {
 
 /// Returns an origin near the centre of the positions' bounding box. Along an axis it is 0, unless the box's centre is
 /// at least 16 times the box's length from 0. Then it is a multiple of the largest power of two that is not above that
-/// length, so that differences from it are exact in double. Relative to the origin single precision resolves the box's
-/// length along this axis with 23 bits, along an axis with origin 0 with at least 20. The origin is 0 for positions
-/// that are not finite.
+/// length, so that differences from it are exact in double. Relative to the origin single precision then resolves the
+/// box's length along this axis with 23 bits. Along an axis with origin 0 it resolves the length with at least 20 bits.
+/// The origin is 0 for positions that are not finite.
 Vec3 local_origin(const std::vector<Vec3>& positions);
 
 /// Returns x − o of all positions [m].

@@ -9,7 +9,7 @@
 namespace ogc::compare {
 namespace {
 
-/// One row: the solvers that read a setting if it has this value or, for "", any value but its default.
+/// One row: the solvers that read `setting` if it has `value`; "" stands for any value but the default.
 struct Readers {
   std::string_view setting, value;
   std::array<std::string_view, 4> solvers;  ///< "" after the last one
@@ -34,7 +34,7 @@ constexpr auto required = std::to_array<RequiredSetting>({
 
 std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
 
-/// Returns whether the setting has the row's value. A setting of a contestant that is not linked has its default.
+/// Returns whether the setting has the row's value or, if that is "", any value but its default.
 bool is_asked(const Settings& settings, const SettingInfo& info, const Readers& row) {
   if (!row.value.empty()) return setting_text(settings, info) == row.value;
   return get_setting(settings, info) != get_setting(Settings{}, info);

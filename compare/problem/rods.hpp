@@ -20,8 +20,7 @@ struct RodInfo {
   double RodMaterial::*field;            ///< the member that it sets
 };
 
-/// Returns the rows of all constants, in the order of the struct; the rules for their ranges are those of
-/// material_table.
+/// Returns the rows of all constants, in the order of the struct. Their ranges keep to the rule of material_table.
 std::span<const RodInfo> rod_table();
 
 /// in_range returns whether the constant may have the value; describe_range returns its range as text, as

@@ -70,7 +70,7 @@ struct Settings {
   /// W, width of the sums of the sweep: 2, 4, 8 or 16; 0: by mesh size
   std::int64_t lanes = 0;
   ContactActivation contact_activation = ContactActivation::ogc;  ///< contact energy over distance
-  /// `per_vertex` is the form of the paper's authors, which also damps translation
+  /// `per_vertex` is the damping of the paper's authors, which also resists translation
   DampingForm damping = DampingForm::strain;
   std::int64_t seed = 0;                                   ///< seed of all random numbers of the scene
   RodOrientation rod_orientation = RodOrientation::exact;  ///< how a sweep sets segments' orientations

@@ -24,7 +24,7 @@ struct VolumePart {
 /// cover the scene.
 std::vector<VolumePart> volume_parts(const Scene& scene);
 
-/// Returns the cavities of all volumes of triangles in the form of VolumeDepthIn::cavities: for each cavity one of its
+/// Returns the cavities of all volumes of triangles as VolumeDepthIn::cavities holds them: for each cavity one of its
 /// vertices and one vertex of the surface around it.
 std::vector<Edge> volume_cavities(const Scene& scene);
 

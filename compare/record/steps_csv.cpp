@@ -37,7 +37,8 @@ constexpr std::array<StepColumn, 23> columns{{
     {"status", "bits", &StepMetrics::status},
 }};
 
-/// Optional columns, in this order: tetrahedra, volumes, volumes of tetrahedra, rods, counted meetings, convergence.
+/// Groups of columns that only some runs have. They follow `columns` in this order: tetrahedra, volumes, volumes of
+/// tetrahedra, rods, meetings, convergence.
 constexpr std::array<StepColumn, 1> solid_columns{{
     {"inverted_tetrahedra", "1", &StepMetrics::inverted_tetrahedra},
 }};

@@ -25,10 +25,15 @@ struct StepColumn {
 /// Returns all columns except those of groups and stages, in the order of the file.
 std::span<const StepColumn> step_columns();
 
-/// Optional groups of columns, in this order. Solids: `inverted_tetrahedra`. Volumes: `volume_contacts`,
-/// `vertices_inside`, `deepest`. Volumes of tetrahedra, which have sheets: `depth_unresolved`. Rods:
-/// `smallest_contact_distance`, `mean_stretch`, `largest_stretch`. Counted meetings: `meetings`. Convergence, which a
-/// file may lack: `last_motion`, `left_residual`, `left_rounding`, `left_held`. Ledger: all of its columns.
+/// Optional groups of columns, in this order:
+///
+/// - `solids`: `inverted_tetrahedra`
+/// - `volumes`: `volume_contacts`, `vertices_inside`, `deepest`
+/// - `sheets` (volumes of tetrahedra): `depth_unresolved`
+/// - `rods`: `smallest_contact_distance`, `mean_stretch`, `largest_stretch`
+/// - `meetings` (runs that count them): `meetings`
+/// - `convergence`: `last_motion`, `left_residual`, `left_rounding`, `left_held`; a file may lack them
+/// - `ledger`: all columns of StepLedger
 struct StepGroups {
   bool solids = false, volumes = false, sheets = false, rods = false, meetings = false, convergence = false,
        ledger = false;

@@ -75,7 +75,7 @@ class WritingQueue {
   std::size_t bytes_ = 0;  ///< sum over the jobs
   bool busy_ = false;      ///< whether the writing thread writes or syncs
   bool dirty_ = false;     ///< whether something is written and not synced
-  bool draining_ = false;  ///< whether add has not been called since drain began
+  bool draining_ = false;  ///< true from drain until the next add
   bool stop_ = false;
   Clock::time_point dirty_since_;
   std::exception_ptr failure_;

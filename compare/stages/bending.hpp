@@ -48,9 +48,10 @@ inline constexpr double bending_force_tolerance = 36;
 inline constexpr double bending_gradient = 20;
 /// Largest error of the block in units of u · scale. Rounding errors: ∇θ twice, a factor (2), an outer product (2).
 ///
-/// Scales also contain terms of second order, which remain where a first derivative vanishes. cond(f) is Σ ‖∂f/∂q‖ ‖q‖
-/// over the inputs q. The block's scale contains bending_gradient · u · c (1 + k) · cond(∇θ)²; the force's scale
-/// contains the product of the errors of ∇θ and of the moment, 16 u · cond of the moment.
+/// Scales also contain terms of second order, which remain where a first derivative vanishes. Let cond(f) be Σ ‖∂f/∂q‖
+/// ‖q‖ over the inputs q. The block's scale contains bending_gradient · u · c (1 + k) · cond(∇θ)². The force's scale
+/// contains a term that allows the product of two errors: bending_gradient · u · cond(∇θ), and 16 u · cond of the
+/// moment ∂E/∂θ.
 inline constexpr double bending_block_tolerance = 2 * bending_gradient + 4;
 /// A hinge is grey if its angle, now or at the start, is within this many units of u · scale of ±π. Then the answers
 /// for the angle plus and minus 2π are accepted as well.

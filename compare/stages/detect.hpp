@@ -26,8 +26,9 @@ struct GreyDecision {
   bool absence_accepted = false;  ///< whether an answer may contain none of them
 };
 
-/// Largest amount by which a smallest distance may be too small, in units of u · max(d, Σ|δ|), u = 2⁻²⁴: the larger of
-/// the tolerances of distance_below in the stages closest_face and closest_points.
+/// Largest amount by which an answer's d_min may be below the exact smallest distance d, in units of u · max(d, Σ|δ|),
+/// u = 2⁻²⁴. δ are the coordinates of the nearest pair relative to its first vertex. This is the larger of
+/// closest_face_below_tolerance and closest_points_below_tolerance.
 inline constexpr double detect_below_tolerance = 32;
 
 }  // namespace ogc::compare

@@ -1,5 +1,5 @@
-// Stage friction_force: lagged friction of one contact on one of its vertices, in the stabilised form of Vertex Block
-// Descent (method.md §4.4).
+// Stage friction_force: lagged friction of one contact on one of its vertices, stabilised as in Vertex Block Descent
+// (method.md §4.4).
 #pragma once
 
 #include "compare/stages/contact_force.hpp"

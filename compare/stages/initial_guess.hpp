@@ -48,8 +48,8 @@ struct InitialGuessTruth {
   std::vector<Vec3> target;          ///< exact y [m]
   std::vector<double> target_scale;  ///< largest over the coordinates of |xᵗ| + h |vᵗ| + h² |a| [m]
   std::vector<std::array<double, 4>> orientation{};  ///< exact, with the sign of turn · q
-  /// 1/cos(θ/2), θ between Dᵗ and D: the factor by which an error of their directions grows. Infinite where any unit
-  /// quaternion is accepted, since an error of half a radian or more is within the tolerance
+  /// 1/cos(θ/2), θ between Dᵗ and D: the factor by which an error of their directions grows. Infinite if the tolerance
+  /// allows an error of half a radian or more; then any unit quaternion is accepted
   std::vector<double> orientation_scale{};
 };
 

@@ -84,12 +84,16 @@ inline constexpr double orientation_sign_grey = 20;
 /// - D: a difference and the unit vector (5).
 /// - k_s: σ, made of two lengths and three products (4 + 18 + 3).
 inline constexpr double orientation_tolerance = 45;
-/// Largest residual ‖(I − q qᵀ)(M q + b)‖ in units of u · energy_scale. Rounding errors: b (45); M by the counts above
-/// for D (5), c (30) and k_s (25), and the answer's own 7 times eigenvalues that are 2 σ apart (14). The larger sum,
-/// that of M and the answer, decides.
+/// Largest residual ‖(I − q qᵀ)(M q + b)‖ in units of u · energy_scale. Two counts of rounding errors; the larger one,
+/// that of M q, decides:
+///
+/// - b: 45, as above.
+/// - M q: M, by the counts above of D (5), c (30) and k_s (25); the answer q (7), times the distance 2 σ of M's
+///   eigenvalues (14): 74.
 inline constexpr double orientation_residual_tolerance = 74;
 /// Largest excess over the least energy, in units of u · energy_scale. If q is known, the excess is of second order. If
-/// b is smaller than its own error, q may lie on the wrong half of the circle of minimisers, which costs 2 · 45.
+/// b is smaller than its own error, q may lie on the wrong half of the circle of minimisers. The excess is then at most
+/// twice the error of b (45).
 inline constexpr double orientation_energy_tolerance = 90;
 /// Largest | ‖q‖ − 1 | in units of u. Rounding errors: four squares and their sum (4) halved by the root, the root, a
 /// quotient. A factor (3 − ‖q‖²)/2 and a product cost no more.

@@ -75,8 +75,8 @@ inline constexpr std::size_t planes_of_vertex = 16;
 
 /// Counts where the answer fails to keep pairs apart, decided exactly. A pair is *separated* if one of its planes
 /// divides its sides. That means that each movable vertex of the pair has the plane and is on its side at X, and that
-/// the two offsets leave a gap; for a fixed vertex its position counts. Every other pair within r_q must be *covered*:
-/// b_v ≤ γ_p d for each of its movable vertices. Normals and offsets are free otherwise.
+/// the two offsets leave a gap. A fixed vertex has no offset; its height n·x counts instead. Every other pair within
+/// r_q must be *covered*: b_v ≤ γ_p d for each of its movable vertices. Normals and offsets are free otherwise.
 struct PlaneGuarantee {
   std::size_t separated = 0;  ///< separated pairs within r_q
   std::size_t uncovered = 0;  ///< pairs that are neither separated nor covered
@@ -102,8 +102,8 @@ struct PlaneFreedom {
   std::size_t due = 0;          ///< pairs that must have a plane
   std::size_t missing = 0;      ///< due pairs that no plane separates
   PrimitivePair first_missing;  ///< the first missing pair by kind, first and second
-  /// With balls the two sides of a pair may together come 2γ_p d closer. This is the largest amount by which the two
-  /// half-spaces of a separated pair allow less, in units of u · max(d, Σ|δ|).
+  /// With balls the two sides of a pair may together come 2γ_p d closer. This is the largest amount by which a
+  /// separated pair's two half-spaces allow less than that, in units of u · max(d, Σ|δ|).
   double narrowing = 0;
   PrimitivePair narrowest;  ///< the pair of `narrowing`
   /// Only with displacements. The room of one side of a separated pair is its offset minus its farthest vertex along n.
@@ -113,7 +113,8 @@ struct PlaneFreedom {
   ///   a = max(0, largest n·w of the first side),  b = max(0, largest −n·w of the second),
   ///   s = a/(a + b) of the first side, b/(a + b) of the second, at least `least_division`; 1/2 if a = b = 0,
   ///
-  /// and W = max ‖w‖ of the pair. Pairs with an immovable side are left out.
+  /// and W = max ‖w‖ of the pair. Left out are pairs with an immovable side, and pairs for which rounding can hide
+  /// whether the sides approach.
   double division = 0;
   PrimitivePair worst_divided;  ///< the pair of `division`
   /// By vertex: shortfall of b_v below γ_p min(r_q, smallest d of its unseparated pairs), in units of u γ_p · max(d,
@@ -125,7 +126,7 @@ struct PlaneFreedom {
 
 /// The truth depends on the answer: planes are judged by the pairs that they separate, not by how they were chosen.
 struct PlaneTruth {
-  PlaneGuarantee guarantee;  ///< whether the regions exclude every meeting
+  PlaneGuarantee guarantee;  ///< whether the regions keep all faces apart
   PlaneFreedom freedom;      ///< whether they leave the vertices their freedom
 };
 

@@ -40,13 +40,13 @@ struct RodIn {
 ///
 /// - A: a difference, a quotient, 1 + k and its product (2), k_s, the last difference: 6.
 /// - C: the turn by R(q) (14, see below), k_s, the last difference (1 + 1), and ‖q‖², which is off by up to 2⁻²¹ and
-///   enters other forms of R (8): 24.
+///   enters other formulas for R (8): 24.
 /// - Cᵗ, inside c: a difference, the turn by R(qᵗ)ᵀ (14), a quotient, k, a sum (1 + 1 + 1 + 1) and qᵗ's length (8): 26.
 ///
-/// A turned vector errs by at most 14 u of its length: u × v by 2.5 of ‖u‖ ‖v‖ (a product and a difference in each
-/// component), doubled, times w (7 with a product), crossed once more (10), two sums; the largest of 7 ‖u‖ w + 10 ‖u‖²
-/// + 2 + 2 ‖u‖ w. With damping by vertex the term of `moved` adds its size to the scale and errs by 7: a difference, a
-/// block of 3, two products and a sum.
+/// A turned vector errs by at most 14 · 2⁻²⁴ of its length. With q = (u, w) the errors of R(q) v in units of 2⁻²⁴ ‖v‖
+/// are: u × v, 2.5 ‖u‖ (a product and a difference in each component); 2 w (u × v), 7 ‖u‖ w; 2 u × (u × v), 10 ‖u‖²;
+/// two sums, 2 + 2 ‖u‖ w. With damping by vertex the term of `moved` adds its size to the scale and errs by 7: a
+/// difference, a block of 3, two products and a sum.
 inline constexpr double rod_force_tolerance = 12;
 /// Largest error of the block in units of u · scale. Rounding errors: 1 + k, a product, a quotient.
 inline constexpr double rod_block_tolerance = 3;

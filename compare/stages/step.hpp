@@ -1,5 +1,6 @@
 // Stage step: Algorithm 3 with the guess loop of method.md §5.2. Every part of a step is a stage with its own contract,
-// so only their order is left to check. The answer is a trace, and the judge checks each event as its stage's answer.
+// so only their order is left to check. The answer is a trace of events: detections, guess rounds and sweeps. The judge
+// checks each event as an answer of its stage.
 #pragma once
 
 #include <vector>
@@ -66,8 +67,8 @@ struct StepTruth {
   std::vector<Vec3f> prescribed_target;  ///< by vertex; 0 for vertices that are not prescribed
   /// events in the order of Algorithm 3, given each event's count of cut vertices (0 for events that the answer lacks)
   std::vector<StepEventKind> events;
-  /// By event, then by vertex; empty for events other than guess rounds. The part that contacts took in earlier rounds
-  /// enters as the exact value with its error, since an answer shows only truncated positions.
+  /// By event, then by vertex; empty for events other than guess rounds. An answer shows only truncated positions. So
+  /// the part that contacts removed in earlier rounds is computed exactly, and `accepted` includes its error.
   std::vector<std::vector<HeldMove>> moves{};
   std::vector<Vec3> velocity;          ///< [m/s]
   std::vector<double> velocity_scale;  ///< ‖xᵗ⁺¹ − xᵗ‖/h [m/s]

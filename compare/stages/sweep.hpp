@@ -87,13 +87,14 @@ struct SweepTruth {
 inline constexpr double sweep_input_tolerance = 2;
 /// Rounding errors when a stencil's block is added up, each at most u of a partial sum of moduli. There are at most
 /// four parts (membrane), and the largest part is at most √(3/2) of the whole (friction's identity before the normal is
-/// subtracted): less than 5. The force is added once.
+/// subtracted): 4 √(3/2) < 5. The force is added once.
 inline constexpr double sweep_block_additions = 5;
 /// Error of the inertia's force in units of u w ‖y − x‖, w = m/h²: a difference (1), w (1), a product (1). The
 /// inertia's block errs by u w √3.
 inline constexpr double sweep_inertia_tolerance = 3;
-/// Backward error of the 3×3 solve in units of u ‖H‖₂: |E| ≤ γ₁₀ |L||D||Lᵀ| for the factors of Cholesky or LDLᵀ and
-/// both substitutions (3n + 1, n = 3; two more for the divisions of LDLᵀ). The norm of |L||D||Lᵀ| is at most n ‖H‖₂.
+/// Backward error of the 3×3 solve in units of u ‖H‖₂: |E| ≤ γ |L||D||Lᵀ|, where γ = 12 u for the factors of Cholesky
+/// or LDLᵀ and both substitutions (3n + 1, n = 3; two more for the divisions of LDLᵀ). The norm of |L||D||Lᵀ| is at
+/// most n ‖H‖₂.
 inline constexpr double sweep_solve_tolerance = 36;
 
 }  // namespace ogc::compare

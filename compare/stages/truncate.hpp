@@ -19,7 +19,7 @@ struct HalfSpace {
   double offset = 0;  ///< o [m] times the length of n
 };
 
-/// The identity: H of a vertex on which no force but inertia acts. The vertex then slides along the shortest way.
+/// The identity: H of a vertex on which no force but inertia acts. The vertex is then projected orthogonally.
 inline constexpr std::array<float, 6> inertia_block{1, 0, 0, 1, 0, 1};
 
 /// Half-spaces, and how a vertex slides along them. All arrays are empty if no case has any.
@@ -53,9 +53,9 @@ struct TruncateIn {
 ///
 /// A vertex that violates two or more half-spaces may end anywhere in its region. A vertex that violates one half-space
 /// slides along it, x − H⁻¹n (n·x − o)/(nᵀH⁻¹n), and then moves towards X_prev into the ball; this is its position if
-/// no other half-space interferes. A prescribed vertex goes as far along the straight way from its current position to
-/// x as the region allows. If two half-spaces on that way are nearer to each other than storing moves a position, any
-/// point on it is right.
+/// no other half-space interferes. A prescribed vertex goes as far along the straight line from its current position to
+/// x as the region allows. If two half-spaces on that line are nearer to each other than storing moves a position, any
+/// point of the line is right.
 struct TruncateOut {
   std::vector<Vec3f> position;    ///< x [m]
   std::vector<std::uint8_t> cut;  ///< 1 if x lay outside its region

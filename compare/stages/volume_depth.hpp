@@ -45,7 +45,7 @@ struct VolumeContact {
 };
 
 /// The answer. Part of triangles: let a be the face nearest to x (of equally near faces the lowest-dimensional, then
-/// the lowest-numbered). The part contains x if the way from a to x begins on the inner side of a's triangles. Rims
+/// the lowest-numbered). The part contains x if the segment from a to x begins on the inner side of a's triangles. Rims
 /// have no inner side; x is outside if it lies on the surface or beyond the closed box of the part's vertices. A part
 /// that contains x gives one contact, at a. Any other part gives one contact for each face in whose outward block (Eq.
 /// 8–10, the outer half) x lies nearer than r.
@@ -57,9 +57,9 @@ struct VolumeContact {
 /// shortest way. Of equally short ways the one to the lowest-dimensional, then the lowest-numbered face counts. Ways of
 /// two sheets to one face are one contact. A sheet without a way has no contact. Without a sheet x is outside.
 ///
-/// If x is a vertex of the volume, sheets of tetrahedra and faces that contain this vertex are left out. Outside, at a
-/// face with a triangle of a tetrahedron without positive volume, either side is right, since the surface is folded
-/// there.
+/// If x is a vertex of the volume, sheets of tetrahedra and faces that contain this vertex are left out. Let a face
+/// belong to a triangle of a tetrahedron without positive volume. The surface is folded there, so a point outside may
+/// have a contact with this face or none.
 struct VolumeDepthOut {
   std::vector<VolumeContact> contacts;  ///< ascending by point, inside, triangle, face
   std::vector<Index> unresolved = {};   ///< ascending: the point of each sheet without a way

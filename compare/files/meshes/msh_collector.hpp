@@ -45,8 +45,8 @@ class MshCollector {
   /// Adds an element. Elements other than tetrahedra are only counted.
   void add_element(const MshElementType& type, std::int64_t tag, std::size_t place,
                    std::span<const std::int64_t> nodes);
-  /// Returns the mesh, tetrahedra by numbers of nodes. Throws InputError: no node or no tetrahedron, a tag that is
-  /// repeated, unknown or no positive Index.
+  /// Returns the mesh; tetrahedra refer to nodes by their numbers in the mesh. Throws InputError: no node or no
+  /// tetrahedron, a tag that is repeated, unknown or no positive Index.
   PolygonMesh finish();
 
   /// Throws InputError "FILE: line 7: what", or "byte 7".

@@ -1,4 +1,4 @@
-// Parses the XML of a VTK file: its arrays and the places of their numbers, which vtk_arrays.hpp reads.
+// Parses the XML of a VTK file: its arrays, and where their numbers are; vtk_arrays.hpp reads the numbers.
 #pragma once
 
 #include <cstdint>
