@@ -1,5 +1,5 @@
-// Computes the least time that a machine needs for counted work; no order of the work is faster. Only machines whose
-// limits were measured have a floor.
+// Computes floors. A floor is the least time in which a machine can do counted work, in any order of the work. Only
+// machines with measured limits have floors.
 #pragma once
 
 #include <algorithm>
@@ -15,25 +15,26 @@ struct MachineLimits {
   double flop_per_second = 0;  ///< in single precision
   /// `cache_bytes`: largest amount of data that stays in the device's cache
   double cache_bytes = 0, cache_bytes_per_second = 0, memory_bytes_per_second = 0;
-  double seconds_between_colours = 0;  ///< from the end of one kernel of a graph to the start of the next
+  double seconds_between_colours = 0;  ///< from the end of one kernel of a CUDA graph to the start of the next
 };
 
-/// Returns the limits of an H200: 132 multiprocessors × 128 fused multiply-adds × 1.98 GHz; bandwidths and the shortest
-/// edge of a graph from fast/PERFORMANCE.md.
+/// Returns the limits of an H200: 132 multiprocessors × 128 fused multiply-adds × 1.98 GHz. The bandwidths and the
+/// shortest gap between two kernels of a CUDA graph are from fast/PERFORMANCE.md.
 inline std::optional<MachineLimits> limits_of(const std::string& device) {
   if (device.find("H200") == std::string::npos) return std::nullopt;
   return MachineLimits{132 * 128 * 2 * 1.98e9, 40e6, 7.1e12, 4.4e12, 0.43e-6};
 }
 
 /// Returns the floor of one iteration of the sweep [s]: the larger of the times for its arithmetic and its bytes, plus
-/// the gap between two kernels of a graph for each colour.
+/// one gap between kernels for each colour.
 inline double sweep_floor(const MachineLimits& machine, const fast::SweepWork& work, double flop, double bytes) {
   const double rate = bytes <= machine.cache_bytes ? machine.cache_bytes_per_second : machine.memory_bytes_per_second;
   return std::max(flop / machine.flop_per_second, bytes / rate) + work.colours * machine.seconds_between_colours;
 }
 
 /// Returns the floor of the searches of one detection [s]: the larger of the times for their arithmetic and their
-/// bytes, if the cache holds all bytes. Double precision takes twice as long but counts as single precision.
+/// bytes. Assumes that the cache holds all bytes, and counts double precision as single precision, although it takes
+/// twice as long.
 inline double search_floor(const MachineLimits& machine, const fast::SearchWork& work) {
   return std::max(work.flop / machine.flop_per_second, work.bytes / machine.cache_bytes_per_second);
 }

@@ -13,8 +13,8 @@
 
 namespace ogc::experiments {
 
-/// Returns the next block. Throws MalformedBlock if the block's length is not allowed, and an error of its own if no
-/// block arrives.
+/// Returns the next block. Throws MalformedBlock if the block's length is not allowed, and another error if no block
+/// arrives.
 using NextBlock = std::function<std::vector<std::byte>(BlockLength allowed)>;
 
 /// Holds a worker's message about the library that it has loaded.

@@ -75,7 +75,7 @@ class PluginProcess {
   void note(const PluginStage& stage, const Answer& answer);
 
   PluginOptions options_;
-  /// shortened after a hang, because the search for the case that hangs waits for it many times
+  /// shortened after a hang, because the search for the hanging case runs into the limit many times
   unsigned limit_seconds_;
   pid_t process_ = -1;
   Channel channel_;

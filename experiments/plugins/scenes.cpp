@@ -111,7 +111,7 @@ class SceneArrays {
   std::vector<ogc_scene_spring> springs_;
 };
 
-/// Holds the arrays of ogc_rest in both directions.
+/// Holds the arrays of ogc_rest, and converts a rest state into them and back.
 struct RestArrays {
   std::vector<float> mass;
   std::vector<Triangle> corner;

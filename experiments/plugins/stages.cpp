@@ -369,11 +369,11 @@ ListSizes first_capacities(const QuestionSizes& sizes) {
           64 + 4 * sizes.cases};
 }
 
-// Returns limits: the first capacities plus the largest numbers of pairs at each detection. Contacts are at most all
-// vertices with all triangles and all ordered pairs of edges; contacts with a volume, all points with all faces. Planes
-// are at most one for each vertex of each pair. The first capacities leave room for contacts that are listed twice in a
-// small mesh, so that the judge recognises them. Products of two sizes fit into 64 bits, because sizes fit into 31;
-// 2^40 limits them.
+// Returns limits: the first capacities plus the largest numbers of pairs at each detection, at most 2^40. Contacts are
+// at most all vertices with all triangles and all ordered pairs of edges; contacts with a volume, all points with all
+// faces. Planes are at most one for each vertex of each pair. The first capacities leave room for contacts that are
+// listed twice in a small mesh, so that the judge recognises them. Products of two sizes fit into 64 bits, because each
+// size fits into 31 bits.
 ListSizes most_entries(const QuestionSizes& sizes) {
   constexpr std::int64_t most = std::int64_t{1} << 40;
   ListSizes entries = first_capacities(sizes);

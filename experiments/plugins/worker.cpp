@@ -33,7 +33,8 @@ struct Refusal : std::runtime_error {
 /// Number of the process that was started. A copy forked by the plug-in has another number.
 const pid_t worker = getpid();
 
-/// Ends a child process that the plug-in forked and in which its function returned. The parent answers the question.
+/// Ends this process if it is a copy that the plug-in forked. The plug-in's function then returned in both processes,
+/// and the parent answers the question.
 void end_if_copy() {
   if (getpid() != worker) _exit(exit_success);
 }

@@ -1,6 +1,6 @@
-// Panels are cut from developable surfaces, so that rest shapes are exact. Where vertices of several panels share a
-// place, each of them is stitched to all others. All pairs of faces that touch at the start then lie between stitched
-// vertices.
+// Panels are cut from developable surfaces, so that rest shapes are exact. If vertices of several panels have the same
+// position, each of them is stitched to all others. All pairs of faces that touch at the start then lie between
+// stitched vertices.
 #include "experiments/scenes/dress.hpp"
 
 #include <algorithm>

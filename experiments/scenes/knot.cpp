@@ -50,8 +50,8 @@ std::vector<Vec3> control_points() {
   return points;
 }
 
-/// A centripetal Catmull–Rom curve: consecutive knots differ by the square root of the chord. At the ends, the
-/// neighbour is reflected.
+/// A centripetal Catmull–Rom curve: consecutive knots differ by the square root of the chord. Each end gets one more
+/// point, the reflection of its neighbour.
 class Curve {
  public:
   explicit Curve(const std::vector<Vec3>& through) {

@@ -1,5 +1,5 @@
 // A limb first turns about the x axis through its joint, then everything turns about the y axis. Knees stay straight,
-// because a knee whose hollow closes on cloth could only stop.
+// because a bent knee would pinch the cloth in its hollow and then could only stop.
 #include "experiments/scenes/mannequin.hpp"
 
 #include <algorithm>

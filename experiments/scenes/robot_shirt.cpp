@@ -1,5 +1,5 @@
-// Grid points of the shirt are places on the table. The shirt is open where front and back do not share the vertex of a
-// place.
+// Each grid point of the shirt is a point of the table. The shirt is open where front and back have separate vertices
+// at a grid point.
 #include "experiments/scenes/robot_shirt.hpp"
 
 #include <algorithm>

@@ -13,8 +13,8 @@ namespace ogc::experiments {
 /// along z. Normals point up.
 compare::Mesh grid(compare::Index count, double side, double height);
 
-/// Returns the triangles of such a sheet with `rows` × `columns` vertices, both ≥ 2. Vertex (i, j) has number i ·
-/// `columns` + j.
+/// Returns the triangles of a sheet of `rows` × `columns` vertices, both ≥ 2, which is cut like `grid`. Vertex (i, j)
+/// has number i · `columns` + j.
 std::vector<compare::Triangle> cross_diagonals(compare::Index rows, compare::Index columns);
 
 /// Returns a ground of 4 m × 4 m at `height` [m] for a cloth of 1 m with `vertices_a_side`. Its triangles are at most a

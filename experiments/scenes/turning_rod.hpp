@@ -1,5 +1,5 @@
-// Builds a straight rod that turns freely about its middle, to show how much angular momentum an update of frames
-// keeps.
+// Builds a straight rod that turns freely about its middle. It shows how much angular momentum an update of the
+// segments' orientations keeps.
 #pragma once
 
 #include <cstdint>

@@ -10,7 +10,7 @@ using namespace compare;
 
 namespace {
 
-/// Multiplies q by s k + w, a turn of 0.01 degrees.
+/// Rotates an orientation by 0.01 degrees about its director: multiplies it by the quaternion w + s k.
 void turn_slightly(Quaternion& q) {
   const double s = std::sin(8.7e-5), w = std::cos(8.7e-5);
   const std::array<double, 4> a{q[0], q[1], q[2], q[3]};

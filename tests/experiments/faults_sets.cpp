@@ -121,8 +121,8 @@ struct OverlapEnd {
   bool in_blocks = false;
 };
 
-/// Returns the ends of the overlap, computed in double. Exactly parallel edges are perpendicular to their connection,
-/// so the block test allows a rounding error above 0.
+/// Returns the ends of the overlap, computed in double. The line between exactly parallel edges is perpendicular to
+/// both, so the block test allows a rounding error above 0.
 std::vector<OverlapEnd> ends_of_overlap(const DetectIn& in, const Edge& e, const Edge& f) {
   const auto at = [&](Index v) { return Vec3{in.positions[v].x, in.positions[v].y, in.positions[v].z}; };
   const auto in_block = [&](Index v, const Vec3& c) {
@@ -163,8 +163,8 @@ void strands_tested(const DetectIn& in, const Authority& authority, DetectEdgeEd
   });
 }
 
-/// Drops a contact of a vertex v even if the distance increases from v to each of its neighbours, but only slightly. A
-/// block test in single precision whose tolerance has the wrong sign does this.
+/// Drops a contact of an edge's end v if the distance increases only slightly along an edge at v. A block test in
+/// single precision does this if its tolerance has the wrong sign.
 void ends_passed_over(const DetectIn& in, const Authority&, DetectEdgeEdgeOut& out) {
   const auto at = [&](Index v) { return Vec3{in.positions[v].x, in.positions[v].y, in.positions[v].z}; };
   const auto is_passed = [&](const Face& own, const Edge& other) {

@@ -34,11 +34,10 @@ fast::SearchWork work_of(const compare::Scene& scene) {
 
 TEST_CASE("searches of two triangles within each other's radius open, are offered and measure what one counts by hand",
           "[unit]") {
-  // Trees have four primitives a node. Edges: six edges are in two leaves under a root. Each of the six searches opens
-  // the root and the second leaf; the searches of places 0 to 2, which end at place 3, open the first leaf, too: 6 + 6
-  // + 3. Vertices: six searches open the root and the leaf of two facets: 12. Edges are offered the edges behind them:
-  // 15 pairs. Vertices are offered both facets: 12. Pairs that share a vertex have no distance; 3 · 3 pairs of edges
-  // and 3 + 3 pairs of vertex and facet have one.
+  // Trees have four primitives a node. Edges: six edges are in two leaves under a root, and a search tests only the
+  // edges behind its own. Six searches open the root and the second leaf, three searches also the first leaf: 6 + 6 + 3
+  // nodes, 15 candidates. Vertices: six searches open the root and the leaf of both facets: 12 nodes, 12 candidates.
+  // Pairs that share a vertex have no distance; 3 · 3 pairs of edges and 3 + 3 pairs of vertex and facet have one.
   const fast::SearchWork work = work_of(two_triangles(0.1, 10));
   CHECK(work.nodes == 15 + 12);
   CHECK(work.candidates == 15 + 12);

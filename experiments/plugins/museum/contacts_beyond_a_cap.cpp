@@ -27,7 +27,8 @@ struct Question {
   const ogc_topology& mesh;
 
   Vec at(int v) const { return vec(in.positions[v]); }
-  // Returns whether p lies on the far side of the plane through w, as seen from the neighbour of w.
+  // Returns whether the plane through w, perpendicular to the edge from w to its neighbour, separates p from the
+  // neighbour.
   bool is_beyond(Vec p, int w, int neighbour) const { return dot(p - at(w), at(neighbour) - at(w)) <= 0; }
   // Returns whether p and the vertex o lie on the same side of the edge.
   bool is_beside(Vec p, int edge, int o) const {
@@ -69,7 +70,8 @@ struct Question {
   static void keep_nearer(Nearest& best, const Nearest& other) {
     if (other.distance < best.distance) best = other;
   }
-  // Return whether p lies in the block of the vertex (Eq. 8), or in front of the edge (Eq. 9).
+  // Return whether p passes the test of Eq. 8 (block of a vertex) or of Eq. 9 (no triangle of the edge lies on the side
+  // of p).
   bool is_before_vertex(Vec p, int w) const {
     for (int k = mesh.vertex_neighbours.offsets[w]; k < mesh.vertex_neighbours.offsets[w + 1]; ++k)
       if (!is_beyond(p, w, mesh.vertex_neighbours.items[k])) return false;

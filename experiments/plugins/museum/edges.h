@@ -52,7 +52,8 @@ inline bool nearly_parallel(const Edges& x) {
   return dot(cross(x.e, x.f), cross(x.e, x.f)) < 1e-6 * dot(x.e, x.e) * dot(x.f, x.f) && shared.low < shared.high;
 }
 
-// Returns where nearly parallel edges meet: the middle of the overlap, and its projection.
+// Returns the contact points of nearly parallel edges: the middle of the overlap, and its projection onto the second
+// edge.
 inline Places middle(const Edges& x) {
   const Overlap shared = overlap(x);
   const double s = (shared.low + shared.high) / 2, t = place_on(x.a + s * x.e, x.b, x.b + x.f);

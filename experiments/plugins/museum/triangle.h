@@ -20,8 +20,8 @@ inline Weights foot(Vec p, const Vec* t) {
   return w;
 }
 
-// Returns the weights of the closest point of the edge from corner k to the next one. Each weight is computed by
-// itself, because 1 minus the other one rounds to 0 too soon.
+// Returns the weights of the closest point of the edge from corner k to the next one. Each weight is a quotient of its
+// own, because 1 minus the other weight rounds to 0 too soon.
 inline Weights on_edge(Vec p, const Vec* t, int k) {
   const int next = (k + 1) % 3;
   const Vec e = t[next] - t[k];

@@ -1,5 +1,5 @@
-// Finds what happens between two audited states: which faces meet if every vertex moves straight from one state to the
-// next (compare/meetings.md).
+// Finds the meetings between two audited states: pairs of primitives that touch while every vertex moves straight from
+// one state to the next (compare/meetings.md).
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace ogc::experiments {
 
-/// Holds the meetings if all vertices move straight from one state to the next.
+/// Holds the meetings (pairs that touch) of the straight motions from one state to the next.
 struct Way {
   std::string from, to;  ///< names of the states
   compare::MeetingsResult found;

@@ -98,7 +98,7 @@ class MeasuredSimulation : public compare::Simulation {
  private:
   /// Returns the scene whose first step is the step after `before`, because a trace covers a first step. Each motion
   /// becomes two keyframes: its targets at the begin and the end of the step. Rotating motions keep their axis and
-  /// angular velocity, by which they rotate frames.
+  /// angular velocity, which also rotate the orientations of rods.
   compare::Scene scene_at(const Snapshot& before) const {
     compare::Scene scene = scene_;
     const double h = scene.settings.time_step, now = static_cast<double>(before.step) * h;
@@ -139,8 +139,8 @@ class MeasuredSimulation : public compare::Simulation {
     return states;
   }
 
-  /// Adds the meetings along the states at which a step detected, and from the last of them to the step's end. Bounds
-  /// hold between two such states, so that each meeting violates them.
+  /// Adds the meetings (pairs that touch during a straight motion) from each detection of a step to the next, and from
+  /// the last detection to the step's end. Bounds hold on each of these motions, so that each meeting violates them.
   void add_meetings(const std::vector<std::vector<compare::Vec3f>>& states, const std::vector<compare::Vec3f>& end,
                     StepMetrics& step) {
     for (std::size_t k = 0; k < states.size(); ++k)
@@ -214,7 +214,7 @@ class MeasuredSimulation : public compare::Simulation {
   compare::Contestant contestant_;
   bool has_rows_;
   std::optional<StepRange> meetings_;
-  /// limit of meetings that notes name, because a baseline may have thousands
+  /// Notes name at most this many meetings, because a run without bounds may have thousands.
   static constexpr std::size_t most_named = 10;
   std::size_t named_ = 0;  ///< number of meetings named so far
   std::optional<reference::ResidualMeter> meter_;

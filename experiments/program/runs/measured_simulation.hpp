@@ -1,5 +1,6 @@
-// Measures quantities that a contestant does not compute itself: Eq. 29, rows of iterations, ledgers and meetings. The
-// measurements run beside the simulation and do not count in its times.
+// Measures quantities that a contestant does not compute itself: the residual of Eq. 29, rows of iterations, ledgers,
+// and meetings (pairs that touch between states, compare/meetings.md). The measurements run beside the simulation and
+// do not count in its times.
 #pragma once
 
 #include <cstdint>
@@ -37,14 +38,14 @@ struct Measured {
 /// bit by bit. The residual of such a row uses the contacts of the last detection. A trace that ends in another state
 /// than the step throws std::logic_error.
 ///
-/// The times of rows begin with the time of the stages before the first event. Each detection and each iteration then
-/// adds an equal share of the total time of its kind. Without SimulationOptions::profile the iterations share the whole
-/// time of the step.
+/// The times of rows begin with the time of the stages before the first event. Each detection then adds an equal share
+/// of the time of all detections, and each iteration an equal share of the time of all iterations. Without
+/// SimulationOptions::profile the iterations share the whole time of the step.
 ///
-/// Meetings are counted from each X_prev to the next, and from the last X_prev to the end of the step. The states come
-/// from the simulation (compare::WayTeller) or from the trace. If a contestant has neither, meetings are counted from
-/// the begin of a step to its end. If the states are those of detections and the scene's bounds forbid meetings, the
-/// row's status becomes step_met, and its notes name pairs.
+/// Meetings (compare/meetings.md) are counted from each X_prev to the next, and from the last X_prev to the end of the
+/// step. The states come from the simulation (compare::WayTeller) or from the trace. If a contestant has neither,
+/// meetings are counted from the begin of a step to its end. If the states are those of detections and the scene's
+/// bounds forbid meetings, the row's status becomes step_met, and its notes name pairs.
 compare::Contestant measured(compare::Contestant contestant, const Measured& what);
 
 }  // namespace ogc::experiments

@@ -250,9 +250,9 @@ std::string settings_help() {
   return text;
 }
 
-/// Returns the steps whose meetings are counted. For scenes with curves, audits of every step count meetings by
-/// default, because two states of curves prove nothing about the motion between them. At paper scale, where traces are
-/// slow, meetings are counted only on request.
+/// Returns the steps whose meetings (pairs that touch during a straight motion) are counted. For scenes with curves,
+/// audits of every step count meetings by default, because two states of curves prove nothing about the motion between
+/// them. At paper scale, where traces are slow, meetings are counted only on request.
 std::optional<StepRange> meetings_of(const RunOptions& options, const RunRequest& request) {
   if (options.audit_meetings == "off") return std::nullopt;
   try {

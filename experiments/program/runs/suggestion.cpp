@@ -33,7 +33,7 @@ constexpr double fewest_iterations = 10, most_iterations = 100;
 /// Largest relative excess of the extension under weight, which remains if the sweeps have not converged.
 constexpr double most_excess = 0.01;
 /// Factor on the exponent of method.md §7.7. Measured rates are 0.9 to 1.2 times that exponent, because modes are not
-/// quite smooth and colours are not rows (tests/experiments/program/runs/suggestion.cpp).
+/// quite smooth, and a sweep goes colour by colour, not row by row (tests/experiments/program/runs/suggestion.cpp).
 constexpr double least_rate = 0.9;
 /// Sweeps that a resting stack needs in each step: for each layer `sweeps_a_layer_and_radius` · g h²/r, at most
 /// `most_sweeps_a_layer`. A step begins after all layers have fallen by g h², and each sweep passes the ground's

@@ -275,7 +275,7 @@ class Step {
     events.push_back(detected_);
   }
 
-  /// Returns the last detection's contacts for each vertex, in the form that the guess kernel reads.
+  /// Returns the last detection's contacts for each vertex, as the guess kernel reads them.
   std::vector<std::vector<fast::ContactIncidence>> incidences() const {
     std::vector<std::vector<fast::ContactIncidence>> rows(count_);
     const std::vector<Index> body = body_of_vertex(scene_);

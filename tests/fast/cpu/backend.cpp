@@ -20,7 +20,7 @@ void run_range(const Counted& counted, int begin, int end) {
   *counted.items += end - begin;
 }
 
-/// Receives the two numbers that for_each_row computes for each row.
+/// Receives two numbers of each row: the smallest one, and the one that follows the `rank` smallest ones.
 struct TwoOfRow {
   static constexpr int rank = 16;
   float *least, *after;

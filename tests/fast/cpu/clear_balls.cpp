@@ -125,7 +125,7 @@ TEST_CASE("whoever is in the clear ball of a point that is far is far, too", "[p
     for (const int rings : {3, 6, 12}) {
       Shape shape = ball(random, rings, 2 * rings, rough);
       const Counts closed = check(random, shape, 0.02f);
-      // Without three triangles the surface has rims. Only the nearest face decides whether a point near them is
+      // Without three triangles the surface has rims. Only the nearest face decides whether a point near a rim is
       // inside.
       shape.triangles.erase(shape.triangles.begin() + 1, shape.triangles.begin() + 4);
       const Counts open = check(random, shape, 0.02f);

@@ -1,4 +1,5 @@
-// Tests which contacts a pack computes together. If they were fewer, results would be the same, but slower.
+// Tests which contacts a pack computes together. If a pack computed fewer contacts together, results would be the same,
+// but slower.
 #include "fast/cpu/packed_contact.hpp"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ using namespace ogc::fast::test;
 
 namespace {
 
-/// Holds four contacts, with vertices by [slot][lane].
+/// Holds a contact for each vector lane; x[s][lane] is vertex s of the lane's contact.
 struct Four {
   Vec x[4][Pack::width];
 
@@ -50,7 +51,7 @@ TEST_CASE("edges are computed together unless they have no length or count as pa
     unsigned expected = 0;
     const double scale = std::ldexp(1.0, trial % 21 - 10);
     for (int k = 0; k < Pack::width; ++k) {
-      // The squared ratio of the angle's sine to the limit for nearly parallel edges. Rounding changes no ratio from
+      // Squared ratio of the sine of the angle to the limit for nearly parallel edges. Rounding changes no ratio from
       // below 1 to above 1.
       const double share = std::array{0.3, 0.7, 1.4, 1.8, 3.0, 1e4}[random() % 6];
       const D3 start = vector(), first = vector(), aside = cross(first, vector());

@@ -73,7 +73,7 @@ double spin(const compare::Scene& scene, const compare::Snapshot& state) {
   return sum;
 }
 
-/// Returns the share of its angular momentum that a straight rod keeps: 100 segments of 1 mm that turn at 10 rad/s for
+/// Returns the share of the angular momentum that a straight rod keeps: 100 segments of 1 mm that turn at 10 rad/s for
 /// 0.2 s.
 double kept_spin(compare::RodStart frames) {
   compare::Scene scene = rod_scene(straight(100, 1e-3));
@@ -100,7 +100,7 @@ bool same_bits(const compare::Snapshot& a, const compare::Snapshot& b) {
 
 double distance(const compare::Vec3f& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
-/// Returns the twist angle from one frame to the next about their director.
+/// Returns the angle of the twist from orientation a to orientation b, which have the same director.
 double twist_between(const compare::Quaternion& a, const compare::Quaternion& b) {
   const double z = double{a[3]} * b[2] - double{a[2]} * b[3] - double{a[0]} * b[1] + double{a[1]} * b[0],
                w = double{a[3]} * b[3] + double{a[2]} * b[2] + double{a[0]} * b[0] + double{a[1]} * b[1];
@@ -121,7 +121,7 @@ TEST_CASE("a bent and twisted rod at rest stays, wherever it is turned to, and d
   const double angle = 0.7;
   for (Vec3& x : scene.mesh.positions)
     x = {std::cos(angle) * x.x - std::sin(angle) * x.z, x.y, std::sin(angle) * x.x + std::cos(angle) * x.z};
-  // the orientations at rest, turned like the rod
+  // Turns the orientations at rest like the rod.
   const RestState rest = rest_of(scene);
   const Quat turn{0, static_cast<float>(-std::sin(angle / 2)), 0, static_cast<float>(std::cos(angle / 2))};
   for (const Quat& q : rest.rods.orientations) scene.orientations.push_back(quaternion(unit(turn * q)));
@@ -156,13 +156,13 @@ TEST_CASE("a rod that is straight at rest and wound to a circle has the energy o
     scene.settings.contact_radius = 1e-5;
     for (Vec3& v : scene.velocities) v = {};
     scene.bodies[0].material.rod->density = 1e6;  // so heavy that it has not moved after a step
-    // The end segments are held, because their frames would turn otherwise.
+    // The end segments are held, because their orientations would change otherwise.
     scene.motions = {{.name = "first", .vertices = {0, 1}, .keyframes = {}},
                      {.name = "last", .vertices = {n - 1, n}, .keyframes = {}}};
     compare::round_to_single(scene);
     const auto simulation = start_cpu(scene, {});
     const double energy = simulation->advance(1).back().elastic_energy;
-    // n − 1 joints of the angle `chord`: energy k_b/(2 l̄) θ², up to the model's fourth order, (1 − θ²/48).
+    // Each of n − 1 joints has the angle θ = `chord` and the energy k_b/(2 l̄) θ², up to the factor 1 − θ²/48.
     CHECK(energy == Approx(yarn().bend * (n - 1) * chord * chord / (2 * length)).epsilon(1e-3));
   }
 }

@@ -73,7 +73,7 @@ struct SmallLists {
   static std::vector<int> zeros(int n) { return std::vector<int>(static_cast<std::size_t>(n)); }
 };
 
-/// Maps bucket and second face of each contact to its lowest-numbered edges.
+/// Maps each contact, given by its bucket (first face) and its second face, to its lowest-numbered edges.
 using KeptContacts = std::map<std::array<int, 2>, std::array<int, 2>>;
 
 KeptContacts kept(const std::vector<RawContact>& contacts) {

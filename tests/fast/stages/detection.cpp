@@ -44,7 +44,7 @@ std::vector<compare::VertexFacetContact> of_vertex(const ContactSets& sets, comp
   return found;
 }
 
-/// Returns a triangle far above the plane, except its corner 0, vertex `first`, which is at x.
+/// Returns a triangle with corner 0 at x. Its other corners are 50 above x.
 TestMesh probe(const compare::Vec3f& x) {
   TestMesh surface;
   surface.positions = {x, {x.x + 0.5F, x.y + 50, x.z}, {x.x, x.y + 50, x.z + 0.5F}};

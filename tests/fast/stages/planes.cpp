@@ -272,7 +272,9 @@ TEST_CASE("planes: two hooked corners stay hooked, however far they are pulled",
     CHECK(compare::audit(topology, compare::to_double(state.positions), compare::exclusions(scene)).count == 0);
     CHECK(reference::broken_planes(state.planes, state.positions) == 0);
   }
-  // The middle of the second fold holds the middle of the first. The ends, 0.2 m apart at first, lag at the end.
+  // The folds are still hooked: vertex 4, the middle of the first fold, has a larger x than vertex 13, the middle of
+  // the second fold. The strips' ends have been pulled from |x| = 0.1 m to more than 0.2 m, but lag behind their
+  // motion.
   const auto end = simulation->snapshot().positions;
   CHECK(contacts > 0);
   CHECK(end[4].x > end[13].x);
@@ -300,7 +302,7 @@ TEST_CASE("planes: renumbered vertices have the planes of the same pairs, and th
   std::size_t planes = 0;
   for (compare::Index v = 0; v < n; ++v) {
     const float ball = a.out.bound[static_cast<std::size_t>(v)], same = b.out.bound[static_cast<std::size_t>(there(v))];
-    // distances below 1 whose rounding depends on the order of corners and edges
+    // Distances are below 1. Their rounding depends on the order of corners and edges.
     CHECK(std::abs(ball - same) <= 8 * 0x1p-24F);
     const auto pairs = pairs_of(topology, a, v, there);
     CHECK(pairs == pairs_of(other_topology, b, there(v), [](compare::Index u) { return u; }));

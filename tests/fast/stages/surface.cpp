@@ -20,7 +20,8 @@ Seeds seeds_of(const compare::Topology& topology) {
 
 }  // namespace
 
-// Any pair bounds a search. A pair that is not near the primitive gives a worse bound, which only costs time.
+// A seed is a neighbour in the mesh whose distance limits a search from its beginning. A seed that is not near gives a
+// larger limit, which only costs time.
 TEST_CASE("searches begin at the nearest pairs of the mesh, opposite to edge, facet and vertex", "[property]") {
   for (const bool reversed : {false, true}) {
     tests::TestMesh mesh = tests::sheet(6, 1, 0);

@@ -108,8 +108,8 @@ TEST_CASE("a solid's damping is not zero and none of a rigid motion", "[property
   CHECK(other_bits<4>(damped, GatherSolids{}, GatherSolids{}) == 0);
   const ForceAndBlock with = sum_of<4>(damped, 20, GatherSolids{}), without = sum_of<4>(plain, 20, GatherSolids{});
   CHECK(std::memcmp(&with, &without, sizeof with) != 0);
-  // The block has moved as a whole since the start of the step, so Gᵗ equals G up to rounding. The force of damping is
-  // negligible compared with the elastic force.
+  // The block has moved as a whole since the start of the step, so its strain has changed by rounding errors only. The
+  // force of damping is then negligible compared with the elastic force.
   for (Fixture* f : {&damped, &plain}) {
     f->padded.resize(f->start.size());
     for (std::size_t v = 0; v < f->start.size(); ++v) f->padded[v] = PaddedVec(f->start[v] + Vec{0.5f, 0, 0});

@@ -188,7 +188,7 @@ compare::Scene still_sheet() {
   return scene;
 }
 
-/// Returns the replays, frame by frame.
+/// Returns the replayed recordings of `frames` calls of advance, one step each.
 WatchedBackend::Replayed replayed(const compare::Scene& scene, int frames, int capacity = 0) {
   WatchedBackend::Replayed noted;
   Watched simulation(WatchedBackend(&noted), scene, {}, "watched", capacity);
@@ -268,8 +268,9 @@ TEST_CASE("a position beyond its bound, or none, at a step's end stops the run a
 }
 
 TEST_CASE("iterations are asked in groups whether a detection is due until a frame has one in four of them", "[unit]") {
-  // Steps that sort the trees, the first and the seventeenth, have their own recordings. All detections are those of
-  // the guess loop, which do not count here. A frame without a step, because lists grew, does not count, either.
+  // Steps that sort the trees, the first and the seventeenth, have their own recordings. Detections of the guess loop
+  // do not count here, and this scene has no others. A frame (steps that are enqueued together) does not count, either,
+  // if its step is repeated because lists grew.
   constexpr int frames = steps_between_sorts + 1;
   const WatchedBackend::Replayed still = replayed(still_sheet(), frames);
   REQUIRE(still.size() == frames);

@@ -49,8 +49,8 @@ TEST_CASE("ogc contacts lists its sets by primitive, with margins, layers and ki
   CHECK(sets.at("vertices_near_facet") == nlohmann::json{{3, 4, 5}, {0, 1, 2}});
   for (const auto& contact : json.at("vertex_facet")) {
     CHECK(contact.at("penetration").get<double>() == Approx(0.009));
-    // There is one margin for the sphere, and one for the plane across each of the corner's two edges. The vertex lies
-    // on both planes.
+    // A margin is the distance to a boundary of the block. A corner's block has three: the sphere of radius r, and a
+    // plane across each of the corner's two edges. The vertex lies on both planes.
     CHECK(contact.at("margins").size() == 3);
     CHECK(contact.at("margins").at(1).at("sign") == 0);
     CHECK(contact.at("margins").at(1).at("closed") == true);

@@ -30,9 +30,9 @@ std::string plain_obj(const StockShape& shape);
 std::string dressed_obj(const StockShape& shape);
 /// Writes colours, quality, types with sizes in their names, and an unused vertex.
 std::string ascii_ply(const StockShape& shape);
-/// Writes coordinates in double precision.
+/// Writes coordinates in single precision, texture coordinates, and an element besides vertices and faces.
 std::string little_endian_ply(const StockShape& shape);
-/// Writes double precision.
+/// Writes coordinates in double precision, and corners as 32-bit counts and indices.
 std::string big_endian_ply(const StockShape& shape);
 
 /// Writes three separate corners for each triangle. Polygons are cut into triangles from their first corner.

@@ -19,10 +19,10 @@ std::vector<compare::StepMetrics> rows_of(const compare::Contestant& contestant,
 
 }  // namespace
 
-// Both residuals use the same positions and contact sets. They differ in f* and in arithmetic, by less than the force
-// of rounded positions, for which the row has a limit. Scenes are stiff and have few sweeps. So the remaining forces
-// are ten times this limit, and an error of a tenth would be detected. Contacts of yarn have nearly no stiffness,
-// because the reference detects other contacts in its guess loop. No bound stops any vertex.
+// Both residuals use the same positions and contact sets. They differ in f* and in rounding, by at most left_rounding,
+// the row's limit for the force of rounded positions. Scenes are stiff and have few sweeps, so that the remaining
+// forces exceed ten times this limit. An error of a tenth would thus be detected. Contacts of yarn have nearly no
+// stiffness, because the reference detects other contacts in its guess loop. No bound stops any vertex.
 TEST_CASE("what a step leaves of forces is what the reference finds, but for rounding", "[figure]") {
   struct Case {
     std::string name;

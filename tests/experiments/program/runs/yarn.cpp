@@ -156,8 +156,8 @@ TEST_CASE("yarn: a figure-eight knot that is pulled tight has no meeting", "[pro
   const auto run = audited(folder, "run", scene);
   CHECK(run.at("audit").at("meetings") == 0);
   CHECK(run.at("guarantee_kept") == true);
-  // The knot must be tight: shorter than at the start, where its stretch is 3, and in contact with itself at its four
-  // crossings. It oscillates on the stiffness of these contacts. At the smallest distance their depth is half of r.
+  // The knot must be tight: its mean stretch is below the 3 of the start, and it touches itself at its four crossings.
+  // It oscillates, because these contacts are elastic. In the last 100 steps a contact becomes deeper than r/2.
   const std::vector<compare::StepMetrics> rows = compare::read_steps(folder / "run").rows;
   const compare::StepMetrics& last = rows.back();
   CHECK(last.mean_stretch < 2);
@@ -199,8 +199,8 @@ TEST_CASE("yarn: of a smooth curve with segments of a tenth of r neighbours are 
   CHECK(count_of(narrow, 30 * r, false) > 0);
 }
 
-// From the fifth step on, touching strands that are nearly parallel alternate between pairs of closest points. Then
-// detections without a better residual end a step before its 50 iterations.
+// From the fifth step on, touching strands that are nearly parallel alternate between pairs of closest points. Newton's
+// method ends a step before its 50 iterations if further detections do not improve the residual.
 TEST_CASE("yarn: Newton's steps of a knit that is stretched end, and the run says that states were audited",
           "[property]") {
   const TemporaryFolder folder;

@@ -36,7 +36,8 @@ TEST_CASE("quaternions turn as their product says, back as their conjugates do, 
     const Quat q = some_orientation(random);
     const Vec v = some_vector(random);
     const Quat by_product = q * pure(v) * conjugate(q);
-    // With u = 2⁻²⁴: two products err by 8 u each, the rotation by 14 u, and the length by 8 u, which enters twice.
+    // With u = 2⁻²⁴: each of two products errs by 8 u, the rotation by 14 u. The error of q's length, 8 u, enters
+    // twice.
     REQUIRE(length(turned(q, v) - Vec{by_product.x, by_product.y, by_product.z}) <= 46 * u * length(v));
     REQUIRE(length(turned_back(q, turned(q, v)) - v) <= 44 * u * length(v));
     worst = std::max(worst, std::abs(size(q) - 1));
@@ -51,7 +52,7 @@ TEST_CASE("the force of a segment is the slope of its energy, its block the slop
     const SegmentRest segment{{0, 1}, 0.5f, 3, 0.25f};
     const Vec before = some_vector(random);
     const std::vector<D3> x{wide(some_vector(random)), wide(some_vector(random))};
-    // the segment's vector now and then, rotated back by its frame
+    // Returns a segment's vector v, rotated back by the segment's orientation `frame`.
     const auto seen = [](const Quat& frame, const D3& v) { return wide(turned_back(frame, narrow(v))); };
     const D3 strain_then = 2.0 * seen(start, wide(before));
     const auto energy = [&](const std::vector<D3>& at) {
@@ -77,8 +78,8 @@ TEST_CASE("a neighbour asks for the frame that stands to its own as at rest, its
   std::mt19937 random(87);
   const float weight = 2, damping = 0.5f;
   for (int i = 0; i < 1000; ++i) {
-    // The neighbour's rotation relative to the segment equals that at rest and that at the start. So both terms pull
-    // towards the present frame.
+    // `relative` is the neighbour's rotation relative to the segment: now, at rest, and at the start of the step. So
+    // elastic force and damping both pull towards the present orientation `now`.
     const Quat now = some_orientation(random), own_start = some_orientation(random),
                relative = some_orientation(random), elsewhere = some_orientation(random);
     for (const bool is_ahead : {false, true}) {
@@ -105,11 +106,11 @@ TEST_CASE("where nothing decides the old orientation does", "[unit]") {
   CHECK(size(stays - old) == 0);
   const Quat along = rod_orientation(1, {0, 2, 0}, axis, none, old);
   CHECK(length(director(along) - Vec{0, 1, 0}) <= 16 * u);
-  // c = e₃ is opposite to D. Then the old orientation, the quaternion 1, is orthogonal to all minimisers, and the
-  // minimiser nearest to the quaternion i is returned.
+  // Here c = e₃, the direction that q turns towards D, is opposite to D. All minimisers are then orthogonal to the old
+  // orientation, the quaternion 1, and the minimiser nearest to the quaternion i is returned.
   const Quat reversed = rod_orientation(1, {0, 0, -1}, axis, none, {0, 0, 0, 1});
   CHECK(length(director(reversed) - Vec{0, 0, -1}) <= 16 * u);
-  // With damping, c may be opposite to D along x. Then i is orthogonal to all minimisers, too, and the minimiser
+  // With damping, c may be opposite to D along x. Then all minimisers are orthogonal to i, too, and the minimiser
   // nearest to j is returned.
   const Quat across = rod_orientation(1, {2, 0, 0}, {-1, 0, 0}, none, {0, 0, 0, 1});
   CHECK(size(across - Quat{0, 1, 0, 0}) <= 4 * u);

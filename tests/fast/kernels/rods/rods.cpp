@@ -49,8 +49,8 @@ D3 turned_by(const Quat& q, const D3& v) {
           2 * (x * z - w * y) * v.x + 2 * (y * z + w * x) * v.y + (1 - 2 * (x * x + y * y)) * v.z};
 }
 
-/// Holds one segment from (1, 2, 3) along z that moves to lie along y, and two motions at the second step of a frame.
-/// The second motion gives no rotation.
+/// Holds a segment that starts at (1, 2, 3) along z and moves to lie along y. `turns` has the rotations of two motions
+/// in two steps, of which the tests use the second. There w = 2 marks that the second motion has no rotation.
 struct OneSegment {
   SegmentRest rest{{1, 0}, 2, 1, 0};
   std::array<Vec, 2> start{Vec{1, 2, 5}, Vec{1, 2, 3}}, position{Vec{7, 10, 3}, Vec{7, 8, 3}};
@@ -79,7 +79,8 @@ TEST_CASE("a frame is turned by the smallest rotation between two directions, wh
     REQUIRE(std::abs(size(turned) - 1) <= 8 * u);
     const double cosine = dot(wide(from), wide(to)) / (length(from) * length(to));
     // With u = 2⁻²⁴: unit vectors err by 4 u each and their product by 6 u more, relative to 2 cos θ/2, the length of
-    // `twice`. Two products of quaternions and normalising err by 40 u. A rotation doubles these errors.
+    // `twice` in turned_along. Two products of quaternions and normalising err by 40 u. A rotation doubles these
+    // errors.
     const double tolerance = 2 * (14 / std::sqrt(2 * (1 + cosine)) + 40) * u;
     for (const D3& v : {D3{1, 0, 0}, D3{0, 1, 0}, D3{0, 0, 1}})
       REQUIRE(length(turned_by(turned, v) - rotated(from, to, turned_by(q, v))) <= tolerance);
@@ -148,7 +149,8 @@ TEST_CASE("with damping a segment asks for its strain at the start of the step, 
     const Quat q = drawn.orientation();
     Vec direction;
     SetDirection{&rest, start.data(), &q, &direction}(0);
-    // k/l Dᵗ = R(qᵗ) (c − e₃), with D from its first end, 1, to its second, 0
+    // By definition R(qᵗ) (c − e₃) = k Dᵗ/l, with c = `direction` and k = k_d/h = 0.25. Dᵗ leads from the segment's
+    // first end, vertex 1, to its second end, vertex 0.
     const D3 apart = wide(start[0]) - wide(start[1]);
     const D3 asked = turned_by(q, wide(direction) - D3{0, 0, 1});
     REQUIRE(length(asked - 0.25 / 0.5 * apart) <= 60 * u * (1 + length(apart)));
@@ -177,7 +179,7 @@ TEST_CASE("a row has the energies of segments and joints, each joint once, whate
       stretched += length(apart) - 1;
       CHECK(ratios[e] == Approx(length(apart)).epsilon(8 * u));
     }
-    // 2 k_b/l̄ = w/2, with the nearer sign of the relative rotation
+    // A joint has the energy w/2 ‖q̄₀ q₁ − p‖², with w = 4 k_b/l̄ and the sign of p that makes it smaller.
     const Quat relative = conjugate(q[0]) * q[1];
     const double apart = std::min(size(relative - p), size(relative + p));
     energy += 0.5 * w * apart * apart;

@@ -59,7 +59,7 @@ struct Chain {
     const PaddedVec& x = positions[static_cast<std::size_t>(place)];
     return {x.x, x.y, x.z};
   }
-  /// Returns D of the middle segment, from its moved end to its old end.
+  /// Returns D of the middle segment, from its first end, which has moved, to its second end, which has not.
   Vec apart() const { return at(2) - at(vertices + 1); }
   /// Returns b, the sum of the pulls of the middle segment's neighbours.
   Quat pull(float damping) const {
@@ -133,7 +133,8 @@ TEST_CASE("a vertex feels its segments by the end that it is, damped as its body
       REQUIRE(felt().block.xx == strain.block.xx);
       add_rod(rest, 0, end, apart, chain.q[1], chain.direction[1], elastic);
       chain.view.rods.is_damped_by_vertex = true;
-      // B is (k_s/l) I; the error comes from a difference and two products
+      // Damping by vertex adds the force −k B `moved`, with the elastic block B = (k_s/l) I. The error comes from a
+      // difference and two products.
       const double size = length(elastic.force) + 0.25 * 3 / 0.5 * length(moved);
       REQUIRE(length(felt().force - (elastic.force - 0.25f * 3 / 0.5f * moved)) <= 4 * 0x1p-24 * size);
       REQUIRE(felt().block.xx == Approx(3 * 1.25 / 0.5));
