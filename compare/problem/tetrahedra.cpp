@@ -36,8 +36,6 @@ void add_determinant(const Vec3& p, const Vec3& q, const Vec3& r, double sign, E
   sum.add_product(-sign * p.z, q.y, r.x);
 }
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 std::string tetrahedron_name(const MeshCheck& check, Index t) {
   return check.names.tetrahedron(t, check.mesh.tetrahedra[at(t)]);
 }
