@@ -20,9 +20,8 @@ struct MeshSource {
   Index first = 0;              ///< the number that the file gives its first vertex and face: 1 in OBJ
   bool shares_vertices = true;  ///< false: each face has its own corners (STL), and vertices have no numbers
   std::vector<Index> vertices;  ///< number in the file by vertex, ascending; empty: the same as in the mesh
-  std::vector<Index>
-      /// by vertex: number in the file of the first face that has the vertex; only if !shares_vertices
-      first_faces;
+  /// by vertex: number in the file of the first face that has the vertex; only if !shares_vertices
+  std::vector<Index> first_faces;
   /// number in the file by triangle; triangles of one polygon share it. Empty: the same as in the mesh
   std::vector<Index> faces;
   std::vector<std::size_t> vertex_lines, face_lines,

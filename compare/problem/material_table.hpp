@@ -26,7 +26,7 @@ struct Elasticity {
   double poisson = 0;  ///< Poisson's ratio ν [1]
 };
 
-/// Ranges of E and ν that keep the Lamé constants in theirs.
+/// Ranges of E and ν for which the Lamé constants are within their ranges.
 inline constexpr double least_young = 0x1p-28, most_young = 0x1p30, most_poisson = 0.4999;
 
 /// Returns E and ν of a solid.

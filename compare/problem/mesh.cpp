@@ -16,8 +16,8 @@ Index number(std::size_t i) { return static_cast<Index>(i); }
 
 Edge ordered(Index a, Index b) { return a < b ? Edge{a, b} : Edge{b, a}; }
 
-// Builds rows from `visit(emit)`, which calls emit(row, item) for every entry, items of one row in the order wanted,
-// and does the same each time it is called.
+// Builds rows from `visit(emit)`, which calls emit(row, item) for every entry. Items of one row are stored in the order
+// of these calls. `visit` runs twice and must do the same both times.
 template <class Visit>
 CompressedRows gather(std::size_t rows, const Visit& visit) {
   CompressedRows result;
@@ -63,7 +63,8 @@ void check_indices(Index vertex_count, std::span<const Triangle> triangles, std:
   for (std::size_t e = 0; e < loose_edges.size(); ++e) check_face("loose edge", e, loose_edges[e], vertex_count);
 }
 
-// Row v: the larger ends of the edges whose smaller end is v; its offset is the number of its first edge.
+// Returns rows: row v holds the larger ends of the edges whose smaller end is v. The offset of a row is the number of
+// its first edge.
 CompressedRows larger_ends(Index vertex_count, std::span<const Triangle> triangles, std::span<const Edge> loose_edges) {
   return sorted_without_repetition(gather(at(vertex_count), [&](const auto& emit) {
     const auto emit_edge = [&](Index a, Index b) { emit(std::min(a, b), std::max(a, b)); };

@@ -1,4 +1,4 @@
-// Holds meshes and their topology: names and adjacency, no geometry.
+// Holds meshes and their topology, that is, edge numbers and adjacency without geometry.
 #pragma once
 
 #include <cstddef>
@@ -55,8 +55,9 @@ struct Topology {
   std::vector<Index> non_manifold_edges;  ///< edges with three or more triangles
   std::vector<Index> component;           ///< component number of each vertex, numbered by first vertex
 
-  /// By vertex: 1 if it is inside a solid, that is, on a tetrahedron and on no edge, or on a volume (§3.9), whose faces
-  /// are then off the surface, too. Empty if no vertex is.
+  /// By vertex: 1 for a vertex inside a solid (on a tetrahedron, but on no edge of the topology), and for each vertex
+  /// of a volume (§3.9). Edges and triangles of volumes are then off the surface, too. Empty if all vertices are on the
+  /// surface.
   std::vector<std::uint8_t> off_surface;
 
   /// Returns whether a vertex is on the surface. Others take no part in detection, contact among surfaces and audit,

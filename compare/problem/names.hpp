@@ -10,8 +10,7 @@
 
 namespace ogc::compare {
 
-// Each function returns the name that users type, or "" if the value is no enumerator.
-
+/// Returns the name that users type, or "" if the value is no enumerator.
 constexpr std::string_view name_of(MembraneModel model) {
   switch (model) {
     case MembraneModel::none: return "none";

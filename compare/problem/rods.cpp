@@ -55,7 +55,8 @@ struct Vertices {
   }
 };
 
-/// Returns whether two segments leave a vertex at rest in one direction. Only signs decide, so the result is exact.
+/// Returns whether the segments from `from` to `a` and to `b` have the same direction at rest. Only signs decide, so
+/// the result is exact.
 bool leaves_to_one_side(const Vec3& from, const Vec3& a, const Vec3& b) {
   if (!has_zero_area(from, a, b)) return false;
   // on one line the products of x, y and z coordinates all have the same sign, or are 0

@@ -20,7 +20,8 @@ struct RodInfo {
   double RodMaterial::*field;            ///< the member that it sets
 };
 
-/// Returns the rows of all constants, in the order of the struct. Their ranges keep to the rule of material_table.
+/// Returns the rows of all constants, in the order of the struct. Like the ranges of material_table, their ranges keep
+/// squares and products of two constants finite and normal in single precision.
 std::span<const RodInfo> rod_table();
 
 /// in_range returns whether the constant may have the value; describe_range returns its range as text, as

@@ -51,7 +51,7 @@ struct Material {
   MembraneModel membrane = MembraneModel::stable_neo_hookean;  ///< energy of triangles
   double lame_mu = 10, lame_lambda = 10;                       ///< plane-stress Lamé constants times thickness [N/m]
   BendingModel bending = BendingModel::discrete_hinge;         ///< energy of hinges
-  /// k_b of k_b/2 · 3‖e‖²/(A₀+A₁) · (θ−θ₀)², isometric: of k_b/2 · 3/(A₀+A₁) ‖Σ K_i x_i‖² [J]
+  /// k_b [J]. The energy is k_b/2 · 3‖e‖²/(A₀+A₁) · (θ−θ₀)², in the isometric model k_b/2 · 3/(A₀+A₁) ‖Σ K_i x_i‖².
   double bending_stiffness = 5e-7;
   double membrane_damping = 0;                ///< k_d of ψ_d = (k_d/h) ψ(G − Gᵗ) [s]
   double bending_damping = 0;                 ///< the same for θ − θᵗ [s]
@@ -83,43 +83,44 @@ struct Body {
 struct MeshCheck;
 struct Problem;
 
-// The one list of the lists of elements that a mesh has. Bookkeeping, validation, mesh files and scene files fold over
-// it. Each has these members:
+// The structs below describe the lists of elements that a mesh has; MeshLists collects them. Bookkeeping, validation,
+// mesh files and scene files fold over MeshLists. Each struct has these members:
 //
 //     name, key       are for messages; the key, a plural, also for files
 //     list            points to the elements
 //     named           returns the name of an element in messages, with its place in the file
 //     first, count    point to a body's range; without them the elements of a body are those on its vertices
 //     boundary        returns the surface of elements with volume, which replaces a body's triangles
-//     check           checks what only these elements promise, check_rest the same of their rest shapes
-//     msh_type        is Gmsh's number of elements with volume; numbers and lines, if any, point to their places there
+//     check           checks conditions that only these elements have; check_rest checks those on their rest shapes
+//     msh_type        is Gmsh's number for the type of elements with volume
+//     numbers, lines  point to the places of elements with volume in their file (MeshSource)
 
 /// The triangles of a mesh.
 struct TrianglesOfMesh {
-  static constexpr const char *name = "triangle", *key = "triangles";  ///< for messages and files
-  static constexpr auto list = &Mesh::triangles;
-  static constexpr auto named = &ElementNames::triangle;
-  static constexpr auto first = &Body::first_triangle, count = &Body::triangle_count;
+  static constexpr const char *name = "triangle", *key = "triangles";                  ///< for messages and files
+  static constexpr auto list = &Mesh::triangles;                                       ///< points to the elements
+  static constexpr auto named = &ElementNames::triangle;                               ///< names an element in messages
+  static constexpr auto first = &Body::first_triangle, count = &Body::triangle_count;  ///< range of a body
 };
 
 /// The edges that belong to no triangle.
 struct LooseEdgesOfMesh {
   static constexpr const char *name = "loose edge", *key = "loose_edges";  ///< for messages and files
-  static constexpr auto list = &Mesh::loose_edges;
-  static constexpr auto named = &ElementNames::loose_edge;
+  static constexpr auto list = &Mesh::loose_edges;                         ///< points to the elements
+  static constexpr auto named = &ElementNames::loose_edge;                 ///< names an element in messages
 };
 
 /// The tetrahedra of a mesh.
 struct TetrahedraOfMesh {
   static constexpr const char *name = "tetrahedron", *key = "tetrahedra";  ///< for messages and files
-  static constexpr auto list = &Mesh::tetrahedra;
-  static constexpr auto named = &ElementNames::tetrahedron;
-  static constexpr auto first = &Body::first_tetrahedron, count = &Body::tetrahedron_count;
-  static constexpr auto boundary = &boundary_triangles;
-  static constexpr int msh_type = 4;
-  static constexpr auto numbers = &MeshSource::tetrahedra;
-  static constexpr auto lines = &MeshSource::tetrahedron_lines;
-  /// Lists faces that more than two tetrahedra have, or two on one side.
+  static constexpr auto list = &Mesh::tetrahedra;                          ///< points to the elements
+  static constexpr auto named = &ElementNames::tetrahedron;                ///< names an element in messages
+  static constexpr auto first = &Body::first_tetrahedron, count = &Body::tetrahedron_count;  ///< range of a body
+  static constexpr auto boundary = &boundary_triangles;                                      ///< returns their surface
+  static constexpr int msh_type = 4;                             ///< Gmsh's number for four-node tetrahedra
+  static constexpr auto numbers = &MeshSource::tetrahedra;       ///< their numbers in the file
+  static constexpr auto lines = &MeshSource::tetrahedron_lines;  ///< their lines in the file
+  /// Lists faces of more than two tetrahedra, and faces of two tetrahedra that lie on the same side.
   static void check(const MeshCheck& check);
   /// Lists tetrahedra that are inverted at their rest positions, decided exactly, or flat: without volume, or with so
   /// little that their rest data are beyond the limits of compare/stages/tetrahedron.hpp. Positions are numbers of
@@ -127,15 +128,15 @@ struct TetrahedraOfMesh {
   static void check_rest(const MeshCheck& check, const std::vector<Vec3>& rest_positions);
 };
 
-/// All of them; triangles, which are the surface of the others, come first.
+/// All lists of elements that a mesh has. Triangles, among them the surface of the tetrahedra, come first.
 using MeshLists = std::tuple<TrianglesOfMesh, LooseEdgesOfMesh, TetrahedraOfMesh>;
 
-/// Holds for elements of which a body has a range.
+/// Is true for lists of elements of which a body has a range.
 template <class List>
 concept HasRange = requires {
   List::first;
 };
-/// Holds for elements with volume.
+/// Is true for lists of elements with volume.
 template <class List>
 concept HasVolume = requires {
   List::boundary;
@@ -167,10 +168,10 @@ struct Keyframes {
   friend bool operator==(const Keyframes&, const Keyframes&) = default;
 };
 
-/// Prescribed motion of a set of vertices: by keyframes where there are any, otherwise rigid: x(t) = R(ω (t − t₀))
-/// (x(0) − c) + c + u (t − t₀), for t₀ = start ≤ t ≤ end, at rest before and after. R turns by the right-hand rule
-/// about `axis` through `centre`. Its vertices form one group: pairs inside are no contacts, not even where keyframes
-/// deform it.
+/// Prescribed motion of a set of vertices. Without keyframes it is rigid: x(t) = R(ω (t − t₀)) (x(0) − c) + c + u (t −
+/// t₀) for t₀ = start ≤ t ≤ end, at rest before and after. R rotates by the right-hand rule about `axis` through
+/// `centre`. The vertices of a motion form one group: pairs within the group are no contacts, even if keyframes deform
+/// it.
 struct PrescribedMotion {
   std::string name;              ///< for messages and files
   std::vector<Index> vertices;   ///< vertices that it moves
@@ -183,9 +184,9 @@ struct PrescribedMotion {
 };
 
 /// A spring between a vertex and another one, or a point of the line between two others, of any bodies. Its energy is
-/// k/2 (l − l₀)², that of its damping k_d/h · k/2 (l − lᵗ)², with l = ‖x_first − (1 − s) x_second − s x_third‖. It is
-/// no edge of the mesh and takes no part in contact. A stitch has l₀ = 0; the pairs beside it are excluded only if
-/// `Scene::excluded_pairs` has them.
+/// k/2 (l − l₀)², and the energy of its damping is k_d/h · k/2 (l − lᵗ)², with l = ‖x_first − (1 − s) x_second − s
+/// x_third‖. A spring is no edge of the mesh and takes no part in contact. A stitch has l₀ = 0. Faces at both ends of a
+/// spring are excluded from contact only if `Scene::excluded_pairs` has these vertices.
 struct Spring {
   Index first = -1, second = -1;  ///< vertices, distinct
   double stiffness = 0;           ///< k [N/m]
@@ -215,25 +216,26 @@ struct Scene {
   friend bool operator==(const Scene&, const Scene&) = default;
 };
 
-/// A vertex or a number of an element that a scene lists. Files have the fields in this order.
+/// One field of an element that a scene lists: a vertex or a number. Files have the fields in this order.
 template <class Element>
 struct ElementField {
   const char* name;                     ///< its key in files
-  const char* meaning;                  ///< for the schema, with the unit; of a vertex: none
+  const char* meaning;                  ///< text for the schema, with the unit; empty for a vertex
   Index Element::*vertex = nullptr;     ///< either this
   double Element::*number = nullptr;    ///< or this, at least 0
   bool is_required = false;             ///< whether a file must give it
-  Index Element::*goes_with = nullptr;  ///< left out in files where this vertex is −1
-  std::optional<double> maximum = {};   ///< of a number, in the schema
+  Index Element::*goes_with = nullptr;  ///< member with a vertex; files omit the field if this vertex is −1
+  std::optional<double> maximum = {};   ///< largest value of a number, for the schema
 };
 
-// The one list of the elements that a scene lists beside its mesh, each with the key, the list, the fields and a check.
+// The structs below describe the elements that a scene lists beside its mesh: key, list, fields and a check. SceneLists
+// collects them.
 
 /// The springs of a scene.
 struct SpringsOfScene {
   static constexpr const char *key = "springs",  ///< for files
       *meaning = "between a vertex and another, or a point between two others; no part of contact";
-  static constexpr auto list = &Scene::springs;
+  static constexpr auto list = &Scene::springs;  ///< points to the elements
   /// In the order of files.
   static constexpr std::array fields{
       ElementField<Spring>{.name = "first", .meaning = "", .vertex = &Spring::first, .is_required = true},
@@ -249,13 +251,13 @@ struct SpringsOfScene {
           .number = &Spring::ratio,
           .goes_with = &Spring::third,
           .maximum = 1}};
-  /// Lists springs that join no two vertices or have a number out of range.
+  /// Lists springs that do not join two different vertices, or have a number out of range.
   static void check(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names, std::size_t limit);
 };
 
-/// All of them.
+/// All lists of elements that a scene has beside its mesh.
 using SceneLists = std::tuple<SpringsOfScene>;
-/// Returns whether files give a field of an element.
+/// Returns whether files have this field for this element.
 template <class Element>
 bool has_field(const Element& element, const ElementField<Element>& field) {
   return field.goes_with == nullptr || element.*field.goes_with >= 0;
@@ -269,15 +271,15 @@ std::size_t append_body(Scene& scene, Body body, const Mesh& mesh);
 /// nearest single-precision value, in place. Motions stay in double: stages see their targets only.
 void round_to_single(Scene& scene);
 
-/// Adds the spring of a stitch from vertex `first` to the point (1 − ratio) x_second + ratio x_third, and excludes the
-/// pairs beside it.
+/// Adds the spring of a stitch from vertex `first` to the point (1 − ratio) x_second + ratio x_third. Excludes the
+/// pairs of `first` with each of the other two vertices from contact.
 void add_stitch(Scene& scene, Index first, Index second, Index third, double ratio, double stiffness);
 
 /// Returns the group of each vertex: -1: free; 0: fixed; k ≥ 1: in the k-th prescribed motion. Length: vertex count.
 std::vector<Index> rigid_groups(const Scene& scene);
 
-/// Returns K, the number of vertices that may move and have a bound: those of the surface that are not fixed. `groups`:
-/// of rigid_groups.
+/// Returns K, the number of vertices that may move and have a bound: those of the surface that are not fixed. `groups`
+/// is the result of rigid_groups.
 Index bounded_count(const Topology& topology, std::span<const Index> groups);
 
 /// Returns the pairs that are excluded from contact, d_min and audit, by rigid_groups and excluded_pairs.

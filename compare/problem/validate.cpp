@@ -129,7 +129,7 @@ void check_ownership(std::vector<Problem>& problems, const Scene& scene, const E
   });
 }
 
-// Checks that a solid's triangles are its boundary: they are derived, so no others can be among them.
+// Checks that the triangles of each solid are exactly the boundary of its tetrahedra.
 void check_boundaries(std::vector<Problem>& problems, const Scene& scene) {
   for (const Body& body : scene.bodies) {
     if (!body.is_solid()) continue;
@@ -168,7 +168,7 @@ void check_keyframes(std::vector<Problem>& problems, const PrescribedMotion& mot
                             std::to_string(frames.times.size()) + " keyframes of " +
                             std::to_string(motion.vertices.size()) + " vertices",
                         "give one for each vertex in each keyframe"});
-  // std::max returns a NaN that comes first, and NaN <= x is false; is_finite finds the others
+  // If the first coordinate is NaN, std::max returns NaN, and the comparison is false. is_finite finds the other NaNs.
   const auto usable = [](const Vec3f& p) {
     return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= most_length;
   };

@@ -1,4 +1,5 @@
-// Checks meshes and scenes, with no geometry but lengths, areas and volumes; the oracle looks for intersections.
+// Checks meshes and scenes: indices, numbers, lengths, areas and volumes. The audit of the reference finds
+// intersections.
 #pragma once
 
 #include <string>
@@ -17,16 +18,16 @@ struct Problem {
 
 /// Returns a mesh's problems: index out of range, repeated vertex in a triangle, duplicate face, NaN or infinity,
 /// coordinate beyond 2²⁰ m, edge length that is not within 2⁻²⁰ … 2²⁰ m, zero-length edge, zero-area triangle (decided
-/// exactly), isolated vertex, face of three tetrahedra or of two on one side. At most `limit` entries of each kind are
-/// listed, then a count. `names` names the elements.
+/// exactly), isolated vertex, face of three tetrahedra, or of two on the same side. At most `limit` entries of each
+/// kind are listed, then a count. `names` names the elements.
 std::vector<Problem> validate(const Mesh& mesh, std::size_t limit = 10, const ElementNames& names = {});
 
-/// Returns a scene's problems: those of the mesh and its rest positions, tetrahedra that are flat or inverted there,
-/// bodies that do not cover it, motions of unknown, fixed or doubly prescribed vertices, settings out of range,
+/// Returns a scene's problems: those of the mesh and its rest positions, tetrahedra that are flat or inverted at rest,
+/// bodies that do not cover the scene, motions of unknown, fixed or doubly prescribed vertices, settings out of range,
 /// negative stiffness, density or friction, rods that can't be simulated (compare/problem/rods.hpp). Elements are named
-/// by body, with the numbers of its file.
+/// by body and by their number within the body.
 std::vector<Problem> validate(const Scene& scene, std::size_t limit = 10);
-/// Returns the same, with names that know the files of the bodies' meshes.
+/// Returns the same problems; `names` can name elements by the numbers and lines of mesh files.
 std::vector<Problem> validate(const Scene& scene, std::size_t limit, const ElementNames& names);
 
 /// Returns all problems as one message; empty if there are none.

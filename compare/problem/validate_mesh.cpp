@@ -1,5 +1,5 @@
-// Each kind of problem is one loop over one array. Lengths and areas are computed from usable coordinates only, faces
-// are looked at with valid indices only.
+// Each kind of problem is one loop over one array. Lengths and areas are computed only from valid coordinates, and only
+// for faces with valid indices.
 #include "compare/problem/validate_mesh.hpp"
 
 #include <algorithm>
@@ -42,7 +42,8 @@ std::string element_name(const MeshCheck& check, std::size_t i) {
   return std::invoke(List::named, check.names, static_cast<Index>(i), (check.mesh.*List::list)[i]);
 }
 
-/// Calls `use` with the ends of each edge of an element: those of a triangle in its sense, of others all pairs.
+/// Calls `use` with the two ends of each edge of an element. The edges of a triangle follow its orientation; any other
+/// element has an edge between any two of its vertices.
 template <std::size_t corners, class Use>
 void each_edge(const std::array<Index, corners>& element, const Use& use) {
   for (std::size_t k = 0; k < corners; ++k) {
@@ -51,8 +52,8 @@ void each_edge(const std::array<Index, corners>& element, const Use& use) {
   }
 }
 
-// Visits each edge once for each triangle that has it; a bad edge is named with the first. Zero is decided exactly; at
-// the ends of the range one rounding of the length does not matter.
+// Visits each edge once for each element that has it; a bad edge is listed once, with the first element. Whether a
+// length is 0 is decided exactly. At the limits of the range a rounding error of the length does not matter.
 void check_edges(const MeshCheck& check, const std::vector<Vec3>& positions, const std::string& kind) {
   ProblemKind zero(check.problems, check.limit, kind + "edge of zero length",
                    "merge the two vertices or move them apart");

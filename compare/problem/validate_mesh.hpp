@@ -23,11 +23,11 @@ struct MeshCheck {
 /// Returns whether all faces name existing, distinct vertices; lists those that do not.
 bool check_indices(const MeshCheck& check);
 
-/// Lists bad coordinates, edge lengths and areas of the mesh's faces on `positions`; indices are valid. `kind` stands
-/// before the nouns: "" or "rest ".
+/// Lists bad coordinates, edge lengths and areas of the mesh's faces at `positions`; indices must be valid. `kind`
+/// precedes the nouns of messages: "" or "rest ".
 void check_positions(const MeshCheck& check, const std::vector<Vec3>& positions, const std::string& kind);
 
-/// Lists elements with volume that their rest shape forbids; indices are valid.
+/// Lists elements with volume whose rest shape is not allowed; indices must be valid.
 void check_volumes(const MeshCheck& check, const std::vector<Vec3>& rest_positions);
 
 /// Returns whether all three coordinates are finite.

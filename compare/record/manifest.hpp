@@ -11,11 +11,11 @@
 
 namespace ogc::compare {
 
-/// Newest version of run folders that this program writes and reads. It also reads format 1, with other names of two
-/// columns of rows (StepColumn::former_name).
+/// Newest version of run folders that this program writes and reads. It also reads format 1, in which two columns have
+/// other names (StepColumn::former_name).
 inline constexpr int run_format_version = 2;
 
-/// What run.json says besides the scene: solver, device, program, and times.
+/// Holds the solver, device, program and times of a run, which run.json has besides the scene.
 struct Provenance {
   std::string solver, backend, device, command;  ///< names given by the user, and the device that it ran on
   std::string version, commit, compiler, cuda;   ///< of the program
@@ -26,7 +26,7 @@ struct Provenance {
   std::map<std::string, std::string> extra;  ///< further entries of run.json; "yes" and "no" become truth values there
 };
 
-/// The contents of run.json besides the copy of the scene's numbers.
+/// Holds the contents of run.json except the copy of the scene's numbers.
 struct Manifest {
   Provenance provenance;                 ///< solver, program, device and times
   std::string scene_name, scene_file;    ///< scene_file: path relative to the run folder

@@ -31,7 +31,7 @@ struct ActivationOut {
 /// moduli of the terms of the value, but at least 2⁻¹⁰² for d < r: underflow near r, of 2⁻¹²⁶, then counts as one
 /// rounding.
 struct ActivationTruth {
-  std::vector<double> energy, slope, curvature;
+  std::vector<double> energy, slope, curvature;                    ///< by case: g [J], g' [N], g'' [N/m]
   std::vector<double> energy_scale, slope_scale, curvature_scale;  ///< units of their errors
 };
 

@@ -48,22 +48,24 @@ struct MeetingMaterial {
   float stiffness = 0, friction = 0;  ///< k_c [N/m], μ_c
 };
 
-/// A segment of a rod, held or not. If exactly two segments share a vertex, each is the other's neighbour there.
+/// A segment of a rod, free, prescribed or fixed. If exactly two segments share a vertex, each is the other's neighbour
+/// there.
 ///
-/// Frames are defined along a walk. A chain of neighbours begins at the lowest-numbered of its ends, a ring at its
-/// lowest-numbered segment, from x₀ to x₁. The first frame is the smallest rotation from e₃ to x₁ − x₀, half a turn
-/// about the first axis where that is −e₃. Each next one is the frame before it, turned by the smallest rotation from
-/// one direction of the walk to the next, and, where exactly one of the two segments points against the walk, then by
-/// half a turn about its own first axis (q i).
+/// Rest frames are defined along a walk over neighbours. A chain's walk begins at the lower-numbered of its two end
+/// segments. A ring's walk begins at its lowest-numbered segment, from x₀ to x₁. The first frame is the smallest
+/// rotation from e₃ to x₁ − x₀, or half a turn about the first axis if x₁ − x₀ points along −e₃. Each next frame is the
+/// frame before it, turned by the smallest rotation between the two directions of the walk. If exactly one of the two
+/// segments points against the walk, the next frame is then turned by half a turn about its own first axis (q i).
 struct RestSegment {
   Edge end{};                              ///< x₀, x₁ in the order of the scene's loose edge
   Index body = -1;                         ///< gives the material
   float length = 0;                        ///< l [m]
   std::array<Index, 2> neighbour{-1, -1};  ///< segments behind and ahead; −1: none
   std::array<float, 2> weight{};           ///< w = 4 k_b/l̄ [N m], l̄ = (l + l_f)/2; 0 without a neighbour
-  /// p° = q̄°_f q° for the one behind, q̄° q°_f for the one ahead; 0 without one
+  /// p° = q̄°_f q° with the frame q°_f of the neighbour behind, q̄° q°_f with that of the neighbour ahead; 0 without a
+  /// neighbour
   std::array<Quaternion, 2> relative{};
-  Quaternion orientation{};  ///< q°; of either sign, as is p°
+  Quaternion orientation{};  ///< q°; q° and p° may have either sign
 };
 
 /// A scene, rounded (`round_to_single`) and valid (`validate`), except that k_c may be 0; every vertex that no motion
@@ -87,9 +89,9 @@ struct RestStateOut {
   std::vector<RestSegment> segments{};  ///< of all rods, in the order of rod_segments (compare/problem/rods.hpp)
 };
 
-/// Values in double, and the unit of each error: Σ ‖∂f/∂q‖ ‖q‖ over the inputs, coordinates as vectors relative to one
-/// vertex. Units of `gradient` are separate for ∇N₁ and ∇N₂, one unit holds for all three of `weight`. The unit of a
-/// mass is the sum of the units of its triangles or tetrahedra, that of a meeting is its value.
+/// Values in double, and the unit of each error: Σ ‖∂f/∂q‖ ‖q‖ over the inputs q, where coordinates are vectors
+/// relative to one vertex. `gradient` has one unit for ∇N₁ and one for ∇N₂; `weight` has one unit for all three. The
+/// unit of a mass is the sum of the units of its elements; the unit of a meeting material is its value.
 struct RestStateTruth {
   RestStateOut exact;                    ///< correctly rounded
   std::vector<double> mass, mass_scale;  ///< by vertex [kg]
@@ -111,26 +113,27 @@ struct RestStateTruth {
   std::vector<std::array<double, 2>> segment_weight, segment_weight_scale;  ///< behind, ahead [N m]
   std::vector<std::array<double, 4>> segment_orientation;                   ///< q°
   std::vector<std::array<std::array<double, 4>, 2>> segment_relative;       ///< p° behind, ahead; 0: none
-  /// unit of q° and p°: 1 + Σ 1/cos(θ/2) over the smallest rotations of the walk up to there, each with its θ; infinite
-  /// if that exceeds 2²⁰; any unit quaternion is then accepted
+  /// unit of q° and p°: 1 + Σ 1/cos(θ/2) over the smallest rotations of the walk up to the segment, where θ is the
+  /// angle of each. It is infinite if this exceeds 2²⁰; any unit quaternion is then accepted
   std::vector<double> segment_frame_scale;
 };
 
-/// Largest error in units of u · scale. The one rounding to single precision: u of the value, and no scale is below its
-/// value except for θ₀, where |θ₀| ≤ π and the scale is at least 2 (each opposite vertex adds its distance from x0 over
-/// its height): π/2. Rest data are computed in double or better, so some thirty roundings of 2⁻⁵³, each of an input's
-/// size, add 2⁻²⁴ of the scale.
+/// Largest error in units of u · scale, u = 2⁻²⁴. The rounding to single precision errs by at most u times the value,
+/// and the value does not exceed its scale. The exception is θ₀: |θ₀| ≤ π, and its scale is at least 2, because each
+/// opposite vertex adds its distance from x0 over its height. So this rounding takes up to π/2 units. Rest data are
+/// computed in double or better: some thirty roundings of 2⁻⁵³, each of an input's size, add about 2⁻²⁴ units.
 inline constexpr double rest_state_tolerance = 1 + 0x1p-20;
 inline constexpr double rest_state_angle_tolerance = 1.6;
 
-// The one list of the kinds of elements. The judge's verdicts on rest states and colours, its forms and its colours of
-// cases, and the reference's rest state and solvers fold over it. Each kind has these members:
+// The structs below are the kinds of elements; ElementKinds lists them. The judge (verdicts on rest states and colours,
+// wrong forms, colours of cases) and the reference (rest state, solvers) fold over this list. Each kind has these
+// members:
 //
 //     name, plural     are for messages
 //     rest             points to its elements in a rest state, if a rest state has them
 //     elements         returns the elements of a scene with its rest state
 //     vertices         returns the vertices that an element joins; −1 stands for one that it lacks
-//     each_possible    visits the vertices of each stencil that some material would make an element
+//     each_possible    visits the vertices of each stencil that is an element if its material has the energy
 
 /// Base of the kinds whose elements a rest state has, with the vertices in one member.
 template <auto list, auto joined>
@@ -148,7 +151,7 @@ struct OfRestState {
   }
 };
 
-/// Base of those whose stencils the mesh lists.
+/// Base of the kinds whose stencils the mesh lists.
 template <auto list, auto joined, auto stencils>
 struct OfMesh : OfRestState<list, joined> {
   /// Visits each stencil of the mesh.
@@ -203,10 +206,10 @@ struct SegmentKind : OfMesh<&RestStateOut::segments, &RestSegment::end, &Mesh::l
   static constexpr const char *name = "segment", *plural = "segments";  ///< for messages
 };
 
-/// All of them, in the order in which sums go through them.
+/// All kinds, in the order in which sums add them.
 using ElementKinds = std::tuple<TriangleKind, HingeKind, SpringKind, TetrahedronKind, SegmentKind>;
 
-/// Holds for kinds whose elements a rest state has.
+/// Is true for kinds whose elements a rest state has.
 template <class Kind>
 concept InRestState = requires {
   Kind::rest;

@@ -21,11 +21,11 @@ struct StepEvent {
   StepEventKind kind = StepEventKind::detection;  ///< kind of the event
   std::vector<Vec3f> position;  ///< x after the event [m]; for a detection X_prev as read by later events
   Index cut = 0;                ///< number of vertices that a guess round or sweep cut, prescribed ones included
-  // only for a detection
+  /// Contacts that a detection found; empty for other events.
   DetectVertexFacetOut vertex_facet;
   DetectEdgeEdgeOut edge_edge;
-  std::vector<float> bound;  ///< b_v [m]
-  VertexPlanes planes{};     ///< only if bounds are planes; smallest distances are not needed then
+  std::vector<float> bound;  ///< b_v [m]; only for a detection
+  VertexPlanes planes{};     ///< only for a detection, if bounds are planes; smallest distances are not needed then
   /// Contacts of all volumes with volume_askers (compare/problem/volumes.hpp) at X_prev, as stage volume_depth returns
   /// them. `point` is the vertex, `triangle` and `face` are numbers of the scene; `unresolved` are vertices.
   VolumeDepthOut volumes{};

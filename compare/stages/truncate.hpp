@@ -24,9 +24,9 @@ inline constexpr std::array<float, 6> inertia_block{1, 0, 0, 1, 0, 1};
 
 /// Half-spaces, and how a vertex slides along them. All arrays are empty if no case has any.
 struct HalfSpacesIn {
-  std::vector<Index> offsets;  ///< [cases + 1]: case i has items[offsets[i]] … items[offsets[i + 1] − 1]
-  std::vector<HalfSpace> items;
-  std::vector<Vec3f> current;               ///< current position, in its region [m]
+  std::vector<Index> offsets;    ///< [cases + 1]: case i has items[offsets[i]] … items[offsets[i + 1] − 1]
+  std::vector<HalfSpace> items;  ///< half-spaces of all cases, case by case
+  std::vector<Vec3f> current;    ///< current position, in its region [m]
   std::vector<std::array<float, 6>> block;  ///< H: xx, xy, xz, yy, yz, zz [N/m], positive definite
   /// 1: the vertex does not slide, and H is not read. This holds for a prescribed vertex and, with bounds=dat, for any
   /// vertex, which then starts from X_prev
@@ -45,7 +45,7 @@ struct HalfSpacesIn {
 struct TruncateIn {
   std::vector<Vec3f> previous, position;  ///< X_prev and x [m]
   std::vector<float> bound;               ///< b_v ≥ 0 [m]
-  HalfSpacesIn half_spaces{};
+  HalfSpacesIn half_spaces{};             ///< half-spaces of the vertices
 };
 
 /// The answer. The *stored* position obeys ‖x − x_prev‖ ≤ b_v and each half-space exactly. A position that obeys all of

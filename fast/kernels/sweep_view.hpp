@@ -19,9 +19,9 @@
 
 namespace ogc::fast {
 
-/// What a scene asks of the sum over the stencils of a vertex, one bit each: volumes, other models of bending or
-/// damping than the usual ones (discrete hinges, damping of strains), another activation than `ogc`. The bits of the
-/// kinds of elements follow these, in the order of their list (kinds/kinds.hpp).
+/// Features that a scene needs of the sum over the stencils of a vertex, one bit each: volumes; models of bending or
+/// damping other than the usual ones (discrete hinges, damping of strains); an activation other than `ogc`. The bits of
+/// the kinds of elements follow these, in the order of kinds/kinds.hpp.
 inline constexpr unsigned asks_volumes = 1, asks_any_model = 2, asks_any_activation = 4, first_kind_bit = 8;
 
 /// The incidences of a vertex in the stream of a kind of element.
@@ -104,14 +104,14 @@ struct VolumeIncidence;
 /// Holds the contacts with volumes in rows of fixed length, one for each slot (fast/kernels/volumes/). Rows of
 /// prescribed vertices follow.
 struct VolumeStream {
-  /// row of a slot from slot · capacity on: contacts in which its vertex is the point
+  /// contacts in which the vertex of a slot is the point; the row of a slot begins at slot · capacity
   const VolumeIncidence* contacts = nullptr;
   const int* counts = nullptr;  ///< by slot: number of contacts in its row
   int capacity = 0;             ///< contacts that fit in a row
   // The members below are null or 0 if all volumes are driven.
   const int* colour = nullptr;  ///< by vertex; −1: not free
-  /// row of a slot from slot · corner_capacity on: contacts in which its vertex is a corner, ascending, each as (index
-  /// in `contacts`) · 4 + role
+  /// contacts in which the vertex of a slot is a corner, ascending, each as (index in `contacts`) · 4 + role; the row
+  /// of a slot begins at slot · corner_capacity
   const int* corner_codes = nullptr;
   const int* corner_counts = nullptr;  ///< by slot: number of codes in its row
   int corner_capacity = 0;             ///< codes that fit in a row

@@ -25,7 +25,7 @@ Hinge<ByVertex> now_of(const compare::BendingCase& q, Inputs& inputs) {
 const Input& at_vertex(const ByVertex& x) { return x.value; }
 const Input& at_vertex(const Input& x) { return x; }
 
-/// Returns the angle; if rounding could put it beyond ±π, also the angle on the other side.
+/// Returns the angle and, if rounding could turn it past ±π, also the angle turned by 2π.
 template <class T>
 std::vector<T> with_turn(const Inputs& inputs, const T& angle) {
   const Input& value = at_vertex(angle);

@@ -11,8 +11,8 @@
 
 namespace ogc::reference {
 
-/// A hinge: c/2 ((θ − θ₀)² + k (θ − θᵗ)²), in the isometric model c/2 (‖Σ w x‖² + k (θ − θᵗ)²). Terms with θ are 0 if a
-/// triangle has collapsed.
+/// A hinge. Its energy is c/2 ((θ − θ₀)² + k (θ − θᵗ)²), in the isometric model c/2 (‖Σ w x‖² + k (θ − θᵗ)²). Terms
+/// with θ are 0 if a triangle has collapsed.
 template <class Number>
 struct HingeTermOf {
   std::array<compare::Index, 4> vertex{};

@@ -108,7 +108,8 @@ std::vector<ForceAnswer> damped_by_strain(const Question& q, const ModelRules& r
   return answers;
 }
 
-/// Enlarges the units of the force for damping by vertex: its force B `moved` is as inaccurate as the block B.
+/// Enlarges the units of the force for damping by vertex: this force, the block times `moved`, is as inaccurate as the
+/// block.
 ForceAnswer with_vertex_units(const ModelRules& rules, const ForceAnswer& answer) {
   return with_units(answer, (rules.block_tolerance + compare::per_vertex_additions) / compare::membrane_force_tolerance,
                     rules.block_tolerance / compare::membrane_block_tolerance);

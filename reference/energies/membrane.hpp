@@ -7,7 +7,8 @@ namespace ogc::reference {
 
 struct RestBuilder;
 
-/// Returns the exact answer; where the stable Neo-Hookean model has no normal also one that covers every normal.
+/// Returns the exact answer. If the stable Neo-Hookean model has no normal, because the triangle may have collapsed,
+/// also returns an answer that covers every normal.
 std::vector<compare::ForceAnswer> membrane(const compare::MembraneCase& question);
 
 /// Computes all cases, in parallel over them.

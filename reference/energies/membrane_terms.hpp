@@ -24,7 +24,7 @@ T density(const Strain<T>& g, const Lame& lambda, const Lame& mu) {
   return Lame(0.5) * lambda * trace * trace + mu * (g[0] * g[0] + Lame(2.0) * g[1] * g[1] + g[2] * g[2]);
 }
 
-/// Returns F of the map from the rest plane to the corners x.
+/// Returns F, the gradient of the map from the rest plane to the corners x.
 template <class T, class Gradient>
 Deformation<T> deformation(const std::array<Triple<T>, 3>& x, const std::array<std::array<Gradient, 2>, 3>& gradient) {
   Deformation<T> f;
@@ -55,7 +55,7 @@ T neo_hookean_density(const Deformation<T>& f, const Lame& lambda, const Lame& m
   return Lame(0.5) * mu * ((unequal * unequal + T(4.0) * both * both) / (size_of_f + T(2.0) * size)) + bulk;
 }
 
-/// A triangle: A (ψ + k ϕ(G − Gᵗ)) (compare/stages/membrane.hpp).
+/// A triangle with the energy A (ψ + k ϕ(G − Gᵗ)) (compare/stages/membrane.hpp).
 template <class Number>
 struct MembraneTermOf {
   std::array<compare::Index, 3> vertex{};

@@ -14,7 +14,7 @@ namespace ogc::reference {
 /// The exact number type for polynomials of coordinates.
 using Exact = CGAL::Mpzf;
 
-/// Returns an exact number with at least 64 bits: a double plus the remainder, which a second double holds.
+/// Returns an exact number rounded to at least 64 bits: the sum of its nearest double and of the remainder as a double.
 inline long double number(const Exact& x) {
   const double high = x.to_double();
   return static_cast<long double>(high) + static_cast<long double>((x - Exact(high)).to_double());

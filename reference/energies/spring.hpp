@@ -16,8 +16,8 @@ T spring_energy(const T& length, const Number& stiffness, const T& rest_length) 
   return Number(0.5) * stiffness * (length - rest_length) * (length - rest_length);
 }
 
-/// A spring between one vertex and another one, or a point between two others: k_s/2 ((l − l₀)² + k (l − lᵗ)²), l = ‖Σ
-/// wᵢ xᵢ‖.
+/// A spring between one vertex and another one, or a point between two others. Its energy is k_s/2 ((l − l₀)² + k (l −
+/// lᵗ)²) with l = ‖Σ wᵢ xᵢ‖.
 template <class Number>
 struct SpringTermOf {
   std::array<compare::Index, 4> vertex{-1, -1, -1, -1};
@@ -30,7 +30,7 @@ struct SpringTermOf {
   T elastic(const std::array<Triple<T>, 4>& x) const {
     return about(separation(weight, x), rest_length);
   }
-  /// Returns the energy by Σ wᵢ xᵢ, damping included [J].
+  /// Returns the energy if Σ wᵢ xᵢ is `apart`, damping included [J].
   template <class T>
   T energy_between(const Triple<T>& apart) const {
     return damping == 0.0 ? about(apart, rest_length) : about(apart, rest_length) + damping * about(apart, start);
@@ -41,15 +41,15 @@ struct SpringTermOf {
     return energy_between(separation(weight, x));
   }
 
-  /// Constants; see the head of stencil_terms.hpp.
+  /// Returns the constants (head of stencil_terms.hpp).
   auto numbers() { return std::tie(weight, stiffness, rest_length, damping, start); }
   auto numbers() const { return std::tie(weight, stiffness, rest_length, damping, start); }
-  /// What stencils side by side share; see the head of stencil_terms.hpp.
+  /// Returns the choices in which stencils side by side must agree (head of stencil_terms.hpp).
   auto kinds() { return std::tie(); }
   auto kinds() const { return std::tie(); }
 
  private:
-  /// Returns k_s/2 (l − from)². At l = 0 with from > 0 the direction is open: there the root has no derivatives.
+  /// Returns k_s/2 (l − from)². If l = 0 and from > 0, the spring has no direction, and the root no derivatives.
   template <class T>
   T about(const Triple<T>& apart, const Number& from) const {
     using std::sqrt;
@@ -60,14 +60,15 @@ struct SpringTermOf {
 /// A spring over doubles.
 using SpringTerm = SpringTermOf<double>;
 
-/// Returns max(0, 1 − l₀/l), a spring's stiffness across itself in shares of k_s; 1 where l = 0.
+/// Returns a spring's stiffness perpendicular to its direction, divided by k_s: max(0, 1 − l₀/l), or 1 if l = 0.
 template <class Number>
 Number held_across(const Number& length, const Number& rest_length) {
   return plain(length) == 0.0 ? Number(1.0) : positive_part(1.0 - rest_length / length);
 }
 
-/// Adds the force, the block w² k_s (n nᵀ + max(0, 1 − l₀/l)(I − n nᵀ)), and w² k k_s n nᵀ of the damping; the block is
-/// w² k_s I where l = 0 (compare/stages/spring.hpp). `apart`: Σ wᵢ xᵢ; `own_weight`: weight of the vertex.
+/// Adds the force and the block w² k_s (n nᵀ + max(0, 1 − l₀/l)(I − n nᵀ)) + w² k k_s n nᵀ, whose last term is damping.
+/// If l = 0, the block is w² k_s I (compare/stages/spring.hpp). `apart` is Σ wᵢ xᵢ; `own_weight` is w, the weight of
+/// the vertex.
 template <class Number>
 void add_spring(const SpringTermOf<Number>& term, const Number& own_weight, const Triple<ByOwn<Number>>& apart,
                 VertexSystemOf<Number>& sum) {

@@ -151,8 +151,8 @@ compare::ForceTruth tetrahedron(const compare::TetrahedronIn& in) {
 
 namespace {
 
-/// A tetrahedron by what its coordinates give before any quotient: normals of the faces opposite its corners, inward,
-/// of twice the area, and 6V. ∇N_k = n_k/(6V).
+/// Holds polynomials of a tetrahedron's coordinates: 6V, and for each corner k the inward normal n_k of the opposite
+/// face, of twice the face's area. ∇N_k = n_k/(6V).
 template <class T>
 struct SolidShape {
   Point<T> normal[4];

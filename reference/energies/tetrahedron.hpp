@@ -20,7 +20,7 @@ using SolidDeformation = std::array<Triple<T>, 3>;
 template <class T>
 using SolidStrain = std::array<T, 6>;
 
-/// Returns F of the map that takes the corners at rest to x.
+/// Returns F, the gradient of the map from the corners at rest to x.
 template <class T, class Gradient>
 SolidDeformation<T> solid_deformation(const std::array<Triple<T>, 4>& x,
                                       const std::array<std::array<Gradient, 3>, 4>& gradient) {
@@ -47,9 +47,9 @@ T solid_quadratic(const SolidStrain<T>& g, const Lame& lambda, const Lame& mu) {
 }
 
 /// Returns μ/2 (‖F‖² − 3) − μ (J − 1) + (λ + μ)/2 (J − 1)² [J/m³]. Near rest the first two terms cancel, and their
-/// rounding would exceed the whole energy of a solid in free fall. With J² = det(I + 2G) they are μ (tr(G) (J − 1) − 4
-/// I₂ − 8 det G)/(J + 1), with I₂ the sum of the principal minors of G, which is of second order term by term; where J
-/// is not positive nothing cancels.
+/// rounding would exceed the whole energy of a solid in free fall. With J² = det(I + 2G) they equal μ (tr(G) (J − 1) −
+/// 4 I₂ − 8 det G)/(J + 1), where I₂ is the sum of the principal minors of G. Each term of this is of second order. If
+/// J is not positive, nothing cancels.
 template <class T, class Lame>
 T solid_density(const SolidDeformation<T>& f, const Lame& lambda, const Lame& mu) {
   const T ratio = dot(f[0], cross(f[1], f[2])), grown = ratio - T(1.0);
@@ -65,8 +65,8 @@ T solid_density(const SolidDeformation<T>& f, const Lame& lambda, const Lame& mu
   return mu * ((trace * once - T(4.0) * minors - T(8.0) * determinant) / (ratio + T(1.0))) + bulk;
 }
 
-/// A tetrahedron: V (ψ + k ϕ(G − Gᵗ)). F is computed from the gradients; compare/stages/tetrahedron.hpp computes ψ from
-/// weights, whose roundings differ.
+/// A tetrahedron with the energy V (ψ + k ϕ(G − Gᵗ)). F is computed from the gradients; compare/stages/tetrahedron.hpp
+/// computes ψ from weights, whose roundings differ.
 template <class Number>
 struct TetrahedronTermOf {
   std::array<compare::Index, 4> vertex{};
@@ -98,17 +98,17 @@ struct TetrahedronTermOf {
     return damping == 0.0 ? elastic_of(f) : elastic_of(f) + damping_of(solid_strain(f));
   }
 
-  /// Constants; see the head of stencil_terms.hpp.
+  /// Returns the constants (head of stencil_terms.hpp).
   auto numbers() { return std::tie(gradient, volume, lambda, mu, damping, start); }
   auto numbers() const { return std::tie(gradient, volume, lambda, mu, damping, start); }
-  /// What stencils side by side share; see the head of stencil_terms.hpp.
+  /// Returns the choices in which stencils side by side must agree (head of stencil_terms.hpp).
   auto kinds() { return std::tie(); }
   auto kinds() const { return std::tie(); }
 };
 /// A tetrahedron over doubles.
 using TetrahedronTerm = TetrahedronTermOf<double>;
 
-/// F and G as functions of one corner, and G as six variables.
+/// F and G as functions of one corner's position, and a copy of G whose components are independent variables.
 template <class Number>
 struct TetrahedronCorner {
   SolidDeformation<ByOwnTwice<Number>> f;
@@ -127,7 +127,8 @@ struct TetrahedronCorner {
   }
 };
 
-/// Adds force and material part of k ϕ(G − Gᵗ): its second derivative along the derivatives of G.
+/// Adds the force of V k ϕ(G − Gᵗ) and the material part of its block, that is, its second derivative by G along the
+/// derivatives of G.
 template <class Number>
 void add_damping(const TetrahedronTermOf<Number>& term, const TetrahedronCorner<Number>& at,
                  VertexSystemOf<Number>& sum) {

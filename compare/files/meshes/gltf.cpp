@@ -21,7 +21,7 @@ Vec3 apply(const Transform& m, const Vec3& p) {
           m[2] * p.x + m[5] * p.y + m[8] * p.z + m[11]};
 }
 
-/// Returns `inner` followed by `outer`.
+/// Returns the transformation x ↦ outer(inner(x)).
 Transform chained(const Transform& outer, const Transform& inner) {
   Transform both{};
   for (std::size_t column = 0; column < 4; ++column) {
@@ -174,7 +174,8 @@ class GltfReader {
                     " bytes; write it with a mesh for each node");
   }
 
-  /// Adds the vertices that are corners to the mesh, transformed; returns the corners by their numbers in the mesh.
+  /// Adds all vertices that occur in `corners` to the mesh, transformed. Returns the corners as vertex numbers of the
+  /// mesh.
   std::vector<Index> place(const std::vector<double>& x, const std::vector<double>& corners, const Transform& transform,
                            const std::string& owner) {
     std::vector<Index> number(x.size() / 3, -1), placed;

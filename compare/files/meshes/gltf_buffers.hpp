@@ -1,5 +1,5 @@
-// Finds the numbers of a glTF file: accessors into views into buffers, which are in the file itself, in base64, or in
-// files beside it.
+// Finds the numbers of a glTF file. An accessor refers to a view, and a view to a buffer. A buffer is in the file
+// itself, in base64, or in a file beside it.
 #pragma once
 
 #include <map>
@@ -28,8 +28,8 @@ class GltfBuffers {
   std::size_t whole(const Json& object, const char* key, const std::string& owner) const;
 
   /// Returns all components of accessor `i`, entry after entry. Throws InputError if the accessor's type is not `type`
-  /// ("VEC3", "SCALAR"), if it is sparse or compressed, or if it exceeds its view or buffer. `user` is the object that
-  /// refers to it, in errors.
+  /// ("VEC3", "SCALAR"), if it is sparse or compressed, or if it exceeds its view or buffer. For errors, `user` names
+  /// the object that refers to the accessor.
   std::vector<double> read(std::size_t i, const std::string& type, const std::string& user);
 
   std::size_t bytes_beside() const { return bytes_beside_; }  ///< size of the buffers in other files that were read

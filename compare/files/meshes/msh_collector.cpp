@@ -25,7 +25,7 @@ constexpr std::array<MshElementType, 13> element_types{{{1, 2, 1, "lines"},
                                                         {15, 1, 0, "points"},
                                                         {16, 8, 2, "quadrangles of second order"}}};
 
-/// Returns whether elements of Gmsh's number are read.
+/// Returns whether elements of the Gmsh type `number` are read.
 bool is_read(int number) {
   bool read = false;
   for_each_of<MeshLists>([&]<class List, std::size_t>() {

@@ -22,7 +22,7 @@ struct MshElementType {
   std::string_view name;  ///< plural, for messages
 };
 
-/// The most nodes of an element that is read.
+/// Largest number of nodes of an element type that is read.
 inline constexpr std::size_t most_msh_nodes = [] {
   std::size_t most = 0;
   for_each_of<MeshLists>([&]<class List, std::size_t>() {
@@ -45,8 +45,8 @@ class MshCollector {
   /// Adds an element. Elements other than tetrahedra are only counted.
   void add_element(const MshElementType& type, std::int64_t tag, std::size_t place,
                    std::span<const std::int64_t> nodes);
-  /// Returns the mesh; tetrahedra refer to nodes by their numbers in the mesh. Throws InputError: no node or no
-  /// tetrahedron, a tag that is repeated, unknown or no positive Index.
+  /// Returns the mesh; tetrahedra refer to nodes by their numbers in the mesh. Throws InputError if there is no node or
+  /// no tetrahedron, or if a tag is repeated, unknown, or not from 1 to 2³¹ − 1.
   PolygonMesh finish();
 
   /// Throws InputError "FILE: line 7: what", or "byte 7".

@@ -55,8 +55,8 @@ class ObjParser {
     mesh_.source.vertex_lines.push_back(line_);
   }
 
-  /// Returns the corner's vertex, from 0. Vertices may follow later, so the upper limit is checked when the whole file
-  /// is read.
+  /// Returns the number of the corner's vertex, counted from 0. Vertices may follow later, so the upper limit is
+  /// checked when the whole file is read.
   Index corner(std::string_view word) const {
     std::int64_t i = 0;
     if (!parse_number(word.substr(0, word.find('/')), i) || i == 0) {

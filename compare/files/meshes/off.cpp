@@ -41,7 +41,7 @@ class OffParser {
   }
 
  private:
-  /// Reads the word that ends in OFF, or the counts at once, as some programs leave the word out.
+  /// Reads the word that ends in OFF, if there is one, and the counts. Some programs leave the word out.
   void header() {
     lines_.expect_filled("OFF");
     std::string_view word = lines_.word();

@@ -1,5 +1,5 @@
-// Welds vertices, cuts faces, leaves out faces that are none and unused vertices, and turns tetrahedra, if necessary,
-// each with a sentence for the user.
+// Welds vertices, cuts faces, leaves out unused vertices and degenerate or repeated faces, and turns inverted
+// tetrahedra. Each change gives a sentence for the user.
 #include "compare/files/meshes/polygon_mesh.hpp"
 
 #include <algorithm>
@@ -34,15 +34,16 @@ struct PositionHash {
   }
 };
 
-/// Returns positions with dust at 0, in single precision.
+/// Returns the positions as stages see them: dust (compare/problem/dust.hpp) is set to 0, and coordinates are rounded
+/// to single precision.
 std::vector<Vec3> as_stages_see(const std::vector<Vec3>& positions) {
   Mesh copy{positions, {}, {}};
   clear_dust(copy);
   return to_double(to_single(copy.positions));
 }
 
-/// Returns whether a triangle has no area, exactly; if coordinates are too large or small for that, only whether
-/// corners coincide.
+/// Decides exactly whether a triangle has no area. If a coordinate is too large or too small for that, decides only
+/// whether corners coincide.
 bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   if (a == b || b == c || c == a) return true;
   for (const Vec3& p : {a, b, c})
@@ -144,7 +145,8 @@ class MeshMaker {
     for (const Index v : kept) in_.source.first_faces.push_back(first_face[at(v)]);
   }
 
-  /// Makes triangles with the numbers of their faces; some may name a vertex twice.
+  /// Cuts all faces into triangles, and notes the number of each triangle's face. Some triangles may name a vertex
+  /// twice.
   void cut() {
     std::size_t cut_faces = 0, made = 0, first = 0;
     std::vector<Index> corners;
@@ -170,7 +172,7 @@ class MeshMaker {
     note(more + (cut_faces == 1 ? " was" : " were") + " cut into " + counted(made, "triangle"));
   }
 
-  /// Returns false if the corners make no face, which is then left out.
+  /// Adds the triangles of face f. Returns false if the corners make no face; the face is then left out.
   bool add_triangles(std::size_t f, const std::vector<Index>& corners) {
     if (corners.size() < 3) return leave_out(f, collapsed_);
     std::vector<Triangle>& triangles = out_.mesh.triangles;
@@ -196,7 +198,7 @@ class MeshMaker {
     return true;
   }
 
-  /// A reason to leave faces out, and how many have it.
+  /// A reason for leaving faces out, and the number of faces that are left out for it.
   struct LeftOut {
     const char* one;   ///< message for one face
     const char* more;  ///< message for several
@@ -204,7 +206,8 @@ class MeshMaker {
     std::size_t last = static_cast<std::size_t>(-1);  ///< the face that was counted last
   };
 
-  /// Leaves out a face, or a part of one that was cut; it counts once. Returns false for the caller to return.
+  /// Counts face f as left out for `reason`; several triangles of one face count once. Always returns false, so that
+  /// the caller can return the result.
   bool leave_out(std::size_t f, LeftOut& reason) {
     if (reason.last != f) ++reason.count;
     reason.last = f;
@@ -237,7 +240,7 @@ class MeshMaker {
     say_left_out();
   }
 
-  /// Returns flags of all but the first of triangles with the same vertices.
+  /// Returns a flag for each triangle: whether an earlier triangle has the same vertices.
   std::vector<bool> find_repeated() const {
     std::vector<std::pair<Triangle, std::size_t>> sorted;
     sorted.reserve(out_.mesh.triangles.size());
@@ -269,8 +272,8 @@ class MeshMaker {
     note(counted(all, "face") + (all == 1 ? " was" : " were") + " left out: " + reasons + "; " + first);
   }
 
-  /// Leaves out all but the first of tetrahedra with the same vertices: with a second one no face would be on the
-  /// surface.
+  /// Leaves out each tetrahedron that has the same vertices as an earlier one. If both stayed, none of their faces
+  /// would be on the surface.
   void leave_out_doubled() {
     std::vector<std::pair<Tetrahedron, std::size_t>> sorted;
     sorted.reserve(in_.tetrahedra.size());

@@ -1,5 +1,6 @@
-// Holds a mesh as its file gives it: faces of any number of corners, unused vertices, corners that each face repeats.
-// make_mesh turns it into a mesh of triangles, with a sentence for each change; options refuse changes.
+// Holds a mesh as its file gives it: faces of any number of corners, unused vertices, and one vertex for each corner if
+// faces share none. make_mesh turns it into a mesh of triangles, with a sentence for each change; options refuse
+// changes.
 #pragma once
 
 #include <memory>
@@ -12,8 +13,8 @@
 
 namespace ogc::compare {
 
-/// A mesh of polygons. All indices are valid; positions are finite. Its polygons take the place of triangles, of which
-/// it has none.
+/// A mesh of polygons. All indices are valid; positions are finite. `triangles` is empty, because the polygons replace
+/// them.
 struct PolygonMesh : Mesh {
   std::vector<Index> corners;        ///< of all faces, one after the other, each face in its own order
   std::vector<Index> face_ends{};    ///< end of each face's corners
@@ -39,7 +40,7 @@ struct MeshOptions {
   /// neither leave out nor refuse unused vertices, and do not check positions: for a mesh whose vertices and positions
   /// another file gives
   bool keep_unused = false;
-  bool strict = false;  ///< refuse faces that are none (collapsed, without area, repeated) and inverted tetrahedra
+  bool strict = false;  ///< refuse collapsed, zero-area and repeated faces, and inverted tetrahedra
   /// also leave out triangles that have no area once dust is 0 and coordinates are rounded to single precision, as
   /// stages see them
   bool rounded = false;
@@ -57,13 +58,13 @@ struct LoadedMesh {
   Vec3 origin{};                   ///< point that positions are relative to, in the file's coordinates [m]
 };
 
-/// If there are tetrahedra, leaves faces and loose edges out, with a note: the surface of a solid follows from them.
+/// Leaves out faces and loose edges, with a note, if there are tetrahedra: they determine the surface of a solid.
 void keep_solid(PolygonMesh& mesh);
 
-/// Makes a mesh of triangles. Leaves out, with a note: faces that name fewer than three different vertices or have no
-/// area (decided exactly), all but the first of faces with the same vertices in either sense, and vertices that nothing
-/// uses then. If all tetrahedra are inverted, it turns them. Throws InputError that names the first face or vertex that
-/// the options do not allow, and faces that can't be cut.
+/// Makes a mesh of triangles. Leaves out, with a note, faces that name fewer than three different vertices or have no
+/// area (decided exactly), faces with the same vertices as an earlier face, in any order, and vertices that are then
+/// unused. If all tetrahedra are inverted, it turns them. Throws InputError that names the first face or vertex that
+/// the options do not allow, or a face that can't be cut.
 LoadedMesh make_mesh(PolygonMesh polygons, const MeshOptions& options = {});
 
 }  // namespace ogc::compare

@@ -17,7 +17,7 @@ Vec3 cross(const Vec3& a, const Vec3& b) {
 
 double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/// The corners of a face, seen along its area vector, that are not cut off yet.
+/// Holds the corners of a face that are not cut off yet, and the normal along which the face is seen.
 class Cutter {
  public:
   Cutter(std::span<const Index> corners, std::span<const Vec3> positions)
@@ -92,7 +92,7 @@ class Cutter {
   }
 
   /// Returns whether no other corner lies in the closed triangle, as seen along the normal. Corners that coincide with
-  /// one of its own (a face that is joined to its hole by a pair of coinciding edges) do not count.
+  /// a corner of the triangle do not count. They occur where a pair of coinciding edges joins a face to its hole.
   bool is_empty(const Triangle& t) const {
     const auto inside = [&](const Vec3& p) {
       for (std::size_t k = 0; k < 3; ++k) {

@@ -14,9 +14,10 @@ namespace ogc::compare {
 /// signed area over its squared longest side.
 ///
 /// A quad is cut from its first corner to its third, unless the worse triangle of the other cut has more than twice the
-/// shape. So concave quads are cut rightly, and all nearly square quads alike. From larger faces the ear with the best
-/// shape is cut off first (of equal ears the first), which avoids slivers where the face allows it. Returns nothing if
-/// the face has no area or crosses itself in that view. `corners`: vertices; positions [m] by vertex.
+/// shape of the worse triangle of this cut. So concave quads are cut rightly, and all nearly square quads alike. From
+/// larger faces the ear with the best shape is cut off first (of equal ears the first), which avoids slivers where the
+/// face allows it. Returns nothing if the face has no area or crosses itself in that view. `corners`: vertices;
+/// positions [m] by vertex.
 std::vector<Triangle> triangulate(std::span<const Index> corners, std::span<const Vec3> positions);
 
 }  // namespace ogc::compare

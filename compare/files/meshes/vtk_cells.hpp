@@ -19,7 +19,7 @@ class VtkCells {
   /// Adds a cell, whose corners are vertices of the mesh. Throws InputError that names the cell if its kind is not read
   /// (hexahedra, wedges, pyramids, cells of higher order), or if its kind has another number of corners.
   void add(int kind, std::span<const Index> corners);
-  /// Leaves out, with a note, single points, and everything but tetrahedra if there are any.
+  /// Leaves out, with a note, single points and, if there are tetrahedra, all other cells.
   void finish();
 
  private:

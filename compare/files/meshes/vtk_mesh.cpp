@@ -65,7 +65,8 @@ class PieceReader {
     each_vtk_cell(cell_lists, [&](std::size_t i, std::span<const Index> c) { cells.add(vtk_kind(kind[i]), c); });
   }
 
-  /// Returns the array of that section, by name if one is given; null if there is none.
+  /// Returns the array called `array` in `section`, or the first array of the section if `array` is empty; null if
+  /// there is none.
   const VtkArray* find(const std::string& section, const std::string& array) const {
     const auto found = std::ranges::find_if(piece_.arrays, [&](const VtkArray& candidate) {
       if (candidate.section != section) return false;

@@ -21,7 +21,7 @@ void require_units(std::span<const Quaternion> orientations, const std::string& 
 /// Reads a file that must have orientations, all unit quaternions. Throws InputError.
 std::vector<Quaternion> read_orientations(const std::filesystem::path& file);
 
-/// Writes a file with nothing else. Throws ResourceError.
+/// Writes a file that holds only the orientations. Throws ResourceError.
 void write_orientations(const std::filesystem::path& file, std::span<const Quaternion> orientations);
 
 /// Returns the same memory as rows of four numbers.

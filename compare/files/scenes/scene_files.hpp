@@ -15,17 +15,17 @@
 
 namespace ogc::compare {
 
-/// Version of the format; a newer file is refused by name. From format 2 on bodies may have tetrahedra, materials may
-/// have `solid_…`, a body may be a volume by its `body_contact`, and its loose edges a rod by its material's `rod`,
-/// with `orientations` in a file of their own. The scene's `body_pairs` (empty) is reserved: a reader refuses by name
-/// what it does not simulate.
+/// Newest version of the format that is read; an error names the version of a newer file. Since format 2 bodies may
+/// have tetrahedra, materials may have `solid_…`, `body_contact` may make a body a volume, and a material's `rod` makes
+/// the body's loose edges a rod, with `orientations` in a file of their own. The scene's `body_pairs` is reserved and
+/// must be empty: the reader refuses what this program does not simulate.
 inline constexpr int scene_format_version = 2;
 
 /// Reads and validates a scene file; dust of its meshes becomes 0 (compare/problem/dust.hpp). Throws InputError that
 /// lists every problem found.
 Scene read_scene(const std::filesystem::path& file);
 
-/// Holds a scene and what its file says beyond it.
+/// Holds a scene, and what is known about the files that it was read from.
 struct SceneFile {
   Scene scene;                     ///< the valid scene, rounded to single precision
   MeshSources sources;             ///< places of the bodies' elements in their files
@@ -33,15 +33,15 @@ struct SceneFile {
   Vec3 origin{};                   ///< point that positions are relative to, in the coordinates of a mesh's file [m]
 };
 
-/// Reads and validates a scene file in the same way, and returns all of that.
+/// Reads and validates a scene file as read_scene does, but also returns sources, notes and origin.
 SceneFile load_scene_file(const std::filesystem::path& file);
 
 /// Writes `folder`/NAME.json and for each body one PLY, or one MSH for a solid (positions and, if they differ, rest
 /// positions). Returns the path of the JSON file.
 std::filesystem::path write_scene(const std::filesystem::path& folder, const Scene& scene);
 
-/// Returns `excluded_pairs` of a scene file: runs of pairs of the same two bodies, in their order. Vertices are
-/// numbered within each body.
+/// Returns the `excluded_pairs` of a scene file: one entry for each run of pairs between the same two bodies, in the
+/// order of `pairs`. Vertices are numbered within each body.
 nlohmann::ordered_json excluded_pairs_json(std::span<const Body> bodies, std::span<const std::array<Index, 2>> pairs);
 
 /// Returns the JSON Schema of scene files.

@@ -179,7 +179,7 @@ class SceneReader {
   }
 
  private:
-  // Comes first, as other problems of a file in another format mean nothing.
+  // Runs first, because other problems mean nothing if the file has another format.
   void check_version() const {
     if (!json_.is_object() || !json_.contains("format_version")) return;
     const JsonNode node = root_.child("format_version");
@@ -209,7 +209,7 @@ class SceneReader {
     for (std::size_t i = 0; i < array.size(); ++i) use(array.child(i));
   }
 
-  // Returns none if it can't be read; the problems are then noted.
+  // Reads the mesh file that a node names. Returns nullopt and notes the problem if the file can't be read.
   std::optional<PolygonMesh> read_polygons(const JsonNode& node) {
     std::string text;
     node.read(text);
@@ -222,14 +222,14 @@ class SceneReader {
     }
   }
 
-  // The content of a body's mesh file, and the mesh made of it; rest shape and velocities use the same triangles and
-  // vertices.
+  // The content of a body's mesh file, and the mesh made from it. Files of the rest shape and of velocities must have
+  // the same faces and number of vertices.
   struct BodyMesh {
     PolygonMesh polygons;
     LoadedMesh loaded;
   };
 
-  // Reads and validates; returns none if it can't be used, with the problems noted.
+  // Reads and validates a body's mesh. Returns nullopt and notes the problems if it can't be used.
   std::optional<BodyMesh> read_body_mesh(const JsonNode& node) {
     std::optional<PolygonMesh> polygons = read_polygons(node);
     if (!polygons) return std::nullopt;
@@ -253,7 +253,7 @@ class SceneReader {
     return found.empty();
   }
 
-  // Returns vertex data in the form of a second mesh file: rest positions or velocities.
+  // Returns rest positions or velocities, which a second mesh file gives in place of its positions.
   std::vector<Vec3> read_like(const JsonNode& node, const BodyMesh& mesh) {
     std::optional<PolygonMesh> other = read_polygons(node);
     if (!other) return {};

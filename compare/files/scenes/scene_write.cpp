@@ -53,7 +53,7 @@ Json material_json(const Material& material) {
   return json;
 }
 
-// Returns the body's faces on one of the scene's vertex arrays.
+// Returns the body's mesh with the body's part of `values`, a vertex array of the scene, as positions.
 Mesh body_mesh(const Scene& scene, const Body& body, const std::vector<Vec3>& values) {
   Mesh mesh;
   const Index first = body.first_vertex, end = first + body.vertex_count;
@@ -114,7 +114,7 @@ Json body_json(const std::filesystem::path& folder, const Scene& scene, const Bo
   return json;
 }
 
-// Returns runs of vertices of one body, in the order of the motion.
+// Returns the selections of a motion: one for each run of vertices of the same body, in the order of `vertices`.
 Json selections_json(const Scene& scene, const std::vector<Index>& vertices) {
   const std::vector<Index> owner = body_of_vertex(scene);
   Json selections = Json::array();

@@ -1,5 +1,5 @@
-// Writes doubles as JSON numbers, whose shortest text comes back to the same bits. Settings stand as typed, which
-// rounding to single precision makes exact.
+// Writes doubles as JSON numbers, whose shortest text is read back as the same bits. Settings are written as users type
+// them; this is exact because a scene's numbers are rounded to single precision.
 #include "compare/judge/engine/scene_json.hpp"
 
 #include <algorithm>

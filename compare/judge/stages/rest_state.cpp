@@ -1,4 +1,5 @@
-// Makes the traits of stage rest_state. It folds over the kinds of elements; each has one struct here, RestJudge.
+// Defines how the judge compares answers of stage rest_state. It folds over the kinds of elements; each kind has a
+// specialisation of RestJudge.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,12 +20,12 @@ namespace ogc::compare {
 
 namespace {
 
-/// An angle that may be turned by 2π where it cannot be told from ±π.
+/// An exact angle. If rounding errors could turn it past ±π, the angle turned by 2π is accepted, too.
 struct Angle {
   double exact;
 };
 
-/// Checks whether θ₀ cannot be told from θ₀ turned by 2π.
+/// Returns whether θ₀ is so near ±π that rounding errors could turn it by 2π.
 bool is_folded(double angle, double scale) {
   return std::abs(angle) + rest_state_angle_tolerance * unit_roundoff * scale >= std::numbers::pi;
 }
@@ -35,7 +36,7 @@ double length(const Vector& x) {
   return std::apply([](auto... number) { return std::hypot(double{number}...); }, x);
 }
 
-/// Returns ‖a − b‖ for the nearer sign of a; 1 where the stored one is no unit quaternion.
+/// Returns the distance of `stored` from `exact` or −`exact`, whichever is nearer; 1 if `stored` is no unit quaternion.
 double apart(const Quaternion& stored, const std::array<double, 4>& exact) {
   double same = 0, other = 0, squared = 0;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -48,14 +49,14 @@ double apart(const Quaternion& stored, const std::array<double, 4>& exact) {
   return std::sqrt(std::min(same, other));
 }
 
-/// What the stage asks of the rest data of a kind: its metrics, its numbers, which may have errors and are rounded, the
-/// answer for people and the known ways to get it wrong.
+/// Specialised for each kind of element: its metrics, a visit to each of its numbers (for comparing and rounding), the
+/// quantities that are printed, and its wrong forms.
 template <class Kind>
 struct RestJudge;
 
 void round_exact(RestStateTruth& truth);
 
-/// Makes a form: `change` changes the truth, which is then rounded.
+/// Makes a wrong form: `change` makes the truth wrong in one respect, and the result is rounded.
 template <class Change>
 WrongForm rest_told(std::string name, std::string meaning, Change change) {
   return told(std::move(name), std::move(meaning), &Authority::rest_state,
@@ -304,7 +305,7 @@ struct Rounding {
   }
 };
 
-/// Numbers of the metrics that belong to no kind, and of the first one of the kinds.
+/// Numbers of the metrics that belong to no kind; of_kinds is the number of the kinds' first metric.
 enum Metric : std::size_t { of_mass, of_edge_length_squared, of_meeting, of_kinds };
 
 constexpr std::array common_metrics{MetricInfo{"mass", "u cond", rest_state_tolerance},
@@ -396,7 +397,7 @@ void judge_rest_state(const TestCase& test, const RestStateTruth& truth, const R
 
 namespace {
 
-/// Sets the rounded answer from the values.
+/// Rounds the truth's values and stores the result in truth.exact.
 void round_exact(RestStateTruth& truth) {
   truth.exact.mass.assign(truth.mass.begin(), truth.mass.end());
   truth.exact.edge_length_squared.assign(truth.edge_length_squared.begin(), truth.edge_length_squared.end());
@@ -442,7 +443,7 @@ Json body_to_json(const Body& body) {
   return json;
 }
 
-/// Reads the body that follows those which the scene has.
+/// Reads the next body of the scene; its ranges begin where those of the last body end.
 Body to_body(const Json& json, const Scene& scene) {
   Body body;
   body.name = json.at("name").get<std::string>();
@@ -506,7 +507,8 @@ struct RestState : MeshStage<RestState, &Contestant::rest_state, &Authority::res
     return {std::make_shared<Scene>(scene), std::make_shared<Topology>(build_topology(scene))};
   }
 
-  /// Writes what the stage reads of the scene, and the start positions, which it must not read.
+  /// Writes the parts of the scene that the stage reads. Also writes the start positions, which the stage must not
+  /// read.
   static Json write(const Case& c) {
     const Scene& scene = *c.scene;
     Json bodies = Json::array(), held = Json::array();

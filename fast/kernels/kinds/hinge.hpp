@@ -16,7 +16,7 @@ struct alignas(8) HingeIncidence {
   HingeStencil stencil{};    ///< c and θ₀
 };
 
-/// Computes the energy of hinge i; the argument is the functor of the bending model.
+/// Computes the energy of hinge i. The argument of operator() is the functor of the bending model.
 struct HingeEnergy {
   const HingeRest& rest;
   const HingeWeights* weights;  ///< by hinge; read only if the model `reads_weights`
@@ -33,7 +33,7 @@ struct HingeEnergy {
 
 struct Hinges;
 
-/// The kind. Roles 0 and 1 are the ends of the edge, 2 and 3 the opposite vertices.
+/// The kind of hinges. Roles 0 and 1 are the ends of the edge, 2 and 3 the opposite vertices.
 struct HingeKind : ElementKind<HingeRest, HingeIncidence> {
   using Whole = Hinges;
   using Beside = IsometricStencil;
@@ -107,9 +107,9 @@ OGC_HD HingeReadsOf<typename Items::Number> read_hinges(const SweepShared& view,
   return reads;
 }
 
-// The order of branches may change bits, as in triangle.hpp.
+// The nesting of the branches below changes bits; see triangle.hpp.
 
-/// Adds a hinge; the argument is the functor of its bending model.
+/// Adds a hinge. The argument of operator() is the functor of its bending model.
 struct AddHinge {
   /// Arguments of the model's `add` (models/bending_models.hpp). `damping` is k_d/h [1], or 0 for damping by vertex.
   const HingeSeen& hinge;
@@ -121,7 +121,7 @@ struct AddHinge {
     Model::add(hinge, damping, sum);
   }
 };
-/// Adds the damping that the model's `add` does not include. Members as in AddHinge.
+/// Adds the damping that the model's `add` does not include. Its members are those of AddHinge.
 struct AddHingeDamper {
   const HingeSeen& hinge;
   float damping;

@@ -2,17 +2,18 @@
 // all kinds. A kind has these members:
 //
 //   Rest, Incidence     an element at rest; the element as one of its vertices sees it
-//   Beside, Start, ByBody, RestBeside
-//                     further data, `NoData` where there are none: StreamView says what; `RestBeside` belongs to Rest
+//   Beside, Start, ByBody
+//                     further data that StreamView describes; `NoData` if the kind has none
+//   RestBeside        further data of an element at rest; `NoData` if the kind has none
 //   stream(view)      its stream in a SweepView, and `View`, the part of SweepView that holds it
 //   Whole             its part of a sum, for all of its models
-//   row_in_vertex     its place in SweepVertex::rows; −1: its rows are an array of their own
+//   row_in_vertex     its index in SweepVertex::rows; −1: its rows are a separate array
 //   is_curve          whether vertices have few elements, so that a narrow team serves them
 //   count, vertices   how many vertices an element has, and which
-//   seen, beside      the incidence of a vertex by its role, that is by its place among the vertices
-//   begin             Start of an element, from xᵗ
-//   add_energy        an element's energy
-//   flop, damping_flop  operations of an incidence, and what damping adds (fast/work.cpp)
+//   seen, beside      the incidence and its Beside data, by the role of the vertex (its index among the vertices)
+//   begin             computes Start of an element from xᵗ
+//   add_energy        adds an element's energy
+//   flop, damping_flop  operations of an incidence, and how many damping adds (fast/work.cpp)
 #pragma once
 
 #include "fast/kernels/models/damping.hpp"

@@ -17,7 +17,8 @@ struct KindList {
   /// The streams of all kinds.
   struct Views : Kinds::View... {};
 
-  /// The bit of a kind among what a scene asks of a sum: that of its place in the list.
+  /// The bit of a kind among the features that a scene needs of a sum (sweep_view.hpp). The bits follow the order of
+  /// the list.
   template <class Kind>
   static constexpr unsigned bit = [] {
     unsigned next = first_kind_bit, own = 0;
@@ -27,7 +28,7 @@ struct KindList {
   /// The bits of all kinds.
   static constexpr unsigned bits = (bit<Kinds> | ...);
 
-  /// use(kind) for each, in order.
+  /// Calls use(kind) for each kind, in order.
   template <class Use>
   static void for_each(const Use& use) {
     (use(Kinds{}), ...);

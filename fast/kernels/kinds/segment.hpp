@@ -8,7 +8,7 @@ namespace ogc::fast {
 
 /// Holds the data of rods that the sweep reads and writes: the stream of segments by vertex, and the segments'
 /// quaternions.
-struct RodStream : StreamView<RodIncidence, NoData, NoData, float, true> {  // by body: k_d/h [1]
+struct RodStream : StreamView<RodIncidence, NoData, NoData, float, true> {  // float: k_d/h of a body [1]
   const SegmentSlot* slots = nullptr;  ///< free segments, in the order of their colours
   /// by segment: direction c of rod_rest_direction; null if no segment has damping of strains
   const Vec* direction = nullptr;
@@ -22,7 +22,8 @@ template <bool is_there>
 struct AnySegments;
 using Segments = AnySegments<false>;
 
-/// The kind. A segment's energy is summed up beside the extremes of rods (fast/kernels/sums/rod_sums.hpp).
+/// The kind of rod segments. Their energy is summed together with the extremes of rods
+/// (fast/kernels/sums/rod_sums.hpp).
 struct SegmentKind : ElementKind<SegmentRest, RodIncidence> {
   using Whole = Segments;
   using ByBody = float;

@@ -1,5 +1,5 @@
-// Springs, seen from one of their ends: k_s/2 (l − l₀)², damping (k_d/h) k_s/2 (l − lᵗ)², l = ‖x₀ − (1 − s) x₁ − s
-// x₂‖ (compare/stages/spring.hpp).
+// Adds springs to the sums of sweeps and reports. The energy is k_s/2 (l − l₀)², the energy of damping is (k_d/h) k_s/2
+// (l − lᵗ)², with l = ‖x₀ − (1 − s) x₁ − s x₂‖ (compare/stages/spring.hpp).
 #pragma once
 
 #include <cmath>
@@ -20,7 +20,7 @@ struct SpringRest {
   float ratio = 0;                       ///< s [1]
 };
 
-/// Returns the number of ends that feel the spring.
+/// Returns the number of vertices on which the spring acts.
 inline int end_count(const SpringRest& spring) { return spring.ratio > 0 ? 3 : 2; }
 
 /// Returns x₀ − (1 − s) x₁ − s x₂.
@@ -29,7 +29,7 @@ OGC_HD inline Vec spring_apart(const SpringRest& spring, const Vec* end) {
   return spring.ratio > 0 ? apart - spring.ratio * (end[2] - end[1]) : apart;
 }
 
-/// Returns w of an end: 1, s − 1, −s.
+/// Returns the weight of an end in x₀ − (1 − s) x₁ − s x₂: 1, s − 1 or −s.
 OGC_HD inline float spring_weight(const SpringRest& spring, int end) {
   return end == 0 ? 1.0f : end == 1 ? spring.ratio - 1.0f : -spring.ratio;
 }
@@ -44,8 +44,8 @@ OGC_HD inline float spring_length(const Vec& apart) {
 OGC_HD inline void add_spring(const SpringRest& spring, float weight, float damping, const Vec& apart,
                               float length_start, ForceAndBlock& sum) {
   const float length = spring_length(apart), stiffness = weight * weight * spring.stiffness;
-  // no direction: w² k_s I majorises the energy for every l₀; for a stitch, a length that was lost to rounding may
-  // exceed l₀ = 0
+  // Without a direction the block is w² k_s I, which majorises the energy for every l₀. A stitch needs it, too: its
+  // true length may exceed l₀ = 0 when the computed length is 0.
   if (!(length > 0)) {
     sum.add_identity(stiffness);
     return;
@@ -64,7 +64,7 @@ OGC_HD inline double spring_energy(const SpringRest& spring, float length) {
   return 0.5 * spring.stiffness * change * change;
 }
 
-/// A spring as its end `own` sees it. `index` names all ends, encoded as sweep_view.hpp says.
+/// A spring as its end `own` sees it. `index` holds all ends, encoded as in sweep_view.hpp.
 struct SpringIncidence {
   int index[3] = {0, 0, 0};
   int own = 0;          ///< number of the end that sees it, 0 … 2
@@ -81,8 +81,8 @@ struct SpringKind : ElementKind<SpringRest, SpringIncidence> {
     StreamView<SpringIncidence, NoData, NoData, NoData, true> springs;
   };
   static constexpr bool is_curve = true;
-  /// Of a stitch: now and at the start of the step differences 9 + 9, squares 5 + 5,
-  /// roots 1 + 1; stiffness 2, stretch 2, resistance 1, pull 6, force 1 + 6, block 4 + 3 + 4 + 15.
+  /// Operations of a stitch by term: at present and at the start of the step, differences 9 + 9, squares 5 + 5, roots 1
+  /// + 1; then stiffness 2, stretch 2, resistance 1, pull 6, force 1 + 6, block 4 + 3 + 4 + 15.
   static constexpr double flop = 74;
 
   template <class AnyView>

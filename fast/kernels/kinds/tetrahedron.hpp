@@ -1,6 +1,6 @@
-// Tetrahedra of solids: stable Neo-Hookean, seen from one corner (compare/stages/tetrahedron.hpp). With a, b, c the
-// vectors to the other corners, in the order in which det(a, b, c) is positive at rest, n = (b − a) × (c − a),
-// w_k = V ∇N_k·∇N and i = 1/(6V):
+// Adds tetrahedra of solids (stable Neo-Hookean) to the sums of sweeps and reports, as one of their corners sees them
+// (compare/stages/tetrahedron.hpp). With a, b, c the vectors to the other corners, in the order in which det(a, b, c)
+// is positive at rest, n = (b − a) × (c − a), w_k = V ∇N_k·∇N and i = 1/(6V):
 //
 //   J = i n·a,   V ∂J/∂x = −n/6,   force −μ (w₁ a + w₂ b + w₃ c) + ((λ + μ)(J − 1) − μ) n/6,
 //   block −μ (w₁ + w₂ + w₃) I + (λ + μ) i/6 n nᵀ
@@ -45,7 +45,8 @@ using TetrahedronStencil = TetrahedronStencilOf<float>;
 /// A symmetric 3×3 strain [1] or stress [Pa].
 using SolidStrain = Symmetric3;
 
-/// Holds what damping of strain reads besides: ∇N of the other corners (that of the own one is minus their sum), and V.
+/// Holds the data that only damping of strains reads: V, and ∇N of the other corners. ∇N of the own corner is minus
+/// their sum.
 struct TetrahedronGradients {
   Vec other[3];      ///< ∇N [1/m]
   float volume = 0;  ///< V [m³]
@@ -90,8 +91,8 @@ OGC_HD inline Vec along_columns(const SolidDeformation& f, const Vec& by) {
   return by.x * f.column[0] + by.y * f.column[1] + by.z * f.column[2];
 }
 
-/// Adds −∂/∂x of V (k_d/h) (λ/2 tr(ΔG)² + μ ‖ΔG‖²), ΔG = G − Gᵗ, and its material part, V (k_d/h) ((λ + μ)(F∇N)(F∇N)ᵀ +
-/// μ ‖∇N‖² F Fᵀ), with ∇N of the corner from which a, b and c are seen.
+/// Adds the force of damping, −∂/∂x of V (k_d/h) (λ/2 tr(ΔG)² + μ ‖ΔG‖²) with ΔG = G − Gᵗ, and the material part of its
+/// block, V (k_d/h) ((λ + μ)(F∇N)(F∇N)ᵀ + μ ‖∇N‖² F Fᵀ), with ∇N of the corner from which a, b and c are seen.
 OGC_HD inline void add_solid_damping(const TetrahedronGradients& gradients, const SolidMaterial& material, const Vec& a,
                                      const Vec& b, const Vec& c, const SolidStrain& start, ForceAndBlock& sum) {
   const SolidDeformation f = solid_deformation(gradients, a, b, c);
@@ -110,14 +111,14 @@ OGC_HD inline void add_solid_damping(const TetrahedronGradients& gradients, cons
   for (const Vec& column : f.column) sum.add_outer(around, column);
 }
 
-/// Returns J = i det(a, b, c), in double: it and the energy are only reported.
+/// Returns J = i det(a, b, c) in double. J and the energy are only reported.
 OGC_HD inline double volume_ratio(const TetrahedronRest& rest, const Vec& a, const Vec& b, const Vec& c) {
   const Vector<double> p{a.x, a.y, a.z}, q{b.x, b.y, b.z}, r{c.x, c.y, c.z};
   return rest.inverse * dot(p, cross(q, r));
 }
 
-/// Returns V ψ [J]. With D = F − I, from displacements against rest, nothing would cancel; from positions V (‖F‖² − 3)
-/// is known to about 2⁻²² V.
+/// Returns V ψ [J]. It is computed from positions, so V (‖F‖² − 3) suffers cancellation and has an error of about 2⁻²²
+/// V. Displacements from rest, which give F − I, would avoid this.
 OGC_HD inline double solid_energy(const TetrahedronRest& rest, const SolidMaterial& material, const Vec& a,
                                   const Vec& b, const Vec& c) {
   const auto squared = [](const Vec& p) {
@@ -131,12 +132,12 @@ OGC_HD inline double solid_energy(const TetrahedronRest& rest, const SolidMateri
   return 0.5 * mu * (stretch - 3 * volume) - volume * (mu * grown - 0.5 * bulk * grown * grown);
 }
 
-/// A tetrahedron as one of its corners sees it. `index` names the other three in the order in which they make a
-/// positive volume at rest, encoded as sweep_view.hpp says.
+/// A tetrahedron as one of its corners sees it. `index` holds the other three corners in the order in which they make a
+/// positive volume at rest, encoded as in sweep_view.hpp.
 struct alignas(16) TetrahedronIncidence {
   int index[3] = {0, 0, 0};      ///< a, b, c
   int tetrahedron = -1;          ///< number in RestState::tetrahedra
-  TetrahedronStencil stencil{};  ///< w_k and i of models/tetrahedron.hpp
+  TetrahedronStencil stencil{};  ///< w_k and i (head of this file)
 };
 
 struct Tetrahedra;
@@ -151,13 +152,13 @@ struct TetrahedronKind : ElementKind<TetrahedronRest, TetrahedronIncidence> {
   struct View {
     StreamView<TetrahedronIncidence, TetrahedronGradients, SolidStrain, SolidMaterial, true> tetrahedra;
   };
-  static constexpr bool reports_state = true;  ///< how many are inverted
+  static constexpr bool reports_state = true;  ///< reports the number of inverted tetrahedra
   /// The other corners as each corner lists them: those of the opposite face, in the order of a positive volume.
   static constexpr int others[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   /// Index of each pair of corners in TetrahedronRest::weight.
   static constexpr int pair[4][4] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
-  /// add_tetrahedron: differences 9 + 6, normal 9, J − 1 7, pull 3, weighted sum 15, forces
-  /// 6 + 1 + 6, sum of weights 3, identity 3, block 2 + 15.
+  /// Operations of add_tetrahedron by term: differences 9 + 6, normal 9, J − 1 7, pull 3, weighted sum 15, forces 6 + 1
+  /// + 6, sum of weights 3, identity 3, block 2 + 15.
   static constexpr double flop = 85;
   /// Operations of damping by term: F 45, G 39, the corner's gradient 6, trace 6, stresses 21, pull 15, weights 1 + 7,
   /// force 15 + 6, F∇N 15, blocks 2 + 15 + 45.

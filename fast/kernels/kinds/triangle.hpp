@@ -16,7 +16,7 @@ struct alignas(16) MembraneIncidence {
   MembraneStencil stencil{};  ///< gradients and area
 };
 
-/// Computes the energy of a triangle; the argument is the functor of the membrane model.
+/// Computes the energy of a triangle. The argument of operator() is the functor of the membrane model.
 struct MembraneEnergy {
   const TriangleRest& rest;
   const SurfaceMaterial& material;
@@ -107,7 +107,7 @@ OGC_HD void add_triangles(const MembraneReadsOf<N>& reads, const SurfaceMaterial
 // The functors below select the form of damping first and the model within it; code that all models share is outside of
 // both branches. This nesting changes bits, because a device contracts products and sums only within a branch.
 
-/// Adds a triangle without damping; the argument is the functor of the membrane model.
+/// Adds a triangle without damping. The argument of operator() is the functor of the membrane model.
 struct AddElasticMembrane {
   /// Arguments of the model's `add_elastic`; `to_b` and `to_c` are the edges to the other corners [m].
   const MembraneStencil& stencil;

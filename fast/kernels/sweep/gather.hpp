@@ -1,6 +1,6 @@
 // Sums force and block over the stencils of a vertex, without inertia. The template parameters are the parts, one for
-// each kind of element. A part without items changes no bit (team.hpp), so a scene may use any sum that has all of its
-// kinds: the choice only changes the time.
+// each kind of element. A part without items changes no bit (team.hpp). So any sum that has all kinds of a scene gives
+// the same bits; the choice only changes the time.
 #pragma once
 
 #include <type_traits>
@@ -11,12 +11,13 @@
 
 namespace ogc::fast {
 
-/// Adds the parts in this order, then vertex–facet contacts, then edge–edge contacts. Each type in `Parts` has the bits
-/// of the features that it computes (`gives`) and a function `part_of` that makes the part of a vertex.
+/// Adds the parts in the order of `Parts`, then vertex–facet contacts, then edge–edge contacts. Each type in `Parts`
+/// has the bits of the features that it computes (`gives`) and a function `part_of` that makes the part of a vertex.
 template <class Activation, class... Parts>
 struct Gather {
   static constexpr int parts = sizeof...(Parts) + 2;  ///< warps of a block where teams are spread (fast/cuda/team.cuh)
-  /// All that a scene may ask of this sum. It has other models than the usual ones only where all of its parts do.
+  /// Bits of all features that this sum computes. It computes models other than the usual ones only if all of its parts
+  /// do.
   static constexpr unsigned gives = ((Parts::template gives<Kinds> | ...) & ~asks_any_model) |
                                     (Parts::template gives<Kinds> & ... & asks_any_model) |
                                     (std::is_same_v<Activation, AnyActivation> ? asks_any_activation : 0u);
@@ -58,7 +59,7 @@ struct WholeSum<KindList<Last>, Before...> {
 template <class Next, class... More, class... Before>
 struct WholeSum<KindList<Next, More...>, Before...> : WholeSum<KindList<More...>, Before..., typename Next::Whole> {};
 
-/// The sum that any scene can take.
+/// The sum that serves every scene.
 using GatherAll = WholeSum<Kinds>::Sum;
 
 }  // namespace ogc::fast

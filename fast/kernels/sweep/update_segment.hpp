@@ -6,8 +6,8 @@
 
 namespace ogc::fast {
 
-/// Returns the quaternion as Hsu et al. 2025 compute it: the unit vector along (μ + M) b with μ = σ + ‖b‖
-/// (compare/rods.md).
+/// Returns the quaternion as Hsu et al. 2025 compute it: the unit vector along (μ + M) b with μ = σ + ‖b‖.
+/// compare/rods.md defines M and σ.
 OGC_HD inline Quat published_orientation(float stretch, const Vec& apart, const Vec& direction, const Quat& b,
                                          const Quat& old) {
   const float length = sqrtf(dot(apart, apart)), size = sqrtf(dot(direction, direction)), pull = sqrtf(dot(b, b));

@@ -1,12 +1,12 @@
-// Several doubles side by side in vector registers as one number type, so that several stencils of one kind are
-// differentiated by the code for one. Each lane does what a double would do, operation by operation: no result depends
-// on the width, or on the contents of the other lanes.
+// Makes one number type of several doubles side by side in vector registers, so that the code that differentiates one
+// stencil differentiates several of one kind. Each lane does what a double would do, operation by operation: no result
+// depends on the width, or on the contents of the other lanes.
 //
-// Branches. A comparison gives a mask, which decides a branch where all lanes agree. Where they do not, the branch is
-// taken as if the mask were false and `lanes_differ` is set: the caller then evaluates each lane alone.
+// Branches. A comparison gives a mask. If all lanes agree, the mask decides a branch. Otherwise the branch is taken as
+// if the mask were false, and `lanes_differ` is set: the caller then evaluates each lane alone.
 //
-// A file that uses lanes may be compiled for several machines. Each has a namespace of its own, so that the linker
-// never merges code for a larger one into a program that runs on a smaller one.
+// A file that uses lanes may be compiled for several instruction sets. Each has its own namespace, so that the linker
+// never puts instructions into a program that its machine lacks.
 #pragma once
 
 #include <array>
@@ -94,7 +94,8 @@ struct Lanes {
   Pack part[Packs];
 
   Lanes() = default;
-  // Copied pack by pack: g++ would move half packs, and a load that spans two stores waits until both are in the cache.
+  // Copies pack by pack, because g++ would copy halves of packs, and a load that spans two stores waits until both are
+  // in the cache.
   Lanes(const Lanes& other) {
     for (std::size_t p = 0; p < Packs; ++p) part[p] = other.part[p];
   }
@@ -197,7 +198,7 @@ struct Lanes {
     for (std::size_t i = 0; i < pack_width; ++i) pack[i] = value;
     return pack;
   }
-  // Written as intrinsics where g++ 12 fails on a comparison of vectors with -frounding-math (an internal error).
+  // Uses intrinsics, because g++ 12 fails on a comparison of vectors with -frounding-math (an internal error).
 #if defined(__AVX2__)
   static PackBits less(Pack a, Pack b) { return reinterpret_cast<PackBits>(_mm256_cmp_pd(a, b, _CMP_LT_OQ)); }
   static PackBits at_most(Pack a, Pack b) { return reinterpret_cast<PackBits>(_mm256_cmp_pd(a, b, _CMP_LE_OQ)); }

@@ -3,9 +3,9 @@
 // latency.
 //
 // The method is Householder's reduction to a tridiagonal matrix, then QL with implicit shifts (Bowdler, Martin, Reinsch
-// and Wilkinson 1968). Each lane works on its own part of its matrix; a lane that is done is rotated by nothing. Both
-// are changes of basis, so the eigenvalues are off by at most some roundings of the largest one; the entries beside the
-// diagonal that QL neglects are below 2⁻⁵³ of the largest entry.
+// and Wilkinson 1968). Each lane works on its own part of its matrix; the rotations of a finished lane are identities.
+// Reduction and QL are changes of basis, so the eigenvalues are off by at most some roundings of the largest one. QL
+// neglects entries beside the diagonal that are below 2⁻⁵³ of the largest entry.
 #pragma once
 
 #include "reference/energies/stencils/lanes.hpp"
@@ -83,8 +83,9 @@ class Eigensystem {
       }
   }
 
-  /// Does one sweep towards the eigenvalue `first`, in each lane from the first split of the matrix behind it. Returns
-  /// false where no lane has one left to do.
+  /// Does one QL sweep for the eigenvalue `first`. In each lane the sweep runs from the last row of a block to the
+  /// block's first row, `first`. The block ends at the first negligible entry beside the diagonal. Returns false if all
+  /// lanes have this eigenvalue.
   bool turn(std::size_t first) {
     L last(static_cast<double>(N - 1));
     for (std::size_t k = N - 1; k-- > first;)
@@ -128,8 +129,8 @@ class Eigensystem {
   }
 };
 
-/// Returns where Gauss's elimination meets positive pivots alone: this shows that a matrix is definite, at a hundredth
-/// of the cost of its eigenvalues. Also true where all entries are 0.
+/// Returns the lanes whose matrix needs no projection: all pivots of Gaussian elimination are positive, or all entries
+/// are 0. This costs a hundredth of computing the eigenvalues.
 template <std::size_t N, std::size_t Packs>
 Mask<Packs> needs_none(LowerTriangle<N, Lanes<Packs>> a, const Lanes<Packs>& largest) {
   using L = Lanes<Packs>;

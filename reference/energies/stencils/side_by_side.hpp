@@ -1,6 +1,6 @@
 // Differentiates a batch of stencils in three passes: the energy, pack by pack, as one function of lanes; the
-// projection of the whole batch; the way back to the vertices. The files that are compiled for several machines include
-// this one.
+// projection of the whole batch; the transformation back to the vertices. The files that are compiled for several
+// machines include this one.
 #pragma once
 
 #include <utility>
@@ -27,7 +27,7 @@ void pack(std::array<T, N>& to, Of of) {
 
 using LaneNumbers = std::array<std::size_t, One::width>;
 
-/// Returns stencils of one batch in the lanes of a pack.
+/// Returns the constants of some stencils of a batch, one stencil in each lane.
 template <template <class> class TermOf, class Terms>
 TermOf<One> packed(const Terms& terms, const LaneNumbers& stencil) {
   TermOf<One> all;
@@ -119,7 +119,7 @@ class SideBySide {
     for (std::size_t first = 0; first < batch.size; first += One::width) expand(first);
   }
 
-  /// Lanes behind the last stencil repeat it.
+  /// Returns the stencils of the lanes of a pack, from `first` on. Lanes after the last stencil of the batch repeat it.
   LaneNumbers stencils(std::size_t first) const {
     LaneNumbers numbers;
     for (std::size_t lane = 0; lane < One::width; ++lane)

@@ -1,6 +1,6 @@
-// Gradient and Hessian of a stencil over all of its vertices. No energy reacts to a translation, so derivatives are
-// taken in coordinates orthogonal to all translations: three variables fewer, and the eigenvalues of the smaller matrix
-// are those of the whole one except its three zeros.
+// Computes gradient and Hessian of a stencil over all of its vertices. Energies are invariant under translations, so
+// derivatives are taken in coordinates orthogonal to all translations: three variables fewer, and the eigenvalues of
+// the smaller matrix are those of the whole one except its three zeros.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct StencilDerivatives {
 };
 
 /// Orthonormal coordinates: row k, column d is the share of vertex k in the d-th coordinate; each column adds up to 0.
-/// From column k − 1 on row k has no zeros.
+/// The entries of row k are nonzero from column k − 1 on.
 template <std::size_t Count>
 constexpr std::size_t coordinate_count = 3 * (Count - 1);
 template <std::size_t Count>
@@ -84,8 +84,8 @@ StencilDerivatives expanded(const Second<coordinate_count<Count>>& energy, Hessi
   return result;
 }
 
-/// Returns the derivatives of a stencil. `energy` maps the stencil's vertices to a number of their type; it must not
-/// react to a translation.
+/// Returns the derivatives of a stencil. `energy` maps the stencil's vertices to a number of their type, and must be
+/// invariant under translations.
 template <std::size_t Count, class Energy>
 StencilDerivatives stencil_derivatives(const std::array<Triple<double>, Count>& x, HessianProjection projection,
                                        Energy energy) {

@@ -1,4 +1,4 @@
-// Compiled once for any machine and once for those with AVX2.
+// This file is compiled twice: for any machine, and for machines with AVX2.
 #include "reference/energies/stencils/stencil_kernels.hpp"
 
 #include "reference/energies/stencils/side_by_side.hpp"

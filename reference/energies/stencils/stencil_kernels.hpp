@@ -36,19 +36,20 @@ struct Batch {
   }
 };
 
-/// A contact as a function of its form's vertices alone; a form of fixed weights uses all four places.
+/// A contact as a function of only the vertices that its closest form uses. A closest form with fixed weights uses all
+/// four places.
 template <class Number>
 struct PlacedContactOf {
   ContactTermOf<Number> contact;
   std::array<Number, 4> weight{};
   FormKind form = FormKind::points;
 
-  /// Returns the energy at the vertices of the form [J].
+  /// Returns the energy at the vertices of the closest form [J].
   template <class T, std::size_t N>
   T energy(const std::array<Triple<T>, N>& x) const {
     return contact.energy(ClosestForm{form, {0, 1, 2, 3}, {}}, x);
   }
-  /// Returns the energy of a form of fixed weights, by Σ wᵢ xᵢ [J].
+  /// Returns the energy of a closest form with fixed weights if Σ wᵢ xᵢ is `apart` [J].
   template <class T>
   T energy_between(const Triple<T>& apart) const {
     using std::sqrt;
@@ -67,10 +68,10 @@ using PlacedContact = PlacedContactOf<double>;
 struct StencilKernels {
   template <class Term, std::size_t Count>
   using Function = void (*)(const Batch<Term, Count>& batch, HessianProjection projection);
-  Function<PlacedContact, 2> contacts_of_2;  ///< by the vertices of their forms
+  Function<PlacedContact, 2> contacts_of_2;  ///< the number counts the vertices of the closest form
   Function<PlacedContact, 3> contacts_of_3;
   Function<PlacedContact, 4> contacts_of_4;
-  /// Functions of Σ wᵢ xᵢ alone; missing vertices have the weight 0.
+  /// For energies that depend on Σ wᵢ xᵢ alone; missing vertices have the weight 0.
   Function<PlacedContact, 4> weighted_contacts;
   Function<FrictionTerm, 4> frictions;
 };

@@ -1,5 +1,5 @@
-// The elements of one kind in double, for whole runs. A kind is a struct that says all that solvers ask (kinds.hpp);
-// this is the list of its terms, with what is the same for each kind.
+// Holds the elements of one kind in double, for whole runs: a list of terms, and the functions that are the same for
+// each kind. kinds.hpp describes the members of a kind.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace ogc::reference {
 /// Positions of all vertices [m].
 using State = std::vector<Triple<double>>;
 
-/// Where the first `Count` of these vertices are [m].
+/// Returns the positions of the first `Count` of these vertices [m].
 template <std::size_t Count, class Vertices>
 std::array<Triple<double>, Count> gathered(const Vertices& vertex, const State& x) {
   std::array<Triple<double>, Count> corners;
@@ -25,7 +25,7 @@ std::array<Triple<double>, Count> gathered(const Vertices& vertex, const State& 
   return corners;
 }
 
-/// How many vertices an element of a kind has.
+/// Number of vertices of an element of a kind.
 template <class Kind>
 constexpr std::size_t corner_count =
     std::tuple_size_v<decltype(Kind::corners(std::declval<typename Kind::Term>(), std::declval<State>()))>;
@@ -38,40 +38,40 @@ void differentiate_batch(const Batch<typename Kind::Term, corner_count<Kind>>& b
 template <class Kind>
 class Elements {
  public:
-  using Term = typename Kind::Term;  ///< one of them
+  using Term = typename Kind::Term;  ///< one element
 
   /// Takes the elements of a rounded scene and its rest state.
   Elements(const compare::Scene& scene, const compare::RestStateOut& rest) {
     for (std::size_t i = 0; i < Kind::elements(scene, rest).size(); ++i) terms_.push_back(Kind::term(scene, rest, i));
   }
 
-  /// The elements in the order of the rest state, each with its vertices.
+  /// Returns the elements in the order of the rest state, each with its vertices.
   std::span<const Term> terms() const { return terms_; }
-  std::size_t size() const { return terms_.size(); }  ///< the number of its stencils
-  /// The vertices of a stencil; −1 in the last place where it has three.
+  std::size_t size() const { return terms_.size(); }  ///< number of elements
+  /// Returns the vertices of an element; the last one is −1 if the element has three.
   std::array<compare::Index, 4> vertices(std::size_t stencil) const {
     std::array<compare::Index, 4> all{-1, -1, -1, -1};
     std::ranges::copy(terms_[stencil].vertex, all.begin());
     return all;
   }
-  /// How many of its unknowns, the first ones, are vertices at most.
+  /// Returns the largest number of vertices of an element. Vertices are its first unknowns.
   static std::size_t corners(std::size_t) { return 4; }
 
-  /// xᵗ: what damping counts from.
+  /// Sets xᵗ, the positions at the start of the step, for damping.
   void begin(const State& start) {
     for (Term& term : terms_) Kind::begin(term, start);
   }
-  /// Damping included [J].
+  /// Returns the energy of an element, damping included [J].
   double energy(std::size_t stencil, const State& x) const {
     return terms_[stencil].energy(Kind::corners(terms_[stencil], x));
   }
-  /// Adds the energy of each without damping [J].
+  /// Adds the energies of all elements without damping [J].
   void add_elastic(const State& x, double& sum) const {
     for (const Term& term : terms_) sum += term.elastic(Kind::corners(term, x));
   }
 
-  /// Into the places behind `to`, in batches of terms in their order: those of one body are alike. Calls `finished`
-  /// with the number of each stencil, on the thread that did it.
+  /// Writes the derivatives of all elements to to[0], to[1], … in batches of consecutive elements, because elements of
+  /// one body are alike. Calls `finished` with the number of each element, on the thread that computed it.
   template <class Finished>
   void differentiate(const State& x, HessianProjection projection, StencilDerivatives* to, Finished finished) const {
     tbb::parallel_for(std::size_t{0}, (size() + batch_width - 1) / batch_width, [&](std::size_t number) {

@@ -36,9 +36,9 @@ struct HingeKind : compare::HingeKind {
     }
     return term;
   }
-  /// Where its vertices are [m].
+  /// Returns the positions of an element's vertices [m].
   static std::array<Triple<double>, 4> corners(const Term& term, const State& x) { return gathered<4>(term.vertex, x); }
-  /// xᵗ of a step: what damping counts from [m].
+  /// Sets θᵗ, for damping, from the positions at the start of the step [m].
   static void begin(Term& term, const State& start) {
     const Fold<double> fold(corners(term, start));
     term.start = fold.collapsed() ? 0 : fold.angle();
@@ -55,7 +55,7 @@ struct HingeKind : compare::HingeKind {
     if (!fold.collapsed()) add_angle(term, fold.angle(), sum);
   }
 
-  /// The question that the kind's stage is asked about the vertex at a place.
+  /// Returns the question of the kind's stage about the vertex at a place.
   template <class Positions>
   static compare::BendingCase question(const compare::SweepIn& in, std::size_t i, std::size_t role,
                                        const Positions& x) {

@@ -1,4 +1,4 @@
-// Compiled once for any machine and once for those with AVX2.
+// This file is compiled twice: for any machine, and for machines with AVX2.
 #include "reference/solvers/kinds/kernels.hpp"
 
 #include "reference/energies/stencils/side_by_side.hpp"
@@ -6,7 +6,7 @@
 namespace ogc::reference {
 inline namespace OGC_LANES {
 
-/// Holds for terms whose energy is one of Σ wᵢ xᵢ.
+/// Is true for terms whose energy depends on Σ wᵢ xᵢ alone.
 template <class Term>
 concept OfWeights = requires(const Term& term, const Triple<double>& apart) {
   term.energy_between(apart);

@@ -7,7 +7,8 @@
 
 namespace ogc::reference {
 
-/// The function of a kind, compiled for one machine; a kind whose list differentiates itself has none.
+/// Holds the function of a kind, compiled for one machine. It is empty for a kind whose list computes its own
+/// derivatives.
 template <class Kind>
 struct KernelOf {};
 template <class Kind>
@@ -27,7 +28,7 @@ struct KernelsOf<std::tuple<Kinds...>> : KernelOf<Kinds>... {
     return static_cast<const KernelOf<Kind>&>(*this).kernel;
   }
 };
-/// Those of the list.
+/// The functions of all kinds in ElementKinds.
 using KindKernels = KernelsOf<ElementKinds>;
 
 /// Kernels for any machine, and for one with AVX2.

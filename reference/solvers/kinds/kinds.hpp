@@ -1,14 +1,16 @@
-// The one list of the kinds of elements that the reference knows. Potential, vertex systems, the judged sweep and
-// colours fold over it; what a kind is to each of them its header says:
+// Lists the kinds of elements of the reference. Potential, vertex systems, the judged sweep and colours fold over this
+// list. Each kind has these members:
 //
-//     List                    all elements in double, Elements<Kind> or what has its members
-//     elements, vertices      of compare::Kind, its base; `pulled`, where an element does not move all of its vertices
-//     add_at_rest             adds the rest data of a scene, where a rest state has elements of the kind
-//     TermOf, term, begin,    of Elements: one element over any number type, how it is made of the rest state, its
-//     corners                 start of a step, and the positions that it reads
-//     add                     force and block of one vertex, in double
-//     question, answers,      the same as a question of the kind's stage, with the stage's tolerances
-//     force_tolerance, block_tolerance
+//     List                    all elements in double: Elements<Kind>, or a class with its members
+//     elements, vertices      from the kind of compare, its base
+//     pulled                  the vertices that an element moves, if these are not all of its vertices
+//     add_at_rest             adds the rest data of a scene, if a rest state has elements of the kind
+//     TermOf, term, begin, corners
+//                             for Elements: one element over any number type, how it is made of the rest state, its
+//                             start of a step, and the positions that it reads
+//     add                     adds force and block of one vertex, in double
+//     question, answers, force_tolerance, block_tolerance
+//                             the question of the kind's stage about one vertex, its answers and tolerances
 #pragma once
 
 #include <tuple>
@@ -22,9 +24,9 @@
 
 namespace ogc::reference {
 
-/// In the order in which sums go through them.
+/// All kinds, in the order in which sums add them.
 using ElementKinds = std::tuple<TriangleKind, HingeKind, SpringKind, TetrahedronKind, SegmentKind>;
-/// How many there are.
+/// Number of kinds.
 inline constexpr std::size_t kind_count = std::tuple_size_v<ElementKinds>;
 static_assert(std::is_convertible_v<ElementKinds, compare::ElementKinds>, "the kinds of compare, in their order");
 

@@ -25,7 +25,7 @@ struct SegmentKind : compare::SegmentKind {
     list.add_force(static_cast<compare::Index>(i), end, ends, sum);
   }
 
-  /// The question that the kind's stage is asked about the vertex at a place.
+  /// Returns the question of the kind's stage about the vertex at a place.
   template <class Positions>
   static compare::RodCase question(const compare::SweepIn& in, std::size_t i, std::size_t end, const Positions& x) {
     const compare::Edge& ends = in.rest->segments[i].end;

@@ -20,7 +20,7 @@ struct SpringKind : compare::SpringKind {
   static constexpr double force_tolerance = compare::spring_force_tolerance,
                           block_tolerance = compare::spring_block_tolerance;
 
-  /// The vertices that it pulls. A third vertex whose weight is 0 is not pulled: −1 stands in its place.
+  /// Returns the vertices that a spring pulls. A third vertex of weight 0 is not pulled and is replaced by −1.
   static std::array<compare::Index, 3> pulled(const compare::Spring& spring) {
     if (spring.ratio > 0) return ends_of(spring);
     return {spring.first, spring.second, -1};
@@ -36,14 +36,15 @@ struct SpringKind : compare::SpringKind {
             spring.rest_length,
             spring.damping / scene.settings.time_step};
   }
-  /// Where its vertices are [m]. A vertex that it lacks has the weight 0, and counts as at the origin.
+  /// Returns the positions of a spring's vertices [m]. A missing vertex has the weight 0 and gets the origin as its
+  /// position.
   static std::array<Triple<double>, 4> corners(const Term& term, const State& x) {
     std::array<Triple<double>, 4> corners{};
     for (std::size_t k = 0; k < 4; ++k)
       if (term.vertex[k] >= 0) corners[k] = x[static_cast<std::size_t>(term.vertex[k])];
     return corners;
   }
-  /// xᵗ of a step: what damping counts from [m].
+  /// Sets lᵗ, for damping, from the positions at the start of the step [m].
   static void begin(Term& term, const State& start) {
     const Triple<double> apart = separation(term.weight, corners(term, start));
     term.start = std::hypot(apart[0], apart[1], apart[2]);
@@ -56,7 +57,7 @@ struct SpringKind : compare::SpringKind {
     add_spring(term, term.weight[place], separation(term.weight, with_own<ByOwn<double>>(ends, place)), sum);
   }
 
-  /// The question that the kind's stage is asked about the vertex at a place.
+  /// Returns the question of the kind's stage about the vertex at a place.
   template <class Positions>
   static compare::SpringCase question(const compare::SweepIn& in, std::size_t i, std::size_t place,
                                       const Positions& x) {
@@ -81,7 +82,7 @@ struct SpringKind : compare::SpringKind {
   }
 
  private:
-  /// The second vertex for a third one that is not there.
+  /// Returns the three vertices of a spring; a missing third vertex is replaced by the second.
   static std::array<compare::Index, 3> ends_of(const compare::Spring& spring) {
     return {spring.first, spring.second, spring.third < 0 ? spring.second : spring.third};
   }

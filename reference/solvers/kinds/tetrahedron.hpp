@@ -39,9 +39,9 @@ struct TetrahedronKind : compare::TetrahedronKind {
     term.damping = material.solid_damping / scene.settings.time_step;
     return term;
   }
-  /// Where its vertices are [m].
+  /// Returns the positions of an element's vertices [m].
   static std::array<Triple<double>, 4> corners(const Term& term, const State& x) { return gathered<4>(term.vertex, x); }
-  /// xᵗ of a step: what damping counts from [m].
+  /// Sets Gᵗ, for damping, from the positions at the start of the step [m].
   static void begin(Term& term, const State& start) {
     term.start = solid_strain(solid_deformation<double>(corners(term, start), term.gradient));
   }
@@ -55,7 +55,7 @@ struct TetrahedronKind : compare::TetrahedronKind {
     add_damping(term, at, sum);
   }
 
-  /// The question that the kind's stage is asked about the vertex at a place.
+  /// Returns the question of the kind's stage about the vertex at a place.
   template <class Positions>
   static compare::TetrahedronCase question(const compare::SweepIn& in, std::size_t i, std::size_t corner,
                                            const Positions& x) {
@@ -85,16 +85,16 @@ struct TetrahedronKind : compare::TetrahedronKind {
   }
 
  private:
-  /// The other corners in the order in which a corner sees a positive volume at rest: those of the face opposite to it.
+  /// Lists for each corner the corners of the opposite face, in the order that makes a positive volume at rest.
   static constexpr std::array<std::array<std::size_t, 3>, 4> seen_from{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
-  /// The index of V ∇N_k·∇N_l among the weights of a tetrahedron.
+  /// Returns the index of V ∇N_k·∇N_l among the weights of a tetrahedron.
   static std::size_t index_of_pair(std::size_t k, std::size_t l) {
     const auto [low, high] = std::minmax(k, l);
     return low == 0 ? high - 1 : low + high;
   }
 
-  /// ∇N₀ is not stored and is rounded here.
+  /// Returns ∇N of a corner. ∇N₀ is not stored; it is computed and rounded here.
   static std::array<float, 3> gradient_of(const compare::RestTetrahedron& rest, std::size_t corner) {
     if (corner > 0) return rest.gradient[corner - 1];
     std::array<float, 3> own;

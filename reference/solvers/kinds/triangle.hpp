@@ -40,9 +40,9 @@ struct TriangleKind : compare::TriangleKind {
     term.model = material.membrane;
     return term;
   }
-  /// Where its vertices are [m].
+  /// Returns the positions of an element's vertices [m].
   static std::array<Triple<double>, 3> corners(const Term& term, const State& x) { return gathered<3>(term.vertex, x); }
-  /// xᵗ of a step: what damping counts from [m].
+  /// Sets Gᵗ, for damping, from the positions at the start of the step [m].
   static void begin(Term& term, const State& start) {
     term.start = strain(deformation<double>(corners(term, start), term.gradient));
   }
@@ -55,7 +55,8 @@ struct TriangleKind : compare::TriangleKind {
     add_elastic(list.terms()[i], at, sum);
   }
 
-  /// Seen from one corner; the other two follow in the order of the mesh. ∇N₀ is not stored and is rounded here.
+  /// Returns the question of the kind's stage about one corner; the other two follow in the order of the mesh. ∇N₀ is
+  /// not stored and is rounded here.
   template <class Positions>
   static compare::MembraneCase question(const compare::SweepIn& in, std::size_t i, std::size_t corner,
                                         const Positions& x) {
