@@ -181,7 +181,7 @@ std::vector<Scene> channel_scenes(LawSize) {
   Scene scene = rod_scene("cord_in_channel", straight(segments, {0, 0, 0}), rod_bend);
   const double r = scene.settings.contact_radius, k = scene.bodies[0].material.contact_stiffness;
   const std::vector<double> m = masses(scene);
-  // Both planes are at the distance r − depth: the node is √2 times that above the line in which they meet.
+  // Both planes are at the distance r − depth from the node, so the node is √2 (r − depth) above their common line.
   for (std::size_t v = 0; v <= segments; ++v) {
     const double depth = m[v] * standard_gravity / std::numbers::sqrt2 / k;
     scene.mesh.positions[v] = {segment * (static_cast<double>(v) - 0.5 * segments), std::numbers::sqrt2 * (r - depth),

@@ -1,4 +1,5 @@
-// Computes the elastic energy of cloth from method.md. Laws of energy judge a solver's energy, so they do not use it.
+// Computes the elastic energy of cloth from method.md. The laws judge the energy of a solver, so they use this one
+// instead.
 #pragma once
 
 #include <vector>

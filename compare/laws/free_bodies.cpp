@@ -29,7 +29,8 @@ using namespace law_shapes;
 
 double left_over(const Trajectory& run) { return run.by.is_solved ? 1e-4 : 1e-2; }
 
-/// Sums over steps and vertices of ‖m (vᵗ⁺¹ − vᵗ)‖ and of ‖m x × (vᵗ⁺¹ − vᵗ)‖, which inner forces exchange.
+/// Impulses and angular impulses that inner forces exchange: sums of ‖m (vᵗ⁺¹ − vᵗ)‖ and of ‖m x × (vᵗ⁺¹ − vᵗ)‖ over
+/// steps and vertices.
 struct Exchange {
   double impulse = 0, turn = 0;
 };
@@ -46,7 +47,7 @@ Exchange exchanged(const Trajectory& run) {
 }
 
 /// Returns the rounding error of Σ m v. Velocities (x' − x)/h are off by 2 u |x|/h, u = 2⁻²⁴, in each step; in the
-/// worst case all errors have one sign. This times the lever |x| is the error of Σ m x × v.
+/// worst case all errors have one sign. The error of Σ m x × v is this error times the lever |x|.
 double momentum_rounding(const Trajectory& run) {
   const double x = largest_coordinate(run), steps = static_cast<double>(run.rows.size());
   double mass = 0;

@@ -1,5 +1,5 @@
 // Defines laws of motion: small scenes whose motion is known in closed form, the answer, and its tolerance. A law reads
-// only states and rows of steps, and never learns the solver. compare/laws.md lists the laws.
+// only states and rows of steps, and does not know which solver ran. compare/laws.md lists the laws.
 #pragma once
 
 #include <span>
@@ -72,7 +72,8 @@ struct Law {
   std::string_view name, group;  ///< "slope_slides", "slopes"
   std::string_view meaning;      ///< a clause: what the law tests
   std::string_view answer;       ///< a line: the closed answer
-  /// Whether the law needs a solver with contact energy (Answerer); other solvers leave it out, and the row states that
+  /// Whether the law needs a solver with contact energy (Answerer). For other solvers the row states that it is left
+  /// out.
   bool needs_springs = false;
   /// Returns the scenes to run; settings.steps gives the length.
   std::vector<Scene> (*scenes)(LawSize size) = nullptr;

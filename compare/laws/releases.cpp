@@ -71,7 +71,7 @@ std::vector<Reading> read_leaving(std::span<const Trajectory> runs) {
   return {distance_from_flight(runs[0]), distance_from_flight(runs[1])};
 }
 
-/// Returns the scene, and the same scene with contacts listed from 2 r on.
+/// Returns the scene, and the same scene with contacts listed at distances up to 2 r.
 std::vector<Scene> with_early_lists(const Scene& scene) {
   Scene early = scene;
   early.settings.contact_margin = 1;
@@ -138,8 +138,9 @@ std::vector<Height> heights_by_law(const Trajectory& run) {
   return heights;
 }
 
-/// Returns the largest distance of the centre's height from (1). A step leaves up to 10⁻⁴ of its force, and forty
-/// sweeps of one spring for each vertex leave no more. Fewer than ten steps are in contact; rounding is that of flight.
+/// Returns the largest distance of the centre's height from (1). Each step in contact leaves up to 10⁻⁴ of its force;
+/// forty sweeps leave no more, because each vertex has one spring. Fewer than ten steps are in contact, hence 10⁻³ of
+/// the way.
 Reading distance_of_height(const Trajectory& run) {
   const std::vector<Height> law = heights_by_law(run);
   double most = 0, way = 0;

@@ -139,8 +139,8 @@ std::vector<Reading> read_stick(std::span<const Trajectory> runs) {
   const double way = centre(run.scene, 0, run.states[last]).x - centre(run.scene, 0, run.states[half]).x;
   const double share = run.scene.gravity.x / (-run.scene.gravity.y * run.scene.bodies[0].material.friction);
   const double creep = run.scene.settings.friction_velocity * (1 - std::sqrt(1 - share));
-  // A relative error e of λ changes f₁ by e f₁, and y by e f₁/(2 (1 − y)). Rounding changes x by at most one rounding
-  // error in each step.
+  // Let y be the creep over ε_v. A relative error e of the normal force λ changes f₁(y) by e f₁, and y by e f₁/(2 (1 −
+  // y)). Rounding changes x by at most one rounding error in each step.
   const double error = (lagged_steps(run) / static_cast<double>(run.rows.size()) + force_left(run)) * share /
                        (2 * std::sqrt(1 - share)) * run.scene.settings.friction_velocity;
   return {{.what = "creep",

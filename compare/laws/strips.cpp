@@ -12,7 +12,7 @@
 // alternate. With n rows this changes the extension by a share of less than (1/n)².
 //
 // Sweeps. Let the strip be z too low at the start of a step. The sweeps start from y, which is z + h² g too low. The
-// step's solution is a z too low, a = (m/h²)/(m/h² + k₁), and N sweeps leave a share ρᴺ of the way from y to the
+// step's solution is too low by a·z, where a = (m/h²)/(m/h² + k₁). N sweeps leave a share ρᴺ of the way from y to the
 // solution. So the strip comes to rest where z = a z + ρᴺ (z + h² g − a z). For the longest wave, which is the part 4/π
 // of a uniform load, this is
 //
@@ -54,7 +54,7 @@ double mass_below(const std::vector<double>& m, std::size_t first, std::size_t w
   return sum;
 }
 
-/// Hangs the scene's first body along x: row i moves to its place in the closed answer, row 0 stays.
+/// Hangs the scene's first body along x: row i moves to its position in the closed answer, row 0 stays.
 template <class Stretch>
 void hang(Scene& scene, std::size_t width, Stretch stretch_under) {
   const std::vector<double> m = masses(scene);
@@ -84,7 +84,7 @@ Scene strip(Index rows, std::int64_t iterations, std::int64_t steps) {
   return scene;
 }
 
-/// Returns how far below its law unfinished sweeps may leave the end (z in the head of this file).
+/// Returns by how much unfinished sweeps may leave the end below the law's answer: z in the head of this file [m].
 double swept_sag(const Trajectory& run, double young, double density, double area, double rows) {
   const double h = run.scene.settings.time_step, m = density * area * cell, k = young * area / cell;
   const double q = std::numbers::pi / (2 * rows + 1), rho = std::pow(2 * k * std::cos(q) / (m / (h * h) + 2 * k), 2);

@@ -54,7 +54,7 @@ std::string frame_bytes(const PackedFrame& frame);
 /// differs from its checksum), or of a newer format, or if an orientation is no unit quaternion.
 Frame read_frame(const std::filesystem::path& file);
 
-/// Reads and checks a frame in the same way, but leaves it packed.
+/// Reads and checks a frame as read_frame does, but leaves it packed.
 PackedFrame read_packed_frame(const std::filesystem::path& file);
 
 }  // namespace ogc::compare

@@ -14,7 +14,7 @@
 //     name, synced, then renamed. steps.csv grows by lines; readers ignore an incomplete last line.
 //   - At most a second after a write, and at the end, one call syncs everything that was written; then frames get their
 //     final names. So a power cut loses the last second, and more only if the disk is too slow.
-//   - kill -9 loses no frame that `written()` counts, and no row that add_steps has returned from adding.
+//   - kill -9 loses no frame that `written()` counts, and no row of a call of add_steps that has returned.
 //   - A checkpoint is written after all frames and rows up to its step are synced, so a run continued from it has them.
 //   - At most 64 frames and checkpoints, or 256 MiB of them, wait or are being written; beyond that add_frame and save
 //     wait.
@@ -55,9 +55,9 @@ class RunWriter {
   /// would overwrite.
   RunWriter(std::filesystem::path folder, const Scene& scene, const Provenance& provenance,
             std::vector<std::string> stage_names);
-  /// Continues the run of the folder after `step`, which is that of a checkpoint. Removes rows of later steps, since
-  /// these steps run again, and sets the status to "running". run.json gets the time of the restart, with `note`.
-  /// `scene` is the folder's scene. Throws InputError if another process writes the run, or if it can't be read.
+  /// Continues the run of the folder after `step`, the step of a checkpoint. Removes rows of later steps, since these
+  /// steps run again, and sets the status to "running". run.json gets the time of the restart, with `note`. `scene` is
+  /// the folder's scene. Throws InputError if another process writes the run, or if it can't be read.
   RunWriter(std::filesystem::path folder, const Scene& scene, std::int64_t step, const std::string& note);
   /// Removes the frames of steps for which `keep` is false.
   void keep_frames(const std::function<bool(std::int64_t)>& keep);
@@ -103,7 +103,7 @@ class RunWriter {
   Manifest manifest_;
   std::string scene_digest_;
   std::optional<LineAppender> steps_, iterations_;
-  // Used by the writing thread; by the caller's thread only after a flush.
+  // The writing thread uses these members; the caller's thread may use them only after a flush.
   std::vector<std::filesystem::path> uncommitted_;  ///< frames that do not have their final names yet
   std::int64_t uncommitted_step_ = -1;              ///< step of the last uncommitted frame
   std::optional<TrajectoryWriter> trajectory_;
@@ -126,7 +126,7 @@ class RunReader {
   std::int64_t frame_step(std::size_t i) const { return frames_.at(i).first; }
   /// Returns a frame. Throws InputError also if it does not fit the scene.
   Frame frame(std::size_t i) const;
-  /// Returns a frame as it is stored. Checks it in the same way.
+  /// Returns a frame as it is stored, with the checks of `frame`.
   PackedFrame packed_frame(std::size_t i) const;
 
  private:

@@ -15,7 +15,8 @@ namespace ogc::compare {
 /// VTK's name for this machine's byte order.
 inline constexpr const char* vtk_byte_order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
 
-/// Collects the arrays that follow the XML. Each has its length in bytes before it; the XML refers to it by its offset.
+/// Collects the arrays that follow the XML. Each array is stored after its length in bytes; the XML refers to an array
+/// by its offset.
 class AppendedArrays {
  public:
   /// Adds an array and returns its element for the XML. `type`: VTK's type of the numbers; `name`: its name in viewers.
@@ -41,8 +42,8 @@ inline std::span<const double> as_doubles(const std::vector<Vec3>& vectors) {
   return {vectors.empty() ? nullptr : &vectors.front().x, 3 * vectors.size()};
 }
 
-/// Adds the points of a frame and returns their element for the XML. The scene's points are relative to `origin`. If it
-/// is 0, they are written in single precision; otherwise in double, in the coordinates of the scene's file.
+/// Adds the points of a frame and returns their element for the XML. The scene's points are relative to `origin`. If
+/// `origin` is 0, points are written in single precision; otherwise in double, in the coordinates of the scene's file.
 inline std::string appended_points(AppendedArrays& appended, const Vec3& origin, const std::vector<Vec3f>& positions) {
   if (origin == Vec3{}) return appended.array("Float32", "Points", as_floats(positions), 3);
   const std::vector<Vec3> points = in_file(origin, positions);

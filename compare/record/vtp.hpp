@@ -1,4 +1,4 @@
-// Writes VTK's XML PolyData. Arrays are appended as raw bytes: no text to parse, no digits lost.
+// Writes VTK's XML PolyData. Arrays are appended as raw bytes, so readers parse no text and no digits are lost.
 #pragma once
 
 #include <filesystem>

@@ -9,7 +9,7 @@ namespace {
 
 double distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
-/// Adds a spring about as stiff as the membranes; one of three is a stitch.
+/// Adds a spring about as stiff as the membranes; one spring in three is a stitch (rest length 0).
 void add_spring(Random& random, const std::vector<Index>& groups, Scene& scene) {
   const auto count = static_cast<int>(groups.size());
   const Index first = random.below(count), second = random.below(count);

@@ -1,5 +1,5 @@
-// Makes cases of block: meshes of the detections, with questions about faces near each other. In meshes of regular
-// families nearly every questioned point lies on the boundary of a block or one rung from it.
+// Makes cases of stage block: the meshes of the detections' generators, with questions about faces near each other. In
+// regular meshes nearly every point in a question lies on the boundary of a block or one rung from it.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -19,7 +19,8 @@ double squared_distance(const Vec3f& a, const Vec3f& b) {
   return x * x + y * y + z * z;
 }
 
-/// Checks whether two edges may be nearly parallel; a margin of a thousandth excludes the effect of rounding.
+/// Checks whether two edges may be nearly parallel. The limit is a thousandth too large, so that rounding does not
+/// matter.
 bool might_be_parallel(const std::vector<Vec3f>& x, const Edge& e, const Edge& f) {
   const auto along = [&](const Edge& edge) {
     const Vec3f &a = x[at(edge[0])], &b = x[at(edge[1])];

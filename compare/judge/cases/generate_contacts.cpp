@@ -136,8 +136,8 @@ Shape thin_by(Random& random, double thinness) {
   return shape;
 }
 
-/// Return contacts of thinness 0 or 10^−2.4 … 10^−0.5, and contacts of smaller thinness, most of them needles
-/// (compare/stages/contact_force.hpp).
+/// Return contacts of a thinness of 0 or 10^−2.4 … 10^−0.5, and contacts of a thinness of 10⁻⁹ … 10^−2.4, most of them
+/// needles (compare/stages/contact_force.hpp).
 Shape thin(Random& random) { return thin_by(random, random.one_in(4) ? 0.0 : random.magnitude(-2.4, -0.5)); }
 Shape needle(Random& random) { return thin_by(random, random.magnitude(-9, -2.4)); }
 

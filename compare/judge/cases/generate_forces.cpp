@@ -136,8 +136,8 @@ CaseData membrane_corner(Random& random) {
   return question;
 }
 
-/// Replaces the default model of a case by another one. Generators with other models have names of their own, because a
-/// problem string must keep its case.
+/// Replaces the default model of a case by another one. Generators with other models have their own names, so that
+/// problem strings of the default model keep their cases.
 template <CaseData (*make)(Random&)>
 CaseData other_membrane(Random& random) {
   MembraneCase question = case_of<MembraneCase>(make(random));

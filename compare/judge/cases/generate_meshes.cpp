@@ -1,5 +1,5 @@
-// Makes meshes for detection and bounds, in units of one edge length. Families that aim at a degeneracy are regular
-// arrangements, in which every tie is exact. Their jitter is a rung from 0 to a tenth of an edge.
+// Makes meshes for detection and bounds, in units of one edge length. Generators that aim at a degeneracy make regular
+// meshes, in which every tie is exact. The jitter of these meshes is a rung from 0 to a tenth of an edge.
 #include <array>
 
 #include "compare/judge/cases/generators.hpp"
@@ -165,8 +165,8 @@ CaseData fan(Random& random) {
   return finish(random, builder, {jitter_rung(random), radius_at(random, height)});
 }
 
-/// Puts the corners of a triangle above a vertex, an edge and the interior of a patch, on the block's boundary or one
-/// rung from it.
+/// Puts the corners of a triangle above a vertex, an edge and the interior of a patch. The first two corners lie on
+/// boundaries of the patch's blocks or one rung from them.
 CaseData above(Random& random) {
   MeshBuilder builder;
   const double height = random.magnitude(-2, 0);
@@ -305,8 +305,8 @@ CaseData groups(Random& random) {
   return finish(random, builder, {random.one_in(2) ? 0.1 : jitter_rung(random), radius_at(random, gap)});
 }
 
-/// Makes two or three sheets whose borders are stitched, vertex to vertex or vertex to edge. Excludes only the stitched
-/// pairs of vertices, and leaves some of them out. So other pairs near the seam are not excluded, for example one row
+/// Makes two or three sheets whose borders are stitched, vertex to vertex or vertex to edge. Seams may have holes.
+/// Excludes only the stitched pairs of vertices, so other pairs near the seam are not excluded, for example one row
 /// away.
 CaseData seams(Random& random) {
   MeshBuilder builder;

@@ -1,6 +1,6 @@
 // Makes states for stage plane, in units of one edge length. General states come from the generators of the detections,
 // with pairs within r_q. Ladders approach
-// - gaps of a few ulp, collapsed triangles and far origins, where planes cease to exist,
+// - gaps of a few ulp, collapsed triangles and far origins, for which pairs have no plane,
 // - vertices with more pairs than planes,
 // - pairs in which some or all vertices of a side are fixed.
 #include <algorithm>
@@ -199,8 +199,9 @@ CaseData close_approach(Random& random) {
   return divided(random, random.pick(std::span<CaseData (*const)(Random&)>(states))(random));
 }
 
-/// Puts two sheets one above the other, so that the normal n is the axis. Vertices of either sheet, of both or of none
-/// move along n, towards the other sheet or away from it. This motion may be tiny beside their motion across n.
+/// Puts two sheets one above the other, so that the normal n is a coordinate axis. Vertices of either sheet, of both or
+/// of none move towards the other sheet or away from it, along the line between two vertices of the sheets. A random
+/// motion may be added, which may be far larger.
 CaseData along_normal(Random& random) {
   MeshBuilder builder;
   builder.grid(1, 1, {}, {1, 0, 0}, {0, 1, 0});

@@ -249,7 +249,7 @@ CaseData rods(Random& random) {
 }
 
 /// Makes rods whose segments nearly reverse the direction of the segment before, or nearly continue it. Symmetries of
-/// the cube also bring directions near −e₃.
+/// the cube turn some directions to near −e₃.
 CaseData turned_rods(Random& random) {
   // Least angle between a segment and the reverse of the segment before; exact reversal is refused. Rounding moves ends
   // by 2⁻²⁴ of a few lengths, so it cannot reduce this angle to 0.

@@ -43,7 +43,7 @@ struct StepBuilder {
   }
 
   /// Returns a material up to a thousand times as stiff as inertia. Beyond that a solve in single precision is too
-  /// inaccurate to compare; stage sweep covers it.
+  /// inaccurate to compare; stage sweep covers stiffer materials.
   Material material() {
     Material m;
     m.membrane = MembraneModel::st_venant_kirchhoff;  // choose_models sets other models
@@ -235,8 +235,8 @@ CaseData collide(Random& random) {
   return builder.finish();
 }
 
-/// Returns a motion of the vertices of `like` with keyframes, in which each vertex has its own path. The step ends
-/// between two keyframes, at one, or after the last.
+/// Returns a motion with keyframes for the vertices of `like`; each vertex has its own path. The step ends between two
+/// keyframes, at one, or after the last.
 PrescribedMotion keyframed(Random& random, const StepBuilder& builder, const PrescribedMotion& like) {
   const double h = builder.scene.settings.time_step;
   PrescribedMotion motion;

@@ -413,7 +413,7 @@ CaseData solid(Random& random) {
   return test;
 }
 
-/// Returns a vertex of the sheets, beside which a volume is put.
+/// Returns X_prev of a random vertex of the sheets; a volume is put beside it.
 Vec3 some_vertex(Random& random, const SweepCase& test) {
   const Vec3f& x = test.previous[static_cast<std::size_t>(random.below(static_cast<int>(test.previous.size()) - 1))];
   return {x.x, x.y, x.z};
@@ -472,8 +472,8 @@ CaseData volume_at_radius(Random& random) {
   return with_volume(random, std::move(test), mesh);
 }
 
-/// Puts one or two free volumes about a vertex of the sheets: blocks of tetrahedra, which may overlap. Their ratio of
-/// stiffness to inertia is that of sheets.
+/// Puts one or two free volumes about a vertex of the sheets: blocks of tetrahedra, which may overlap. They have the
+/// same ratio of stiffness to inertia as the sheets.
 CaseData free_volume(Random& random) {
   SweepCase test = case_of<SweepCase>(sheets(random));
   Scene scene = *test.scene;
@@ -511,7 +511,7 @@ CaseData free_volume(Random& random) {
   return test;
 }
 
-/// Takes models other than the default ones; colours are chosen again for their springs.
+/// Takes models other than the default ones. Chooses new colours, because the models may add springs.
 template <CaseData (*make)(Random&)>
 CaseData with_models(Random& random) {
   SweepCase test = case_of<SweepCase>(make(random));

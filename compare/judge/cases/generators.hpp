@@ -37,7 +37,7 @@ const Generator& find_generator(Stage stage, std::string_view name);
 
 /// Makes a case. Throws InputError if the generator is `states` or `mutated` and `states` is null.
 TestCase generate(const CaseName& name, const States* states = nullptr);
-/// Makes the same case from the row of `name.generator`.
+/// Makes a case from `generator`, the row that `name.generator` names.
 TestCase generate(const Generator& generator, CaseName name, const States* states = nullptr);
 
 /// Largest share of grey decisions that generic generators may have (compare/README.md, "The verdict").

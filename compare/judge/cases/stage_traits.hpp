@@ -1,6 +1,6 @@
-// Holds all that the judge knows of a stage as one object. The object defines the question, the generators, how both
-// sides are called and judged, and how a case is written, drawn, mutated and made smaller. The engine uses only this
-// object, so it knows no stage by name. compare/judge/stages/NAME.cpp makes the object from a class
+// Holds all that the judge knows of a stage as one object. The object defines the question, the generators, the calls
+// of contestant and authority, the verdict, and how a case is written, drawn, mutated and made smaller. The engine uses
+// only this object, so it knows no stage by name. compare/judge/stages/NAME.cpp makes the object from a class
 // (compare/judge/stages/stage_of.hpp); a class that lacks a member does not compile.
 #pragma once
 
@@ -36,8 +36,8 @@ class States;
 class Tally;
 struct WrongForm;
 
-/// When the same question gives the same bits. Each level includes the levels before it; the first three names are
-/// CUB's.
+/// When the same question gives the same bits. Each level includes the levels before it. The first three names are
+/// taken from the library CUB.
 enum class Determinism : std::uint8_t {
   not_guaranteed,
   run_to_run,  ///< on the same device, with any number of threads, together with any other cases
@@ -49,7 +49,7 @@ enum class Determinism : std::uint8_t {
 enum class CaseKind : std::uint8_t {
   single,   ///< a pair, a stencil or a vertex: many cases make one question
   mesh,     ///< a mesh, which makes one question
-  followed  ///< a mesh; the truth follows each update of the contestant's answer, which makes judging costly
+  followed  ///< a mesh; the truth starts from the answer's state before each update, which makes judging costly
 };
 
 /// A stage described in words: a row of the table in compare/README.md, which `ogc compare --list --markdown` prints.

@@ -66,7 +66,7 @@ class States {
   /// Return a vertex on its way from this frame to the next one, and a vertex at the start of the step after the frame.
   TruncateCase moved_vertex(std::size_t frame, Random& random) const;
   InitialGuessCase guessed_vertex(std::size_t frame, Random& random) const;
-  /// Return an element at rest, with its vertices where the frame's velocities take them in one step.
+  /// Return an element with its rest data. Its vertices are where the frame's velocities take them in one step.
   MembraneCase triangle(std::size_t frame, Random& random) const;
   BendingCase hinge(std::size_t frame, Random& random) const;
   SpringCase spring(std::size_t frame, Random& random) const;

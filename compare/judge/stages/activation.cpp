@@ -112,7 +112,7 @@ void judge_activation(Cases cases, const ActivationIn& in, const ActivationTruth
 
 namespace {
 
-/// Absolute thresholds that programs use [m].
+/// Distances that programs use as absolute thresholds [m].
 constexpr std::array<std::pair<const char*, float>, 7> gap_thresholds{{{"1e-2", 1e-2f},
                                                                        {"1e-3", 1e-3f},
                                                                        {"1e-4", 1e-4f},

@@ -114,7 +114,7 @@ CaseData offset(Random& random) {
   return finish(points);
 }
 
-/// Takes cases of the ladders towards the planes with rungs of at most 10⁻⁵.
+/// Makes cases of `corner_plane`, `edge_plane` and `corner_edge` with rungs of at most 10⁻⁵.
 CaseData boundary(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 3> ladders{corner_plane, edge_plane, corner_edge};
   random.be_fine();

@@ -107,7 +107,7 @@ Weights moduli(Weights w) {
   return w;
 }
 
-/// Makes the point with weights w the truth. Its weights are not compared, because the mistake is the choice of the
+/// Makes the point with weights w the truth. These weights are not compared, because the mistake is the choice of the
 /// point.
 void say_point(const ClosestFaceIn& in, std::size_t i, const Weights& w, ClosestFaceTruth& truth) {
   truth.weights[i] = w;
@@ -292,7 +292,7 @@ void add_choices(std::vector<WrongForm>& forms) {
 // Forms that add areas.
 
 constexpr unsigned inside_bit = 1u << static_cast<unsigned>(TriangleFeature::interior);
-/// A bound of the rounding error of a sum of three weights, each with ten roundings in double.
+/// Limit of the rounding error of a sum of three weights; each weight has ten roundings in double.
 constexpr double sum_rounding = 30 * 0x1p-53;
 
 /// Makes the form that decides by areas whether the foot is inside. It is inside if the areas of its three triangles,
@@ -403,8 +403,8 @@ bool is_nan_of_needle(const Evidence& evidence, const Authority& authority) {
   return is_nan ? is_needle(in) : agrees(evidence, authority);
 }
 
-/// Checks whether `distance` is the distance to the triangle's plane if the closest point is not in the interior, and
-/// the answer is right otherwise. A right distance is accepted, too.
+/// If the closest point is not in the interior, checks whether `distance` is the distance to the triangle's plane, or
+/// the answer is right. Otherwise checks whether the answer is right.
 bool is_distance_of_plane(const Evidence& evidence, const Authority& authority) {
   const ClosestFaceIn in = question_of(evidence);
   const ClosestFaceTruth truth = authority.closest_face(in);
@@ -415,8 +415,8 @@ bool is_distance_of_plane(const Evidence& evidence, const Authority& authority) 
   return off <= closest_face_distance_tolerance * unit_roundoff * std::max(plane, size) || agrees(evidence, authority);
 }
 
-/// Checks whether the answer is right if its feature is also accepted. The distances of this feature and of a right
-/// feature may be equal in single precision.
+/// Checks whether the answer is right, or wrong only in its feature and weights. A rounded comparison may choose a
+/// wrong feature whose distance equals that of a right feature in single precision.
 bool is_rounded_choice(const Evidence& evidence, const Authority& authority) {
   const ClosestFaceIn in = question_of(evidence);
   const ClosestFaceOut out = evidence.answered.closest_face(in);

@@ -113,7 +113,7 @@ CaseData offset(Random& random) {
   return finish(points);
 }
 
-/// Takes cases of the ladders towards ends, overlaps and the limit of nearly parallel edges with rungs of at most 10⁻⁵.
+/// Makes cases of `threshold`, `overlap` and `end` with rungs of at most 10⁻⁵.
 CaseData boundary(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 3> ladders{threshold, overlap, end};
   random.be_fine();
@@ -225,7 +225,7 @@ WrongForm points_told(std::string name, std::string meaning, Change change) {
               });
 }
 
-/// Accepts only this combination of features and flag.
+/// Accepts only the combination of features and flag in truth.exact.
 void accept(ClosestPointsTruth& truth, std::size_t i) {
   const auto& exact = truth.exact;
   truth.accepted[i] = 1u << (static_cast<unsigned>(exact.first_feature[i]) +

@@ -26,7 +26,7 @@ auto vertices_of(Vertices& all, ContactSides sides) {
 
 Shape contact_shape(const ContactForceCase& c);  ///< Returns the contact's faces, with a dot at the question's vertex.
 
-/// Throws InputError if `own` is not the number of a vertex of the contact.
+/// Throws InputError if c.own is not the index of a vertex of the contact.
 void check_own(const ContactForceCase& c);
 
 /// Returns a pointer to the number that the parameter "r" or "k_c" sets.

@@ -2,9 +2,9 @@
 // state, and forms that change the question or limit a list. The verdict sorts the exact set and the answered set and
 // compares them:
 //
-// - A missing contact (exact, not answered) is accepted if a grey decision lists it, and the answer has another contact
-//   of this decision or the decision accepts that all are missing. Otherwise a vertex could pass through the gap in the
-//   covering by blocks.
+// - A missing contact (exact, not answered) is accepted if a grey decision lists it, and either the answer has another
+//   contact of this decision, or the decision accepts that all are missing. Otherwise a vertex could pass through the
+//   gap in the covering by blocks.
 // - An extra contact (answered, not exact) is accepted if a grey decision lists it.
 // - Two answered contacts of one grey decision are wrong if a boundary separates their blocks (§3.3, local
 //   exclusiveness). Both are accepted for two triangles at a slightly concave edge, and for pairs of edges because of
@@ -125,10 +125,10 @@ inline double length(const Vec3f& a, const Vec3f& b) {
   return std::hypot(double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z);
 }
 
-/// Returns an upper estimate of the unit of a smallest distance's error. The exact unit is max(d, Σ|δ|) of the nearest
-/// pair, but the judge does not know this pair. δ is a vertex of the pair relative to its first vertex, and |δ| sums
-/// the moduli of the coordinates of δ. Each δ is at most d + (longest sides) long, so |δ| is at most √3 times that. A
-/// pair of four vertices has three δ.
+/// Estimates from above the unit of error for a smallest distance. The exact unit is max(d, Σ|δ|) of the nearest pair,
+/// but the judge does not know this pair. δ is a vertex of the pair relative to its first vertex, and |δ| sums the
+/// moduli of the coordinates of δ. Each δ is at most d + (longest sides) long, so |δ| is at most √3 times that. A pair
+/// of four vertices has three δ.
 inline double pair_scale(double d, double sides) { return 3 * std::sqrt(3.0) * (d + sides); }
 
 /// A stage whose answer is the contacts of a state. `S::kept(out)` returns the contacts as a set; `S::moved(out, to)`
@@ -282,8 +282,7 @@ std::size_t cap_seen(std::span<const Evidence> evidence, std::function<Out(const
   return longest;
 }
 
-/// Makes the form that keeps at most `cap` contacts in each list. Which contacts are missing from a full list is taken
-/// from the answer.
+/// Makes the form that keeps at most `cap` contacts in each list. The answer decides which contacts a full list keeps.
 template <class Out, class Truth, class Contact>
 WrongForm capped(std::string name, const std::string& list, std::size_t cap, Detection<Truth> stage,
                  std::function<Out(const DetectIn&)> Contestant::*answered, Owner<Contact> owner) {

@@ -38,7 +38,7 @@ InitialGuessCase falling(Random& random, double speed) {
   c.velocity = single(scaled(in_box(random, -1, 1), speed));
   c.acceleration = random.one_in(4) ? single(scaled(in_box(random, -1, 1), 20)) : Vec3f{0, -9.81f, 0};
   c.time_step = static_cast<float>(random.magnitude(-4, -1));
-  // In a later round, the vertex has moved a part of its step.
+  // In a later round of the guess loop, X_prev is beyond xᵗ by a part of the step.
   const double part = random.one_in(2) ? 0 : random.unit();
   c.previous = single(sum(wide(c.start), scaled(wide(c.velocity), part * c.time_step)));
   return c;

@@ -305,8 +305,8 @@ struct Plane : Numbered, InEveryRun {
   }
   static std::int64_t in_vertices(const TestCase& test) { return case_of<Case>(test.data).topology->vertex_count; }
 
-  /// Lists the answer's bounds and planes on both sides. In counts of mistakes, the contestant's side shows the right
-  /// count, 0, and the exact side the number found in the answer.
+  /// Lists bounds and planes of the contestant as both answers, because the truth has none. Only counts of mistakes
+  /// differ: the contestant's side shows 0, the exact side the number of mistakes in the contestant's answer.
   static Answers answers(const TestCase& test, const Contestant& c, const Authority& a) {
     const In in = question_of(test);
     std::string note;

@@ -305,7 +305,7 @@ struct Rounding {
   }
 };
 
-/// Numbers of the metrics that belong to no kind; of_kinds is the number of the kinds' first metric.
+/// Indices of the metrics that belong to no kind; of_kinds is the index of the first metric of the kinds.
 enum Metric : std::size_t { of_mass, of_edge_length_squared, of_meeting, of_kinds };
 
 constexpr std::array common_metrics{MetricInfo{"mass", "u cond", rest_state_tolerance},

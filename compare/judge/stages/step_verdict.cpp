@@ -273,8 +273,8 @@ class StepVerdict {
     Index certain = 0, doubtful = 0;
   };
 
-  /// Judges a guess. A vertex with contacts must be at the end of the move that these allow, truncated. Any other
-  /// vertex must be at y, truncated. It counts as cut if it is not at y, because truncation changes only positions
+  /// Judges a guess. A vertex with contacts must be at the truncated end of the move that its contacts allow. Any other
+  /// vertex must be at the truncated y, and counts as cut if it is not at y, because truncation changes only positions
   /// beyond the bound.
   void judge_guess(std::size_t i) {
     const StepEvent& event = out_.events[i];
@@ -291,7 +291,7 @@ class StepVerdict {
       }
       const bool is_cut = !(event.position[v] == out_.target[v]);
       cuts.certain += is_cut;
-      // in the guess loop H is that of inertia, which half_spaces_of sets
+      // in the guess loop H is the inertia term alone, which half_spaces_of sets
       const auto planes = detection_->planes.of(static_cast<Index>(v));
       const TruncateIn question{{at_[v]},
                                 {out_.target[v]},

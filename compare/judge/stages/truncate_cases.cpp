@@ -1,6 +1,6 @@
-// Makes cases of stage truncate: vertices that moved, with balls or regions of half-spaces. Ladders approach the bound,
-// a half-space, points where several half-spaces meet, proposals far outside, and regions thinner than the spacing of
-// numbers.
+// Makes cases of stage truncate: vertices that moved, with balls or regions of half-spaces. The proposed position is
+// the position before truncation. Ladders approach the bound, a half-space, points on several planes, proposed
+// positions far outside, and regions thinner than the spacing of numbers.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -96,8 +96,8 @@ struct RegionBuilder {
     const double at = height(n, c.previous), offset = at + room;
     c.half_spaces.push_back({n, std::max(offset, at + spare(n, c.previous, offset))});
   }
-  /// Sets the block at a random scale: the unit matrix as inertia, and contacts of this stiffness along two random
-  /// directions.
+  /// Sets the block H, at a random scale: the unit matrix as inertia, plus contacts along two random directions, which
+  /// are `over_inertia` times as stiff.
   void stiffness(double over_inertia) {
     std::array<double, 6> h{1, 0, 0, 1, 0, 1};
     for (int k = 0; k < 2; ++k) {
@@ -120,7 +120,7 @@ struct RegionBuilder {
       inside = inside && height(h.normal, x) + spare(h.normal, x, h.offset) <= h.offset;
     if (inside) c.current = x;
   }
-  /// Returns the case with a proposal at X_prev + `step`.
+  /// Returns the case, in which X_prev + `step` is the position to be truncated.
   CaseData finish(const Vec3& step) {
     c.position = single(sum(previous(), step));
     return c;
@@ -132,7 +132,8 @@ Vec3 direction(Random& random) {
   return scaled(a, 1 / std::max(length(a), 0.1));
 }
 
-/// Makes one to six half-spaces at any distance within the ball; the proposal lies within three times the ball.
+/// Makes one to six half-spaces at any distance within the ball. The proposed position lies within three times the
+/// ball.
 CaseData regions(Random& random) {
   const double bound = random.magnitude(-4, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);
@@ -156,8 +157,8 @@ CaseData regions_lattice(Random& random) {
   return region.finish(on_lattice(random, 4));
 }
 
-/// Puts X_prev or the vertex on a half-space or a rung before it. The proposal leads through the half-space, along it,
-/// or away.
+/// Puts X_prev or the vertex on a half-space or a rung before it. The proposed position is beyond the half-space, along
+/// it, or away from it.
 CaseData on_plane(Random& random) {
   const double bound = random.magnitude(-3, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);
@@ -165,7 +166,7 @@ CaseData on_plane(Random& random) {
   region.add(n, bound * std::abs(random.rung()));
   if (random.one_in(3)) region.add(direction(random), bound * random.unit());
   region.set_current(random.unit());
-  // Along the half-space, so that the proposal is near it.
+  // along the half-space, so that the proposed position is near it
   const Vec3 any = direction(random), across = scaled(n, n.x * any.x + n.y * any.y + n.z * any.z);
   const Vec3 along = scaled(sum(any, scaled(across, -1)), bound * random.between(0.1, 2));
   return region.finish(sum(random.one_in(2) ? along : Vec3{}, scaled(n, bound * random.rung())));
@@ -187,7 +188,7 @@ CaseData corner(Random& random) {
   return region.finish(scaled(direction(random), bound * random.magnitude(-1, 1)));
 }
 
-/// Makes a thin wedge of two half-spaces that nearly coincide or nearly face each other.
+/// Makes two half-spaces with nearly equal or nearly opposite normals, which leave a thin wedge.
 CaseData wedge(Random& random) {
   const double bound = random.magnitude(-3, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);
@@ -198,7 +199,7 @@ CaseData wedge(Random& random) {
   return region.finish(scaled(direction(random), bound * random.magnitude(-1, 1)));
 }
 
-/// Makes proposals up to 10⁹ bounds away.
+/// Makes proposed positions up to 10⁹ bounds away.
 CaseData outside(Random& random) {
   const double bound = random.magnitude(-4, -1);
   RegionBuilder region(random, in_box(random, -1, 1), bound);
@@ -239,8 +240,8 @@ CaseData crowded(Random& random) {
   return region.finish(scaled(direction(random), bound * random.magnitude(-1, 1)));
 }
 
-/// Makes vertices that start at X_prev and do not slide, as with bounds=dat. X_prev is near half-spaces or on them;
-/// proposals lead nearly along them, along them, or away.
+/// Makes vertices that start at X_prev and do not slide, as with bounds=dat. X_prev is near half-spaces or on them.
+/// Steps to the proposed position lead nearly along the half-spaces, along them, or away.
 CaseData from_previous(Random& random) {
   const double bound = random.magnitude(-4, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);

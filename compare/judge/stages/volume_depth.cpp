@@ -283,8 +283,8 @@ struct VolumeDepth : MeshStage<VolumeDepth, &Contestant::volume_depth, &Authorit
     const std::string solid = solid_problem(c);
     problem.require(solid.empty(), solid.c_str());
   }
-  /// Moves only points, because a volume whose vertices move may fold. A point that was a vertex of the volume is no
-  /// longer one.
+  /// Moves only points, because a volume whose vertices move may fold. Clears `own`, because moved points are not
+  /// vertices of the volume.
   static void mutate(Random& random, Case& c) {
     mutate_points(random, c.points);
     c.own.clear();

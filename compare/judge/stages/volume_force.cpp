@@ -298,8 +298,8 @@ std::vector<WrongForm> volume_force_forms() {
   return forms;
 }
 
-/// Makes a case from a contact of a frame: its first vertex against its other vertices, with random weights. The
-/// triangle is one of the frame's, or joins vertices of two of its faces.
+/// Makes a case from a contact of a frame. The contact's first vertex touches the triangle of its other vertices, at
+/// random weights. If there are fewer than three others, the last one is repeated.
 VolumeForceCase of_contact(const FrictionForceCase& f, Random& random) {
   VolumeForceCase c;
   const auto count = static_cast<std::size_t>(vertex_count(f.contact.sides));

@@ -89,7 +89,7 @@ Four some_rest(Random& random) {
   return random.one_in(2) ? rotation(some_direction(random), random.between(0, 1)) : some_orientation(random);
 }
 
-/// Makes frames of a bent rod, each near the aim.
+/// Returns a draft of a segment in a bent rod: q and qᵗ are near the orientation `aim`, and strains are small.
 Draft near_rest(Random& random) {
   Draft draft;
   draft.length = some_length(random);
@@ -101,7 +101,7 @@ Draft near_rest(Random& random) {
   return draft;
 }
 
-/// Returns a frame near the aim, as a neighbour's target.
+/// Returns a frame near draft.aim, which becomes the target of a neighbour.
 Four near_aim(Random& random, const Draft& draft) {
   return product(draft.aim, rotation(some_direction(random), random.between(-0.7, 0.7)));
 }

@@ -1,4 +1,4 @@
-// Declares cases of volume_depth with tetrahedra: their generators and which of them are legal.
+// Declares cases of volume_depth with tetrahedra: their generators, and a function that checks whether they are legal.
 #pragma once
 
 #include <span>
@@ -11,10 +11,11 @@ namespace ogc::compare {
 /// Returns the generators of these cases, as rows of the stage's table.
 std::span<const Generator> solid_depth_generators();
 
-/// Returns why the tetrahedra or `own` are illegal; empty if they are legal.
-/// - Tetrahedra: a corner is no vertex; a triangle belongs to three tetrahedra, or to two on the same side; the
-///   triangles of a part are not the boundary of its tetrahedra.
-/// - `own`: a vertex is not on the surface, or not where its point is.
+/// Returns why the tetrahedra or c.own are illegal; empty if they are legal. Reasons are
+/// - a tetrahedron without four different vertices of the volume,
+/// - a triangle of three tetrahedra, or of two that lie on one side of it,
+/// - a part whose triangles are not the boundary of its tetrahedra,
+/// - an entry of c.own that is not a vertex of the surface, or not at the position of its point.
 std::string solid_problem(const VolumeDepthCase& c);
 
 }  // namespace ogc::compare
