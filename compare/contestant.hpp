@@ -39,10 +39,10 @@ struct IterationMetrics {
   double residual = 0;                   ///< Eq. 29 with the contacts of the last detection
   double energy = 0;                     ///< incremental potential with these contacts [J]
   double largest_change = 0;             ///< ‖δ‖_∞ of the solve, before any truncation [m]
-  double share = 0;                      ///< share of δ' that the line search took; 0 if no step was taken
-  std::int64_t vertices_cut = 0;         ///< vertices cut in this iteration
-  std::int64_t detected = 0;             ///< 1 if contacts were detected anew for this state
-  double condition_number = 0;           ///< condition number of the matrix; not-a-number unless requested
+  double share = 0;  ///< share of the (truncated) solution that the line search took; 0 if no step was taken
+  std::int64_t vertices_cut = 0;  ///< vertices cut in this iteration
+  std::int64_t detected = 0;      ///< 1 if contacts were detected anew for this state
+  double condition_number = 0;    ///< condition number of the matrix; not-a-number unless requested
   /// Condition numbers of the matrix without friction terms, and without contact and friction terms. A matrix that is
   /// not positive definite is replaced by the sum of its terms' projections.
   double condition_without_friction = 0, condition_without_contact = 0;
@@ -64,7 +64,7 @@ struct StepLedger {
   /// parts of motion_taken along, and away from, the nearest pair
   double motion_taken_tangential = 0, motion_taken_leaving = 0;
   double motion_taken_unpaired = 0;  ///< part of motion_taken at vertices without a pair within r_q
-  /// number of free vertices whose step ends at xᵗ bit for bit, and of those that the last iteration cut
+  /// number of free vertices whose step ends at xᵗ bit for bit; number of them that the last iteration cut
   double vertices_still = 0, vertices_held = 0;
 };
 

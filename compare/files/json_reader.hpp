@@ -29,7 +29,7 @@ class JsonNode {
   std::string where() const;
   const std::string& path() const { return path_; }
 
-  /// Read the value into `target`. For a wrong type they add a problem and leave the target unchanged.
+  /// Read the value into `target`. For a wrong type, each overload adds a problem and leaves the target unchanged.
   void read(bool& target) const;
   void read(std::string& target) const;
   void read(double& target) const;

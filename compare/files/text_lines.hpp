@@ -32,19 +32,21 @@ class TextLines {
   TextLines(std::string_view text, const std::string& name, LineRules rules = {})
       : text_(text), name_(name), rules_(rules) {}
 
-  bool next();                                             ///< goes to the next line; false after the last line
-  bool next_filled();                                      ///< goes to the next line that has a word
-  std::string_view word();                                 ///< the line's next word; empty at its end
-  std::string_view far_word();                             ///< the next word of this line or of a later one
-  std::string_view rest() const { return line_; }          ///< rest of the line after the words that were read
-  double coordinate();                                     ///< the next word [m]; fails if it is no finite number
-  double coordinate(std::string_view found) const;         ///< the same for a word that was already read
+  bool next();                                     ///< goes to the next line; false after the last line
+  bool next_filled();                              ///< goes to the next line that has a word
+  std::string_view word();                         ///< the line's next word; empty at its end
+  std::string_view far_word();                     ///< the next word of this line or of a later one
+  std::string_view rest() const { return line_; }  ///< rest of the line after the words that were read
+  double coordinate();                             ///< the next word [m]; fails if it is no finite number
+  /// converts a word that was already read; fails if it is no finite number
+  double coordinate(std::string_view found) const;
   std::size_t number() const { return number_; }           ///< number of the line, from 1; 0 before the first
   std::size_t bytes_left() const { return text_.size(); }  ///< bytes after this line
 
   /// Returns the next word as a whole number. For another word, or none, throws InputError that names `what`.
   std::int64_t integer(const std::string& what) { return integer(word(), what); }
-  /// Converts a word that was already read; throws in the same way.
+  /// Converts the word `found`, which was already read, to a whole number. For another word throws InputError that
+  /// names `what`.
   std::int64_t integer(std::string_view found, const std::string& what) const;
   /// Returns the number of entries that the word `found` announces. Fails if the file has fewer than `least` bytes left
   /// for each.
@@ -52,7 +54,7 @@ class TextLines {
 
   /// Goes to the next line that has a word. If the file ends before it, throws InputError that names `what`.
   void expect_filled(const std::string& what);
-  /// Returns the next word of this line or of a later line. Throws in the same way.
+  /// Returns the next word of this line or of a later line. If there is none, throws InputError that names `what`.
   std::string_view expect_word(const std::string& what);
   /// Throws InputError: the file ends before `what`.
   [[noreturn]] void fail_truncated(const std::string& what) const;

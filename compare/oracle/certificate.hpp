@@ -14,7 +14,8 @@ struct MotionCertificate {
   /// number of vertices with ‖x − x_prev‖ > b_v, with a number that is not finite, or with b_v < 0
   std::size_t violations = 0;
   Index worst_vertex = -1;  ///< vertex of the largest ratio, the lowest-numbered of equals; −1 if no vertex moved
-  /// largest ‖x − x_prev‖ / b_v, rounded; infinite if a vertex moved although b_v = 0, or is not finite
+  /// largest ‖x − x_prev‖ / b_v, rounded; infinite if a vertex moved although b_v = 0 or has numbers that are not
+  /// finite
   double worst_ratio = 0;
   bool kept() const { return violations == 0; }
 };

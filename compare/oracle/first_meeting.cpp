@@ -43,7 +43,7 @@ class Paths {
     return all;
   }
 
-  /// Returns whether the faces meet at a time at which the volume is 0.
+  /// Returns whether the faces meet at `time`, at which the volume must be 0.
   bool meets(Moment& time) const { return kind_ == MeetingKind::edge_edge ? edges_meet(time) : vertex_meets(time); }
 
  private:

@@ -50,7 +50,7 @@ template <class N>
 struct DistanceVector {
   N x, y, z;  ///< coordinates
 };
-/// minus, dot and cross return a − b, a·b and a × b; widen returns K points as vectors over N.
+/// minus, dot and cross return a − b, a·b and a × b; widen converts points to vectors over N.
 template <class N>
 DistanceVector<N> minus(const DistanceVector<N>& a, const DistanceVector<N>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};

@@ -16,7 +16,7 @@ namespace {
 int side_seen(const Vec3& a, const Vec3& b, const Vec3& p) {
   const int side = orientation({0, a.y, a.z}, {0, b.y, b.z}, {0, p.y, p.z}, {1, p.y, p.z});
   if (side != 0) return side;
-  // with (ε, ε²) added to p, the sign of −(b.z − a.z) decides, or that of b.y − a.y if it is 0
+  // with (ε, ε²) added to p, the sign of −(b.z − a.z) decides, or the sign of b.y − a.y if b.z = a.z
   if (a.z != b.z) return b.z < a.z ? 1 : -1;
   return a.y < b.y ? 1 : a.y > b.y ? -1 : 0;
 }

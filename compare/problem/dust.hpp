@@ -1,6 +1,6 @@
 // Clears dust: tiny numbers like 6e-17 in place of a 0, for example from a rounded sine. Nearly every generated mesh
 // has some. Dust has no meaning, but it widens the range of exponents, and numbers of exact arithmetic grow with that
-// range. So it is set to 0 when a scene's meshes are read (method.md §2.4), and never later.
+// range. So dust is set to 0 when a scene's meshes are read (method.md §2.4), and never later.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// Adjacency by counting sorts: one pass counts a row's items, one fills them, and visiting items in ascending order
-// leaves the rows sorted. A million vertices take about a second of memory traffic and no global sort.
+// Builds adjacency by counting sorts: one pass counts a row's items, one fills them, and visiting items in ascending
+// order leaves the rows sorted. A million vertices take about a second of memory traffic and no global sort.
 #include "compare/problem/mesh.hpp"
 
 #include <algorithm>

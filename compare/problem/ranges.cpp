@@ -11,8 +11,8 @@ namespace {
 
 constexpr double least_single = std::numeric_limits<float>::denorm_min();
 
-/// Returns the text of a range. `is_rounded`: values are rounded to single precision, which has no number between 0 and
-/// the least one.
+/// Returns the text of a range. If `is_rounded`, values are rounded to single precision, which has no number between 0
+/// and `least_single`.
 std::string range(double minimum, double maximum, bool is_rounded) {
   return (is_rounded && minimum == 0 ? "0, or " + shortest(least_single) : shortest(minimum)) + " to " +
          shortest(maximum);

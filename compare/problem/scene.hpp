@@ -183,10 +183,11 @@ struct PrescribedMotion {
   friend bool operator==(const PrescribedMotion&, const PrescribedMotion&) = default;
 };
 
-/// A spring between a vertex and another one, or a point of the line between two others, of any bodies. Its energy is
-/// k/2 (l − l₀)², and the energy of its damping is k_d/h · k/2 (l − lᵗ)², with l = ‖x_first − (1 − s) x_second − s
-/// x_third‖. A spring is no edge of the mesh and takes no part in contact. A stitch has l₀ = 0. Faces at both ends of a
-/// spring are excluded from contact only if `Scene::excluded_pairs` has these vertices.
+/// A spring between vertex `first` and either vertex `second` or a point of the line from `second` to `third`. The
+/// vertices may be of different bodies. Its energy is k/2 (l − l₀)², and the energy of its damping is k_d/h · k/2 (l −
+/// lᵗ)², with l = ‖x_first − (1 − s) x_second − s x_third‖. A spring is no edge of the mesh and takes no part in
+/// contact. A stitch has l₀ = 0. Faces at both ends of a spring are excluded from contact only if
+/// `Scene::excluded_pairs` has these vertices.
 struct Spring {
   Index first = -1, second = -1;  ///< vertices, distinct
   double stiffness = 0;           ///< k [N/m]
@@ -206,7 +207,8 @@ struct Scene {
   std::vector<Body> bodies;               ///< cover all vertices, triangles and tetrahedra, in order
   std::vector<PrescribedMotion> motions;  ///< of vertices that no force moves
   std::vector<Spring> springs;            ///< between vertices, or a vertex and an edge
-  /// pairs of vertices; a pair of faces with one of them on each side is excluded (stitched primitives, §5.1.3)
+  /// pairs of vertices; a pair of faces is excluded if one face contains the first vertex and the other face the second
+  /// (stitched primitives, §5.1.3)
   std::vector<std::array<Index, 2>> excluded_pairs;
   Vec3 gravity{0, -9.81, 0};  ///< [m/s²]
   Settings settings;

@@ -40,8 +40,8 @@ std::string tetrahedron_name(const MeshCheck& check, Index t) {
   return check.names.tetrahedron(t, check.mesh.tetrahedra[at(t)]);
 }
 
-/// Returns whether 6V is below 2⁻⁸⁰ m³, or V ∇N_k·∇N_l = n_k·n_l/(36 V) may be above 2⁶⁰ m; n_k is the normal of twice
-/// a face's area.
+/// Returns whether 6V is below 2⁻⁸⁰ m³, or V ∇N_k·∇N_l = n_k·n_l/(36 V) may be above 2⁶⁰ m. n_k is the normal of a
+/// face; its length is twice the face's area.
 bool is_sliver(const std::vector<Vec3>& positions, const Tetrahedron& corners) {
   const auto edge = [&](Index from, Index to) {
     const Vec3 &p = positions[at(from)], &q = positions[at(to)];
@@ -115,8 +115,9 @@ std::vector<Index> joined_components(const Topology& topology, std::span<const T
   return joined;
 }
 
-// A filter decides most cases. Rounding errors: differences (1), a product (1), their difference (1), the third factor
-// (1 + 1), two sums (2). So the error is at most 7ε of the sum of the moduli, ε = 2⁻⁵³; 8ε covers second order.
+// A filter decides most cases. Rounding errors: differences of coordinates (1), a product (1), the difference of two
+// products (1), the third factor (1 + 1), two sums (2). So the error is at most 7ε of the sum of the moduli, ε = 2⁻⁵³;
+// 8ε covers second order.
 //
 // The exact sum uses no differences of coordinates: det(b − a, c − a, d − a) is det(b, c, d) − det(a, c, d) + det(a, b,
 // d) − det(a, b, c). These are 24 triple products, each stored as four doubles.

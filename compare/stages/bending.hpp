@@ -44,14 +44,14 @@ struct BendingIn {
 /// - θ, 12: a relative error of 4 u, and |θ| ≤ π, while the scale is at least 1
 /// - the moment and the force, 4
 inline constexpr double bending_force_tolerance = 36;
-/// Largest error of the gradient ∇θ, as counted above.
+/// Largest error of the gradient ∇θ in units of u · scale; bending_force_tolerance counts its rounding errors.
 inline constexpr double bending_gradient = 20;
 /// Largest error of the block in units of u · scale. Rounding errors: ∇θ twice, a factor (2), an outer product (2).
 ///
 /// Scales also contain terms of second order, which remain where a first derivative vanishes. Let cond(f) be Σ ‖∂f/∂q‖
 /// ‖q‖ over the inputs q. The block's scale contains bending_gradient · u · c (1 + k) · cond(∇θ)². The force's scale
-/// contains a term that allows the product of two errors: bending_gradient · u · cond(∇θ), and 16 u · cond of the
-/// moment ∂E/∂θ.
+/// allows the product of two errors: that of ∇θ, bending_gradient · u · cond(∇θ), times that of the moment ∂E/∂θ, 16 u
+/// · cond(∂E/∂θ).
 inline constexpr double bending_block_tolerance = 2 * bending_gradient + 4;
 /// A hinge is grey if its angle, now or at the start, is within this many units of u · scale of ±π. Then the answers
 /// for the angle plus and minus 2π are accepted as well.
@@ -60,10 +60,10 @@ inline constexpr double bending_grey = 16;
 /// times u. The normal of rounded differences has an error of 4 u. A kernel may treat sines below eight times this
 /// error, 32 u, as 0. Twice 32 u also covers the rounding of its test.
 inline constexpr double bending_needle = 64;
-/// Largest errors of the isometric quadratic model without damping, in units of u · scale. (The judge applies the
-/// tolerances above, so this model's scales are multiplied by the ratio of these to those.) Rounding errors of the
-/// force: a difference (1), a product (1), two sums (2), the weight of x0 (2), c w (1), the product (1). Of the block:
-/// the weight of x0 twice (4), a square (1), c (1).
+/// Largest errors of the isometric quadratic model without damping, in units of u · scale. (The judge applies
+/// bending_force_tolerance and bending_block_tolerance, so the scales of this model are multiplied by the ratio of its
+/// tolerances to those two.) Rounding errors of the force: a difference (1), a product (1), two sums (2), the weight of
+/// x0 (2), c w (1), the product (1). Of the block: the weight of x0 twice (4), a square (1), c (1).
 inline constexpr double isometric_force_tolerance = 8;
 inline constexpr double isometric_block_tolerance = 6;
 

@@ -47,7 +47,8 @@ struct ClosestFaceTruth {
 /// Otherwise errors are amplified by Σ|δ|/distance, where δ are the coordinates relative to the first corner, so the
 /// judge multiplies by max(1, Σ|δ|/distance).
 inline constexpr double closest_face_distance_tolerance = 12;
-/// Largest error accepted in a weight, in units of u · weight_condition, by the same count.
+/// Largest error accepted in a weight, in units of u · weight_condition; the count is that of
+/// closest_face_distance_tolerance.
 inline constexpr double closest_face_weight_tolerance = 12;
 /// Largest amount by which `distance_below` may be below the exact distance, in units of u · max(distance, Σ|δ|), u =
 /// 2⁻²⁴. A smaller bound is valid, but too loose to be useful.

@@ -68,8 +68,8 @@ struct ContactForceIn {
 /// - e_k as a share of the overlap: a difference, two scalar products (6), a quotient for each end, their difference,
 ///   the root of a quotient of squares (6 / 2 + 2), two products: 16.
 inline constexpr double contact_force_tolerance = 47;
-/// Largest error of the block in units of u · scale. Rounding errors: n (36, as above), g'' (5; of ipc_log 8), Σ |w_u|
-/// of four vertices (3), its products with |w| and g'' (2), an outer product (2).
+/// Largest error of the block in units of u · scale. Rounding errors: n (36, see contact_force_tolerance), g'' (5; of
+/// ipc_log 8), Σ |w_u| of four vertices (3), its products with |w| and g'' (2), an outer product (2).
 inline constexpr double contact_block_tolerance = 51;
 /// Largest error of a distance in units of u · scale. Rounding errors: a difference (1), a product and two sums (3),
 /// squares (3), a root (1); twice that, since the weights are not quite those of the closest points. A contact is grey

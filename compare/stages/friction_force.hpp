@@ -25,8 +25,8 @@ struct FrictionForceIn {
 /// (a scalar product (3), a product, a difference), its length (4), f₁/‖u‖ (a quotient, a difference, a quotient), its
 /// products with λ and μ (2), then with weight and slip (2): 52.
 inline constexpr double friction_force_tolerance = 52;
-/// Largest error of the block. Rounding errors: μ λ f₁/‖u‖ (50, as above), Σ |w_u| (3), the products with |w| and μ λ
-/// f₁/‖u‖ (2), an outer product (2), the difference from I (1).
+/// Largest error of the block. Rounding errors: μ λ f₁/‖u‖ (50, see friction_force_tolerance), Σ |w_u| (3), the
+/// products with |w| and μ λ f₁/‖u‖ (2), an outer product (2), the difference from I (1).
 inline constexpr double friction_block_tolerance = 58;
 
 }  // namespace ogc::compare

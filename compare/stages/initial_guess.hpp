@@ -59,7 +59,8 @@ inline constexpr double initial_guess_target_tolerance = 4;
 /// Largest error of a turned frame in units of u · orientation_scale. Let a and b be the directions of Dᵗ and D. Their
 /// lengths are off by 5 u (a scalar product, a root, a quotient), their components by 1 u. The quaternion (a × b, 1 +
 /// a·b) is off by both lengths (10) and its own rounding errors (cross product 2, scalar product and sum 4): 16. Half
-/// of this counts, because its length is 2 cos(θ/2). A product of quaternions adds 8, and two normalisations 4 each.
+/// of this counts, because the quaternion's length is 2 cos(θ/2). A product of quaternions adds 8, and two
+/// normalisations 4 each.
 inline constexpr double initial_guess_turn_tolerance = 24;
 
 }  // namespace ogc::compare

@@ -52,19 +52,20 @@ inline constexpr double membrane_force_tolerance = 24;
 /// Largest error of the block. Rounding errors: F (3), twice; its products with ∇N₀ (1 + 2), twice; an outer product
 /// (2), a factor (3), three sums.
 inline constexpr double membrane_block_tolerance = 20;
-/// Largest error of the force of the stable Neo-Hookean model. (The judge applies the tolerance above, so this model's
-/// scales are multiplied by the ratio of this to that.) Rounding errors, 38 in all:
+/// Largest error of the force of the stable Neo-Hookean model. (The judge applies membrane_force_tolerance, so this
+/// model's scales are multiplied by neo_hookean_force_tolerance/membrane_force_tolerance.) Rounding errors, 38 in all:
 ///
 /// - (λ + μ)(J − 1) − μ: the normal of two edges (two differences, a product, a difference: 4), its length (2 · 4 + 3
 ///   halved by the root, the root: 7), the density ∇N₁ × ∇N₂ (2), J (10 with these), the rest (4): 14.
 /// - g: the third edge (2), n (4 + 8 + 1), a cross product (2), the density (3): 20.
-/// - the product of both (1), two sums (2), the area (1).
+/// - the product of (λ + μ)(J − 1) − μ and g (1), two sums (2), the area (1).
 inline constexpr double neo_hookean_force_tolerance = 38;
-/// Largest error of its block. Rounding errors: (λ + μ)(J − 1) − μ (14), ‖g‖² (2 · 20 + 3), its quotient by J and the
-/// sum (13), n twice (26), an outer product (2), area and sums (3): 101.
+/// Largest error of the block of the stable Neo-Hookean model. Rounding errors: (λ + μ)(J − 1) − μ (14), ‖g‖² (2 · 20 +
+/// 3), its quotient by J and the sum (13), n twice (26), an outer product (2), area and sums (3): 101.
 inline constexpr double neo_hookean_block_tolerance = 101;
-/// Error of f₁ × f₂ in units of u · scale: 7 by the count above, and a reserve. If ‖f₁ × f₂‖ is at most twice this
-/// error, the triangle may count as collapsed, because first-order errors are then off by a tenth or more.
+/// Error of f₁ × f₂ in units of u · scale: 7 by the count of neo_hookean_force_tolerance, and a reserve. If ‖f₁ × f₂‖
+/// is at most twice this error, the triangle may count as collapsed, because first-order errors are then off by a tenth
+/// or more.
 inline constexpr double neo_hookean_grey = 16;
 
 }  // namespace ogc::compare

@@ -87,13 +87,13 @@ inline constexpr double orientation_tolerance = 45;
 /// Largest residual ‖(I − q qᵀ)(M q + b)‖ in units of u · energy_scale. Two counts of rounding errors; the larger one,
 /// that of M q, decides:
 ///
-/// - b: 45, as above.
-/// - M q: M, by the counts above of D (5), c (30) and k_s (25); the answer q (7), times the distance 2 σ of M's
-///   eigenvalues (14): 74.
+/// - b: 45, see orientation_tolerance.
+/// - M q: M, by the counts of orientation_tolerance for D (5), c (30) and k_s (25); the answer q (7), times the
+///   distance 2 σ of M's eigenvalues (14): 74.
 inline constexpr double orientation_residual_tolerance = 74;
-/// Largest excess over the least energy, in units of u · energy_scale. If q is known, the excess is of second order. If
-/// b is smaller than its own error, q may lie on the wrong half of the circle of minimisers. The excess is then at most
-/// twice the error of b (45).
+/// Largest excess over the least energy, in units of u · energy_scale. If q is well determined, the excess is of second
+/// order. If b is smaller than its own error, q may lie on the wrong half of the circle of minimisers. The excess is
+/// then at most twice the error of b (45).
 inline constexpr double orientation_energy_tolerance = 90;
 /// Largest | ‖q‖ − 1 | in units of u. Rounding errors: four squares and their sum (4) halved by the root, the root, a
 /// quotient. A factor (3 − ‖q‖²)/2 and a product cost no more.

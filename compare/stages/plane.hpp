@@ -130,14 +130,14 @@ struct PlaneTruth {
   PlaneFreedom freedom;      ///< whether they leave the vertices their freedom
 };
 
-/// Largest narrowing in units of u · max(d, Σ|δ|): 2γ_p < 1 times the sum of three errors, each at most 1. The first is
-/// the error of n's direction, since along a turned n other points than the closest ones face each other. The second is
-/// the error of n's length. The third comes from the offsets and from the judge's arithmetic in double. A direction
-/// computed in single precision exceeds this.
+/// Largest narrowing in units of u · max(d, Σ|δ|): the sum of three errors, each at most 1, times 2γ_p < 1. The first
+/// is the rounding of n's direction, which changes the pair's projection on n by at most u Σ|δ|. The second is the
+/// error of n's length. The third comes from the offsets and from the judge's arithmetic in double. A kernel that
+/// computes n's direction in single precision exceeds this limit.
 inline constexpr double plane_narrowing_tolerance = 3;
-/// Largest division in units of u · (max(d, Σ|δ|) + d W/(a + b)): the room's own error (3, as above) and the error of s
-/// (at most 1). a and b are sums of three products in single precision and err by 4 u W. So s errs by 4 u W/(a + b), in
-/// a product with 2γ_p d < d.
+/// Largest division in units of u · (max(d, Σ|δ|) + d W/(a + b)): the room's own error (3, see
+/// plane_narrowing_tolerance) and the error of s (at most 1). a and b are sums of three products in single precision
+/// and err by 4 u W. So s, which is multiplied by 2γ_p d < d, errs by 4 u W/(a + b).
 inline constexpr double plane_division_tolerance = 4;
 /// Largest ball shortfall in units of u γ_p · max(d, Σ|δ|): the error of a smallest distance
 /// (`detect_below_tolerance`), of a product rounded down (2), and of a kernel that rounds to nearest and then steps

@@ -95,7 +95,7 @@ struct RestStateOut {
 struct RestStateTruth {
   RestStateOut exact;                    ///< correctly rounded
   std::vector<double> mass, mass_scale;  ///< by vertex [kg]
-  /// by triangle [m²]; by edge [m²]
+  /// areas by triangle and squared lengths by edge, with the units of their errors [m²]
   std::vector<double> area, area_scale, edge_length_squared, edge_length_squared_scale;
   std::vector<std::array<std::array<double, 2>, 2>> gradient;  ///< by triangle: ∇N₁, ∇N₂ [1/m]
   std::vector<std::array<double, 2>> gradient_scale;           ///< by triangle: units of ∇N₁ and ∇N₂

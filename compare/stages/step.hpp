@@ -47,7 +47,7 @@ struct StepOut {
   std::vector<StepEvent> events;          ///< in order
   std::vector<Vec3f> position, velocity;  ///< xᵗ⁺¹ [m], vᵗ⁺¹ = (xᵗ⁺¹ − xᵗ)/h [m/s]
   std::vector<Index> segment_colour{};    ///< colour of each segment in the sweeps
-  /// By segment: at the start; turned after the guess loop; at the end of the step
+  /// By segment: orientation at the start, turned after the guess loop, and at the end of the step
   std::vector<Quaternion> orientation_start{}, turned{}, orientation{};
 };
 

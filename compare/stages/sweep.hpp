@@ -42,7 +42,7 @@ struct SweepIn {
   std::span<const float> bound;                         ///< b_v [m]
   std::span<const VertexFacetContact> vertex_facet;     ///< canonical order
   std::span<const EdgeEdgeContact> edge_edge;
-  /// Half-spaces of the vertices from that detection; null if bounds are balls
+  /// Half-spaces of the vertices from the detection at X_prev; null if bounds are balls
   const VertexPlanes* planes = nullptr;
   /// `point` is the vertex, `triangle` and `face` are numbers of the scene; canonical order. Forces act with the frozen
   /// weights and direction on the point and on free corners; `inside`, `face` and `depth` are not read.
@@ -57,7 +57,7 @@ struct SweepIn {
 struct SweepOut {
   std::vector<Vec3f> position;  ///< [m]; each lies in its region exactly
   Index cut = 0;  ///< number of vertices, prescribed ones included, whose proposal lay outside of their region
-  std::vector<Quaternion> orientation{};  ///< by segment; held segments keep the old one
+  std::vector<Quaternion> orientation{};  ///< by segment; segments that are not free keep the old one
 };
 
 /// The exact update of each vertex, computed from the answer's own lower colours, and the largest accepted error [m] in
@@ -68,8 +68,8 @@ struct SweepOut {
 /// A vertex is `grey` if a stencil has more than one accepted answer; `position` then comes from the combination
 /// nearest to the answer. It is also grey if it is *ill-conditioned*: the errors of H alone could make H singular,
 /// ‖H⁻¹‖ ‖δH‖ ≥ 1/2. Then the error of a single-precision solve is unlimited, and a solver may take a step down the
-/// gradient instead. So `accepted` is infinite. Exception: it is 0 if the vertex was not cut and moved against its
-/// force beyond all error.
+/// gradient instead. So `accepted` is infinite. Exception: `accepted` is 0 if the vertex was not cut and moved against
+/// its force by more than any error explains.
 ///
 /// `accepted` is also infinite if half-spaces cut a free vertex, or may cut it. The judge then only requires that the
 /// vertex lies in its region. Stage truncate judges how it slides.

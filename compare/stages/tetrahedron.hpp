@@ -52,10 +52,11 @@ inline constexpr double tetrahedron_force_tolerance = 25;
 /// Largest error of the elastic block. Rounding errors: the normal twice (12), an outer product (2), (λ + μ) i/6 (3), Σ
 /// w_k and its product (1 + 1 + 1), the sum (1): 21.
 inline constexpr double tetrahedron_block_tolerance = 21;
-/// Largest error of the damping's force. (The judge applies the tolerance above, so the damping's scales are multiplied
-/// by the ratio of this to that.) Rounding errors: F (a difference, a product, two sums: 4), G (twice F, a product, two
-/// sums, minus one and the half: 13), a change of strain (1), a stress (a trace: 2, two products, a sum: 5), its
-/// product with ∇N₀ (2 + 3) and with F (4 + 3), V k (2), the sum (1): 33.
+/// Largest error of the damping's force. (The judge applies tetrahedron_force_tolerance, so the damping's scales are
+/// multiplied by the ratio of this tolerance to tetrahedron_force_tolerance.) Rounding errors: F (a difference, a
+/// product, two sums: 4), G (twice F, a product, two sums, minus one and the half: 13), a change of strain (1), a
+/// stress (a trace: 2, two products, a sum: 5), its product with ∇N₀ (2 + 3) and with F (4 + 3), V k (2), the sum (1):
+/// 33.
 inline constexpr double tetrahedron_damping_force_tolerance = 33;
 /// Largest error of the damping's block. Rounding errors: F∇N₀ (4 + 2 + 3), twice, an outer product (2), V k (λ + μ)
 /// (4), sums (3): 27.

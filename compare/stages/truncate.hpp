@@ -81,7 +81,8 @@ inline constexpr double half_space_slack = 0x1p-48;
 /// three coordinates (√3 half ulps), a step towards x_prev if rounding went outwards (the same again), and the relative
 /// error of the factor that shortens the move (4 u b).
 inline constexpr double truncate_position_tolerance = 8;
-/// The same with half-spaces: a step may be needed in each of three coordinates (2 u each).
+/// truncate_position_tolerance for cases with half-spaces, where a step may be needed in each of three coordinates (2 u
+/// each).
 inline constexpr double truncate_region_tolerance = truncate_position_tolerance + 6;
 /// A kernel may stop this far short of a half-space, in units of u Σ|n_k x_k|, since storing can move a position across
 /// it. Storing counts 1, and 1 more after the ball has moved the vertex; the sum is rounded up to a power of two.

@@ -43,11 +43,11 @@ struct VolumeForceIn {
 /// - Through λ: a difference, a product and two sums (4), the product with n (3), r − φ and k (2), then 7: 16.
 /// - If ‖n‖² is off by 2⁻²², the slip keeps a part along n that the energy's slope lacks: 4.
 inline constexpr double volume_force_tolerance = 26;
-/// Largest error of the block. Rounding errors: μ λ f₁/‖u‖ (19, as above), w² and its product (2), an outer product
-/// (2), the difference from I (1), the sum with the normal block (1).
+/// Largest error of the block. Rounding errors: μ λ f₁/‖u‖ (19, see volume_force_tolerance), w² and its product (2), an
+/// outer product (2), the difference from I (1), the sum with the normal block (1).
 inline constexpr double volume_block_tolerance = 25;
-/// Largest error of r − φ in units of u · scale: 8 by the count above, and half as many again for other orders of
-/// evaluation. If |r − φ| is at most that, the contact may act or not.
+/// Largest error of r − φ in units of u · scale: 8 by the count of volume_force_tolerance, and half as many again for
+/// other orders of evaluation. If |r − φ| is at most that, the contact may act or not.
 inline constexpr double volume_force_grey = 12;
 
 }  // namespace ogc::compare

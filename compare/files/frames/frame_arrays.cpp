@@ -95,7 +95,7 @@ std::vector<std::string> numbered_members(const ZipFile& zip) {
 struct FoundArray {
   std::string where;  ///< begins messages
   NpyHeader header;
-  std::uint64_t bytes = 0;  ///< size of the numbers or of more
+  std::uint64_t bytes = 0;  ///< upper limit of the size of its numbers
   ArrayOpener open;
   std::uint64_t room = least_room;  ///< memory for the frames of one pass [bytes]
 };

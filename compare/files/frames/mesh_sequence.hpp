@@ -36,7 +36,8 @@ std::unique_ptr<MeshSequence> mesh_files_sequence(std::vector<std::filesystem::p
 /// - Faces, whole numbers: `triangles` [n, 3] and `edges` [n, 2] (edges without a triangle). Other names of triangles:
 ///   faces, f, F. Without any such name one numbered array of whole numbers [n, 3] has the triangles.
 ///
-/// If the archive has neither faces nor edges, those of `topology` are used; of its positions only the number counts.
+/// If the archive has neither faces nor edges, those of `topology` are used. A topology with positions must have as
+/// many as a frame.
 std::unique_ptr<MeshSequence> npz_sequence(const std::filesystem::path& file, const Mesh* topology);
 
 /// Reads the frames of arrays of positions (numpy.save), one file after another, with the shapes and orders of

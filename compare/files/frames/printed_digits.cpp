@@ -17,7 +17,7 @@ namespace {
 
 /// Numbers with 16 digits do not count as rounded, since 16 digits distinguish nearly all doubles.
 constexpr std::size_t all_digits = 16;
-/// Numbers with fewer digits do not count as rounded either: people type such numbers, or they are exact. A rounded
+/// Numbers with fewer digits than these do not count as rounded: people type such numbers, or they are exact. A rounded
 /// number mostly has all digits of its format.
 constexpr std::size_t least_significant = 6, least_decimals = 4;
 /// Shares of the numbers that must have all decimals, or all significant digits, of a format. In a rounded file all

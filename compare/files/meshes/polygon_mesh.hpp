@@ -1,5 +1,5 @@
 // Holds a mesh as its file gives it: faces of any number of corners, unused vertices, and one vertex for each corner if
-// faces share none. make_mesh turns it into a mesh of triangles, with a sentence for each change; options refuse
+// faces share none. make_mesh turns it into a mesh of triangles, with a sentence for each change; options may forbid
 // changes.
 #pragma once
 
@@ -18,7 +18,7 @@ namespace ogc::compare {
 struct PolygonMesh : Mesh {
   std::vector<Index> corners;        ///< of all faces, one after the other, each face in its own order
   std::vector<Index> face_ends{};    ///< end of each face's corners
-  MeshSource source;                 ///< file, first number, lines; its numbers of vertices and faces are the file's
+  MeshSource source;                 ///< places of its elements in the file
   std::vector<std::string> notes{};  ///< contents of the file that the mesh lacks
 
   std::size_t face_count() const { return face_ends.size(); }  ///< number of polygons
@@ -44,7 +44,7 @@ struct MeshOptions {
   /// also leave out triangles that have no area once dust is 0 and coordinates are rounded to single precision, as
   /// stages see them
   bool rounded = false;
-  /// take positions that are far from 0 for their size relative to a point near them (compare::local_origin)
+  /// make positions relative to a point near them if they are far from 0 for their size (compare::local_origin)
   bool local = false;
   friend bool operator==(const MeshOptions&, const MeshOptions&) = default;
 };

@@ -68,8 +68,8 @@ class Cutter {
     return {left_[(k + left_.size() - 1) % left_.size()], left_[k], left_[(k + 1) % left_.size()]};
   }
 
-  /// Returns twice the signed area over the squared longest side: 0.87 for equal sides, at most 0 if it turns the wrong
-  /// way.
+  /// Returns twice the signed area over the squared longest side: 0.87 for an equilateral triangle, at most 0 for a
+  /// triangle of the wrong orientation.
   double shape(const Triangle& t) const {
     const Vec3 u = difference(at(t[1]), at(t[0])), v = difference(at(t[2]), at(t[0])),
                w = difference(at(t[2]), at(t[1]));

@@ -21,8 +21,8 @@ struct SecondMistake {
 struct Diagnosis {
   std::string name, meaning;         ///< of the form (compare/judge/report/wrong_forms.hpp); empty if none fits
   std::vector<std::string> as_well;  ///< other forms that fit equally well, so that these cases do not distinguish them
-  std::uint64_t fits = 0, failing = 0;  ///< failing cases that the form fits, of all that were tried
-  /// right cases that contradict the form, of all that were tried
+  std::uint64_t fits = 0, failing = 0;  ///< failing cases that the form fits, and all failing cases that were tried
+  /// right cases that contradict the form, and all right cases that were tried
   std::uint64_t otherwise = 0, right = 0;
   std::uint64_t forms = 0;  ///< number of forms that were tried
   /// what all failing cases have in common and right ones lack, for example "activation is ogc"; may be empty

@@ -17,7 +17,7 @@ namespace ogc::compare {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns the number as hexadecimal text, as "0x1.8p-3".
+/// Returns the number as hexadecimal text, for example "0x1.8p-3".
 inline std::string hexadecimal_of(double x) {
   char buffer[40];
   std::snprintf(buffer, sizeof buffer, "%a", x);

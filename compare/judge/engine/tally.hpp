@@ -61,7 +61,7 @@ struct Mismatch {
 struct GeneratorTally {
   /// counts as in Tally::count, and the number of mismatches
   std::uint64_t cases = 0, decisions = 0, grey = 0, near = 0, mismatches = 0;
-  /// grey decisions for which the answer is not the exact one, or lies on the other side of a jump
+  /// grey decisions whose accepted answer is not the exact one
   std::uint64_t not_exact = 0;
 };
 
@@ -103,8 +103,8 @@ class Tally {
   /// Returns the generators of all mismatches, worst first, if they are few and other generators have at least
   /// `least_passing` cases that pass. Otherwise returns an empty list.
   std::vector<std::string> confined_to() const;
-  static constexpr std::size_t most_confined = 3;      ///< largest number of such generators
-  static constexpr std::uint64_t least_passing = 100;  ///< cases of other generators
+  static constexpr std::size_t most_confined = 3;      ///< largest number of generators in the list
+  static constexpr std::uint64_t least_passing = 100;  ///< fewest passing cases of other generators
   /// Returns the share of grey decisions among all decisions of the generic generators.
   double grey_share() const;
   /// Returns the share of cases within 2¹⁰ ulp of a decision boundary.

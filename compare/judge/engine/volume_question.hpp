@@ -37,7 +37,7 @@ class VolumeQuestion {
   const Topology& topology_;
   VolumeSurface surface_;
   std::shared_ptr<const Topology> own_;
-  /// tested vertices; for each the same index if it is a vertex of a volume, otherwise −1
+  /// tested vertices; for each of them its own index if it belongs to a volume, otherwise −1
   std::vector<Index> asking_, asking_as_;
   float contact_radius_;
 };

@@ -220,7 +220,7 @@ class Diagnosing {
       result.seconds.push_back({parts[i].form->name, parts[i].form->meaning, parts[i].cases.size(), parts[i].together});
   }
 
-  /// Returns each single input of a case as a word: its name, or for a number whether it is 0.
+  /// Returns each input with one entry as a word: the name of a choice, or for a number whether it is 0.
   static std::map<std::string, std::string> words_of(const TestCase& test) {
     std::map<std::string, std::string> words;
     for (const Quantity& quantity : inputs_of(test)) {

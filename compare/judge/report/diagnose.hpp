@@ -10,15 +10,15 @@
 namespace ogc::compare {
 
 /// A form is named if it fits at least `least_fits` failing cases and the share `least_share` of all that were tried. A
-/// single case may fit by chance. A few in a hundred may not fit, because a second error, or rounding of the form's own
-/// changed input, exceeds the tolerance.
+/// single case may fit by chance. A few in a hundred may not fit, because a second mistake, or the rounding of an input
+/// that the form changes, exceeds the tolerance.
 inline constexpr std::uint64_t least_fits = 3;
 inline constexpr double least_share = 0.9;
-/// If no form fits that many, a kernel may have two mistakes, and further forms are fitted to the remaining failing
-/// cases.
-/// - The forms are named if the first fits the share `least_share_of_first` of the failing cases, or if all together
-///   fit `least_share`.
-/// - Each further form must fit `least_share_of_second` of the failing cases, and `least_share_of_right` of the right
+/// A kernel may have two mistakes. So further forms are fitted to the failing cases that the named form does not fit,
+/// or to all failing cases if no form fits the share `least_share`.
+/// - In the second case the forms are named if the first fits the share `least_share_of_first` of the failing cases, or
+///   if all together fit `least_share`.
+/// - Each of these forms must fit `least_share_of_second` of the failing cases, and `least_share_of_right` of the right
 ///   ones: a form that fits some failing cases by chance contradicts right cases.
 inline constexpr double least_share_of_first = 0.5, least_share_of_second = 0.05, least_share_of_right = 0.99;
 
