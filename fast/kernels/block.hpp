@@ -90,14 +90,15 @@ OGC_HD inline bool is_surely_no_contact(const EdgeEnds& p, const EdgeEnds& q, co
                                         PaddedVecs x) {
   const Vec a = x[p.a], e = x[p.b] - a, f = x[q.b] - x[q.a], w = x[q.a] - a;
   const float ee = dot(e, e), ff = dot(f, f), ef = dot(e, f), we = dot(w, e), wf = dot(w, f);
-  // The error of ‖e × f‖² is below 2⁻¹⁸ ‖e‖² ‖f‖². If ‖e × f‖² is above 2⁻¹³ ‖e‖² ‖f‖², the edges are not nearly
-  // parallel.
+  // `nn` approximates ‖e × f‖² with an error below 2⁻¹⁸ ‖e‖² ‖f‖². Nearly parallel edges have ‖e × f‖² < 10⁻⁶ ‖e‖²
+  // ‖f‖², so nn > 2⁻¹³ ‖e‖² ‖f‖² proves that the edges are not nearly parallel.
   const float nn = ee * ff - ef * ef;
   const bool is_skew = nn > larger(0x1p-13F * (ee * ff), 0x1p-100F);
   const float error = 0x1p-18F * (norm_1(w) + norm_1(e) + norm_1(f)) * norm_1(e) + lost_to_underflow;
   const bool is_beside = larger(we, we + ef) < -error || smaller(we, we + ef) > ee + error;
   if (!is_skew && !is_beside) return false;
-  // Approximates the closest points. This suffices, because is_passed_over returns false for a wrong end.
+  // Approximates the parameters s and t of the closest points. They only choose the ends that is_passed_over tests, and
+  // is_passed_over returns false for a wrong end.
   float s = clamped(is_skew ? rough_quotient(we * ff - ef * wf, nn) : rough_quotient(we, ee));
   const float t = clamped(rough_quotient(s * ef - wf, ff));
   s = clamped(rough_quotient(we + t * ef, ee));

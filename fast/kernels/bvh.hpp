@@ -5,7 +5,7 @@
 // positions and are not inflated: a query adds its own radius.
 //
 // Each child also has a `reach`, the distance up to which pairs of its primitives matter. A pair matters only if it is
-// nearer than r or could lower the smallest distance of a partner. For most primitives a neighbour in the mesh bounds
+// nearer than r or could lower the smallest distance of a primitive. For most primitives a neighbour in the mesh bounds
 // this smallest distance far below r_q before any search.
 #pragma once
 

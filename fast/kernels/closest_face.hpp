@@ -27,10 +27,10 @@ OGC_HD inline bool is_inside(const Real& u, const Real& w, const Real& e) {
 }
 
 /// Returns the distance of x and the closed triangle, with its slack. If the side of an edge is uncertain, the distance
-/// to the outline is returned. It is exact if x projects outside, and at most √3 2⁻⁴⁸ S L²/‖n‖ too large if x projects
-/// inside, with L the longest edge, n the normal and S = `size`. The normal's 4 roundings tilt the plane by less than
-/// 2⁻⁵¹ S L²/‖n‖, so the slack is 2⁻⁴⁷ S L²/‖n‖. A triangle lower than 2⁻²⁴ L is replaced by its outline: no point of
-/// the triangle is farther than 2⁻²⁴ L from the outline. In both cases the slack is under 2⁻²³ S.
+/// to the outline is returned. This distance is exact if x projects outside. If x projects inside, it is at most √3
+/// 2⁻⁴⁸ S L²/‖n‖ too large, with L the longest edge, n the normal and S = `size`. The normal's 4 roundings tilt the
+/// plane by less than 2⁻⁵¹ S L²/‖n‖, so the slack is 2⁻⁴⁷ S L²/‖n‖. A triangle lower than 2⁻²⁴ L is replaced by its
+/// outline: no point of the triangle is farther than 2⁻²⁴ L from the outline. In both cases the slack is under 2⁻²³ S.
 OGC_HD inline Distance point_triangle_distance(const Vec& x, const Corners& t) {
   const Real u = difference<Rounded>(x, t.a), v = difference<Rounded>(x, t.b), e = difference<Rounded>(t.b, t.a),
              w = difference<Rounded>(t.c, t.a);

@@ -5,12 +5,13 @@
 //   kind              vertices of the first | second side, by index in ContactIncidence (slot)
 //   point_point       0 | 2
 //   point_segment     0 | 2 3
-//   segment_segment   0 1 | 2 3   (no segment_point: a record's first face is never of higher dimension)
-//   point_triangle    0 | 1 2 3   (compare/stages/detect_edge_edge.hpp)
+//   segment_segment   0 1 | 2 3
+//   point_triangle    0 | 1 2 3
 //
-// The weights add up to 0, so action equals reaction. Σ w_i x_i is the vector d n from the closest point of the second
-// side to the closest point of the first. Vertices that a kind does not have repeat vertex 0 with weight 0, so that
-// formulas need no branch.
+// There is no segment_point, because a record's first face never has the higher dimension
+// (compare/stages/detect_edge_edge.hpp). The weights add up to 0, so action equals reaction. Σ w_i x_i is the vector d
+// n from the closest point of the second side to the closest point of the first. Vertices that a kind does not have
+// repeat vertex 0 with weight 0, so that formulas need no branch.
 #pragma once
 
 #include <cmath>
@@ -221,8 +222,8 @@ OGC_HD Vector<T> weighted_sum(const ContactWeightsOf<T>& weights, const Vector<T
 }
 
 /// Holds the normal and the distance of the closest points; `acts`: 0 < d < r. If the squared distance is not a normal
-/// number, the points coincide in single precision. Then there is no normal and no force. The bound of the vertices,
-/// which is 0, keeps the points apart.
+/// number, the points coincide in single precision. Then there is no normal and no force. The bounds of the vertices,
+/// which are then about 0, prevent an intersection.
 template <class T>
 struct ContactShapeOf {
   Vector<T> normal;  ///< n, a unit vector from the second side's closest point to the first side's

@@ -68,7 +68,7 @@ struct StepControl {
   float query_radius = 0;                 ///< r_q [m]
   int largest_move = 0, largest_lag = 0;  ///< bits of floats [m]
   float smallest_bound = 0;               ///< smallest b_v; with planes, smallest distance of any pair [m]
-  /// vertices cut in this round or iteration; cut_last: in the previous one, with lagging vertices
+  /// cut: vertices cut in this round or iteration; cut_last: vertices cut or lagging in the previous one
   int cut = 0, cut_last = 0;
   int deep_inside = 0;  ///< with volumes: vertices that are deep inside a volume after this iteration
   /// With planes: number of prescribed vertices that lag behind their targets; whether one of them has moved since the

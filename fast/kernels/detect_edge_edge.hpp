@@ -11,7 +11,7 @@
 
 namespace ogc::fast {
 
-/// Searches the tree of edges for all edges. It is a Query of search.hpp.
+/// Searches the tree of edges, once for each edge. It is a Query of search.hpp.
 struct DetectEdgeEdge {
   SurfaceView surface;
   PaddedVecs positions;  ///< of the detection, by vertex [m]
@@ -23,7 +23,7 @@ struct DetectEdgeEdge {
   /// Returns whether a list has overflowed.
   OGC_HD bool is_off() const { return *lists.overflow != 0; }
 
-  /// Returns the search of the edge at place i of the tree. It covers the places behind i.
+  /// Returns the search of the edge at place i of the tree. It covers the places after i.
   OGC_HD Search begin(int i) const {
     const Child child = tree.node(0, i / 4).child[i % 4];
     return {.box = child.box(),

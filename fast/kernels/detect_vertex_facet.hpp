@@ -15,7 +15,7 @@
 
 namespace ogc::fast {
 
-/// Searches the tree of facets for all vertices. It is a Query of search.hpp.
+/// Searches the tree of facets, once for each vertex. It is a Query of search.hpp.
 struct DetectVertexFacet {
   SurfaceView surface;
   PaddedVecs positions;       ///< of the detection, by vertex [m]

@@ -80,7 +80,7 @@ struct GuessVertex {
   /// the other half
   GuessContacts contacts;
   int vertex_count;              ///< length of one half of `taken`
-  Vec* taken;                    ///< both halves: what contacts removed from each vertex's move [m], written
+  Vec* taken;                    ///< both halves: by how much contacts change each vertex's move [m], written
   Vec* position;                 ///< x by vertex [m], written
   StepControl* control;          ///< on the backend; `active` and `rounds` are read, cuts are counted
   const int* prescribed_number;  ///< as in BeginVertex

@@ -114,8 +114,8 @@ struct ListStatus {
 /// Holds the lists on the backend. Pointers to single counts point into a ListStatus.
 struct ListsView {
   /// Largest number of slots that the search for a contact visits. The table is at most half full while all contacts
-  /// fit. Then k consecutive slots are the homes of k or more keys with probability at most (√e / 2)ᵏ (Chernoff's bound
-  /// for a Poisson variable with mean k / 2): 4·10⁻²² for this k. If it happens, the lists grow.
+  /// fit. Then the searches for k or more keys begin in k given consecutive slots with probability at most (√e / 2)ᵏ
+  /// (Chernoff's bound for a Poisson variable with mean k / 2): 4·10⁻²² for this k. If it happens, the lists grow.
   static constexpr int longest_search = 256;
 
   /// in any order; if a pair is certainly nearer than r, its second number is stored inverted

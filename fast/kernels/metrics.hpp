@@ -144,9 +144,10 @@ OGC_HD inline double share_of(double part, double whole) { return whole > 0 ? pa
 struct FinishStep {
   StepControl* control;  ///< on the backend
   ContactView contacts;  ///< their counts are reported
-  const double* sums;    ///< guess_columns sums after the guess loop, then SumColumn at the end of the step
-  StepRow* rows;         ///< by step of the frame, on the backend
-  int segments = 0;      ///< segments of rods
+  /// the sums after the guess loop (guess_columns of them), then the sums at the end of the step, by SumColumn
+  const double* sums;
+  StepRow* rows;     ///< by step of the frame, on the backend
+  int segments = 0;  ///< segments of rods
   /// by LeftColumn, on the backend; null if forces were not measured
   const double* left = nullptr;
   int free_vertices = 0;

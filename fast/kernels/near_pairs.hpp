@@ -1,5 +1,5 @@
-// Searches for a detection that places planes. It notes every pair within r_q, even if its vertices have nearer pairs:
-// whether a pair has a plane is only known when all pairs of its vertices are known.
+// Defines the searches of a detection that computes planes. They note every pair within r_q, even if its vertices have
+// nearer pairs: whether a pair has a plane depends on all pairs of its vertices.
 #pragma once
 
 #include "fast/kernels/detect_edge_edge.hpp"
@@ -7,7 +7,7 @@
 
 namespace ogc::fast {
 
-/// Searches the tree of facets for all vertices. It is a Query of search.hpp.
+/// Searches the tree of facets, once for each vertex. It is a Query of search.hpp.
 struct NearVertexFacet : DetectVertexFacet {
   const float* query_radius;  ///< r_q [m], on the backend
 
@@ -36,8 +36,8 @@ struct NearVertexFacet : DetectVertexFacet {
     return !is_beyond(separation(search.box.lower, corners(surface.facets[offer.primitive])), search.limit);
   }
 
-  /// Notes the pair if it may be nearer than r_q, as `certain` if it is certainly nearer than r. Returns the unchanged
-  /// limit.
+  /// Notes the pair if it may be nearer than r_q. The pair is noted as certain if it is certainly nearer than r.
+  /// Returns the unchanged limit.
   OGC_HD float meet(const Search& search, int t, float) const {
     const Distance d = point_triangle_distance(search.box.lower, corners(surface.facets[t]));
     if (d.may_be_within(*query_radius)) lists.note({~search.owner, t}, d.is_surely_within(contact_radius));
@@ -45,11 +45,11 @@ struct NearVertexFacet : DetectVertexFacet {
   }
 };
 
-/// Searches the tree of edges for all edges, each pair once, as DetectEdgeEdge does.
+/// Searches the tree of edges, once for each edge. It meets each pair once, as DetectEdgeEdge does.
 struct NearEdgeEdge : DetectEdgeEdge {
   const float* query_radius;  ///< r_q [m], on the backend
 
-  /// Returns the search of the edge at place i of the tree. It covers the places behind i, and its limit does not fall.
+  /// Returns the search of the edge at place i of the tree. It covers the places after i, and its limit does not fall.
   OGC_HD Search begin(int i) const {
     const Child child = tree.node(0, i / 4).child[i % 4];
     return {child.box(), child.primitive, i + 1, gap_limit(*query_radius)};

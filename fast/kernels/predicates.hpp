@@ -13,9 +13,9 @@ OGC_HD N perpendicular_product(const Vector<N>& u, const Vector<N>& w, const Vec
   return dot(u, w) * dot(e, e) - dot(u, e) * dot(w, e);
 }
 
-/// Returns the same value from cross products, in which the parts along e cancel term by term. The formula above would
-/// lose all digits, even in double-double, if the parts across e were 2⁻¹⁰⁰ of the parts along e. Small coordinates
-/// beside an edge on an axis cause this.
+/// Returns (u·w)(e·e) − (u·e)(w·e) from cross products, in which the parts along e cancel term by term. The formula
+/// with dot products would lose all digits, even in double-double, if the parts across e were 2⁻¹⁰⁰ of the parts along
+/// e. Small coordinates beside an edge on an axis cause this.
 OGC_HD inline Wide perpendicular_product(const Vector<Wide>& u, const Vector<Wide>& w, const Vector<Wide>& e) {
   return dot(cross(u, e), cross(w, e));
 }

@@ -14,8 +14,8 @@
 
 namespace ogc::fast {
 
-/// Looks for all primitives, at place `from` or later, whose box is near `box`: the squared gap is at most `limit`, or
-/// at most the gap limit of the primitive's own reach.
+/// Describes a search for all primitives, at place `from` or later, whose box is near `box`: the squared gap is at most
+/// `limit`, or at most the gap limit of the primitive's own reach.
 struct alignas(16) Search {  // aligned, so that few instructions read it whole
   Box box;                   ///< box of the vertex or edge that searches [m]
   int owner = -1;            ///< number of the vertex or edge that searches

@@ -14,15 +14,16 @@ struct GuessContacts {
   const ContactIncidence* contacts = nullptr;  ///< contact stream of the detection
   const Vec* position = nullptr;               ///< X_prev by vertex [m]
   const Vec* target = nullptr;                 ///< y by vertex [m]
-  const Vec* taken = nullptr;  ///< t by vertex [m]: the part of its move that contacts removed in the last round
+  const Vec* taken = nullptr;  ///< t by vertex [m]: by how much contacts changed its move in the last round
   float radius = 0;            ///< r [m]
 
-  /// Returns the move of another vertex that this round expects: y − X_prev without the part that contacts removed [m].
+  /// Returns the move that this round expects of another vertex: y − X_prev, changed by contacts as in the last round
+  /// [m].
   OGC_HD Vec expected(int v) const { return target[v] - position[v] + taken[v]; }
 };
 
-/// Returns the move of a vertex [m] after one contact has shortened it. The contact removes the part of the vertex's
-/// approach that exceeds the motion of its partners away from it. Friction removes slip, at most μ times the removed
+/// Returns the move of a vertex [m] after one contact has shortened it. The contact removes the vertex's approach,
+/// except the part by which the contact's other vertices move away. Friction removes slip, at most μ times the removed
 /// approach.
 OGC_HD inline Vec held_by(const GuessContacts& here, const ContactIncidence& contact, const Vec& move) {
   Vec x[4], others{};

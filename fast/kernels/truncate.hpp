@@ -1,4 +1,4 @@
-// Truncates to the conservative bound (Eq. 27, 28) so that the *stored* position keeps it. The cut is computed in
+// Truncates to the conservative bound (Eq. 27, 28) so that the *stored* position is within it. The cut is computed in
 // double, each coordinate is rounded towards x_prev, and the stored result is tested exactly.
 #pragma once
 

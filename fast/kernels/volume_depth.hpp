@@ -89,8 +89,8 @@ struct FoundVolumeContact {
   float depth = 0;        ///< r − ‖x − c‖ outside, r + ‖x − c‖ inside [m]
 };
 
-/// Holds a ball around a point that was far from a part. Its radius is chosen so that all its points are far until the
-/// volume moves.
+/// Holds a ball around a point that was far from a part (outside, and not nearer than r). All points of the ball are
+/// far until the volume moves.
 struct alignas(16) ClearBall {
   /// Negative radii of an empty ball. `unasked`: the point was not tested since the volume moved. `asked`: it was
   /// tested, but no ball is known. `refused`: a ball was sought, but there is none.

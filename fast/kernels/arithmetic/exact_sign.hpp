@@ -40,8 +40,8 @@ struct Sign {
 /// Returns −1, 0 or 1; 0 for NaN.
 OGC_HD inline int sign_of(double a) { return (a > 0) - (a < 0); }
 
-/// Holds a value in single precision and the sum of the moduli of its terms, for degrees up to 4. If the compiler
-/// contracts operations, no certain sign changes, because contraction only omits roundings.
+/// Holds a value in single precision and the sum of the moduli of its terms, for degrees up to 4. Contraction by the
+/// compiler only omits roundings, so it cannot change a certain sign.
 struct Single {
   float value = 0, scale = 0;  ///< scale: Σ of the moduli of the terms of value
 

@@ -52,7 +52,8 @@ struct TetrahedronGradients {
   float volume = 0;  ///< V [m³]
 };
 
-/// Adds the elastic force and block of the corner from which a, b and c are seen.
+/// Adds the elastic force on one corner, and its block. a, b and c are the vectors from this corner to the others, in
+/// the order of TetrahedronIncidence::index.
 template <class T>
 OGC_HD void add_tetrahedron(const TetrahedronStencilOf<T>& stencil, const SolidMaterial& material, const Vector<T>& a,
                             const Vector<T>& b, const Vector<T>& c, ForceAndBlockOf<T>& sum) {
@@ -91,8 +92,9 @@ OGC_HD inline Vec along_columns(const SolidDeformation& f, const Vec& by) {
   return by.x * f.column[0] + by.y * f.column[1] + by.z * f.column[2];
 }
 
-/// Adds the force of damping, −∂/∂x of V (k_d/h) (λ/2 tr(ΔG)² + μ ‖ΔG‖²) with ΔG = G − Gᵗ, and the material part of its
-/// block, V (k_d/h) ((λ + μ)(F∇N)(F∇N)ᵀ + μ ‖∇N‖² F Fᵀ), with ∇N of the corner from which a, b and c are seen.
+/// Adds the damping force on one corner, −∂/∂x of V (k_d/h) (λ/2 tr(ΔG)² + μ ‖ΔG‖²) with ΔG = G − Gᵗ. Also adds the
+/// material part of the block, V (k_d/h) ((λ + μ)(F∇N)(F∇N)ᵀ + μ ‖∇N‖² F Fᵀ), with ∇N of this corner. a, b and c are
+/// the vectors from this corner to the others; `start` is Gᵗ.
 OGC_HD inline void add_solid_damping(const TetrahedronGradients& gradients, const SolidMaterial& material, const Vec& a,
                                      const Vec& b, const Vec& c, const SolidStrain& start, ForceAndBlock& sum) {
   const SolidDeformation f = solid_deformation(gradients, a, b, c);
@@ -153,12 +155,12 @@ struct TetrahedronKind : ElementKind<TetrahedronRest, TetrahedronIncidence> {
     StreamView<TetrahedronIncidence, TetrahedronGradients, SolidStrain, SolidMaterial, true> tetrahedra;
   };
   static constexpr bool reports_state = true;  ///< reports the number of inverted tetrahedra
-  /// The other corners as each corner lists them: those of the opposite face, in the order of a positive volume.
+  /// For each corner: the other corners, in the order in which they make a positive volume.
   static constexpr int others[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   /// Index of each pair of corners in TetrahedronRest::weight.
   static constexpr int pair[4][4] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
-  /// Operations of add_tetrahedron by term: differences 9 + 6, normal 9, J − 1 7, pull 3, weighted sum 15, forces 6 + 1
-  /// + 6, sum of weights 3, identity 3, block 2 + 15.
+  /// Operations of add_tetrahedron by term: differences 9 + 6, normal 9, (J − 1) 7, pull 3, weighted sum 15, forces 6 +
+  /// 1 + 6, sum of weights 3, identity 3, block 2 + 15.
   static constexpr double flop = 85;
   /// Operations of damping by term: F 45, G 39, the corner's gradient 6, trace 6, stresses 21, pull 15, weights 1 + 7,
   /// force 15 + 6, F∇N 15, blocks 2 + 15 + 45.

@@ -1,6 +1,6 @@
-// Computes the quaternion of a segment that minimises the energy, given the neighbours' quaternions (compare/rods.md,
-// The stage `orientation`, defines M, b, μ and σ). The unknown is ν = μ − σ: for a stiff stretch, μ would be so large
-// that rounding loses the part of the neighbours.
+// Computes, for a segment, the quaternion that minimises the energy, given the neighbours' quaternions
+// (compare/rods.md, The stage `orientation`, defines M, b, μ and σ). The unknown is ν = μ − σ: for a stiff stretch, μ
+// would be so large that rounding loses the part of the neighbours.
 #pragma once
 
 #include <cmath>
@@ -29,7 +29,7 @@ OGC_HD QuatOf<T> pull_towards(const T& weight, const QuatOf<T>& asked, const Qua
   return select(dot(asked, old) < T(0.0f), -weight, weight) * asked;
 }
 
-/// Adds the elastic pull w s t of a neighbour to b, the linear term of the energy.
+/// Adds the elastic pull of a neighbour (pull_towards) to b, the linear term of the energy.
 template <class T>
 OGC_HD void add_undamped_neighbour(const T& weight, bool is_ahead, const QuatOf<T>& now, const QuatOf<T>& relative,
                                    const QuatOf<T>& old, QuatOf<T>& b) {
@@ -38,9 +38,9 @@ OGC_HD void add_undamped_neighbour(const T& weight, bool is_ahead, const QuatOf<
   b = select(is_there, b + pull_towards(weight, asked_orientation(is_ahead, now, relative), old), b);
 }
 
-/// Adds the elastic and the damping pull w (s t + k sᵗ tᵗ) of a neighbour to b, with k = `damping`. tᵗ is t for the
-/// relative rotation at the start of the step. `now` and `start` are the neighbour's quaternions, `own_start` is qᵗ of
-/// the segment.
+/// Adds the elastic and the damping pull of a neighbour to b. With k = `damping`, the damping pull has the weight k w
+/// and the relative rotation at the start of the step. `now` and `start` are the neighbour's quaternions, `own_start`
+/// is qᵗ of the segment.
 OGC_HD inline void add_neighbour(const NeighbourRest& neighbour, bool is_ahead, float damping, const Quat& now,
                                  const Quat& start, const Quat& own_start, const Quat& old, Quat& b) {
   add_undamped_neighbour(neighbour.weight, is_ahead, now, neighbour.rest, old, b);
@@ -85,8 +85,8 @@ struct ReflectedFrameOf {
 using ReflectedFrame = ReflectedFrameOf<float>;
 
 /// Largest ‖P₊b‖/‖b‖ that counts as rounding error; P₊b is the part of b in the eigenspace of M/σ with eigenvalue 1.
-/// Two products of quaternions and half a sum err by 17 · 2⁻²⁴ (compare/stages/orientation.hpp); this is about twice as
-/// much.
+/// Two products of quaternions and half a sum err by 17 · 2⁻²⁴ (compare/stages/orientation.hpp); the limit is about
+/// twice as much.
 inline constexpr float lost_part = 0x1p-19f;
 
 /// Returns the unit vector of the eigenspace of eigenvalue 1 nearest to the old q. If the old q is perpendicular to

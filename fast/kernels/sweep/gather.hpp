@@ -49,7 +49,8 @@ struct Gather {
   }
 };
 
-/// The sum of the whole parts of a list of kinds; contacts with volumes stand before the last of them.
+/// The sum of the parts `Whole` of a list of kinds. The part of contacts with volumes precedes the part of the last
+/// kind.
 template <class Kinds, class... Before>
 struct WholeSum;
 template <class Last, class... Before>

@@ -30,7 +30,7 @@ struct SumList {
   }
 };
 
-/// Sum for scenes that have only surfaces of the default models, and sum for scenes that have only solids.
+/// The sum for scenes with only surfaces of the default models, and the sum for scenes with only solids.
 using GatherSurfaces = Gather<OgcActivation, UsualTriangles, UsualHinges>;
 using GatherSolids = Gather<OgcActivation, UsualTetrahedra>;
 

@@ -168,7 +168,7 @@ class SolidQuestion {
 
   OGC_HD Way shortest_way(int part, int element, int first) const {
     Way way;
-    int failed = -1;  // face whose segment is known not to pass
+    int failed = -1;  // face whose segment cannot be traversed
     if (first < 0) {
       const Way nearest = search(part, element, way, first, false, failed);
       if (nearest.facet < 0) return way;
@@ -178,8 +178,8 @@ class SolidQuestion {
     return search(part, element, way, first, true, failed);
   }
 
-  /// Returns the shortest way. If `must_pass` is false, returns the shortest segment to a facet, even if it does not
-  /// pass.
+  /// Returns the shortest way of the sheet of `element`. If `must_pass` is false, returns the shortest segment to a
+  /// facet, even if it cannot be traversed. `first` is a facet to try first, `failed` a face to skip; −1: none.
   OGC_HD Way search(int part, int element, Way way, int first, bool must_pass, int failed) const {
     float limit = 0x1p126F;  // excludes only empty children, whose boxes lie at infinity
     const auto meet = [&](int t) {
