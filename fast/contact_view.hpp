@@ -11,9 +11,9 @@ struct alignas(16) VertexFacetRecord {
   int corner[3];  ///< vertices of a; a triangle's are in the order of the mesh
 };
 
-/// A contact {p, q}: first[1] = −1 if p is a vertex, second[1] = −1 if q is. `first_edge`, `second_edge`: see
-/// compare/stages/detect_edge_edge.hpp. If both faces are interiors of edges, these are p and q themselves; the
-/// mollifier needs their rest lengths.
+/// A contact {p, q}: first[1] = −1 if p is a vertex, second[1] = −1 if q is a vertex. `first_edge`, `second_edge`: see
+/// compare/stages/detect_edge_edge.hpp. If p and q are both edges, these numbers are those of p and q; the mollifier
+/// needs their rest lengths.
 struct alignas(8) EdgeEdgeRecord {
   int first[2];   ///< vertices of p; of an edge, the smaller first
   int second[2];  ///< vertices of q; of an edge, the smaller first

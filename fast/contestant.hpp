@@ -49,7 +49,7 @@ struct SearchWork {
   double nodes = 0;       ///< nodes opened; each has four boxes
   double candidates = 0;  ///< primitives that leaves offered to searches
   double distances = 0;   ///< pairs that needed a distance in double precision, because no cheaper test rejected them
-  /// `bytes`: of nodes, candidates and distances, each time they are read; most reads are served by a cache
+  /// `bytes`: bytes of the nodes, candidates and distances, counted at each read, although a cache serves most reads
   double flop = 0, bytes = 0;
 };
 /// Returns the work of the searches at these positions; `query_radius`: r_q [m]. Throws std::invalid_argument if there

@@ -33,7 +33,7 @@ constexpr double orientation_damping_flop = 144;
 /// force 7, blocks 22.
 constexpr double contact_flop = 145;
 /// Operations of closest_on_triangle inside the triangle: differences 9, normal 9, its square 5, two weights 28, the
-/// third 2, quotients 3.
+/// third weight 2, quotients 3.
 constexpr double on_triangle_flop = 56;
 /// Operations of closest_on_segments for segments that are not parallel: differences 9, three dots 15, cross 9, its
 /// square 5, projection 5, limit 2, first parameter 15, second 8, weights 2.
@@ -140,7 +140,8 @@ void add_elements(const RestState& rest, SweepWork& work) {
   }
 }
 
-/// Adds the work of segments' quaternions: each is updated once, and each of their colours is a launch.
+/// Adds the work of segments' quaternions. Each quaternion is updated once, and each colour of the segments costs a
+/// launch.
 void add_quaternions(const RestState& rest, SweepWork& work) {
   const Colouring colouring = colour_segments(rest.rods);
   double damped = 0;

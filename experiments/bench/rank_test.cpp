@@ -33,7 +33,7 @@ double tie_sum(std::span<const double> before, std::span<const double> after) {
   return sum;
 }
 
-/// Returns, of all orders of n + m values, the share with U ≤ `u`. The counts obey f(n, m, u) = f(n − 1, m, u − m) +
+/// Returns the share of all orders of n + m values for which U ≤ `u`. The counts obey f(n, m, u) = f(n − 1, m, u − m) +
 /// f(n, m − 1, u). In the first term the largest value belongs to the first set and exceeds all m values of the second
 /// set; in the second term it belongs to the second set. Shares replace counts so that nothing overflows.
 double share_up_to(std::size_t n, std::size_t m, std::size_t u) {

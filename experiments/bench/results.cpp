@@ -35,7 +35,8 @@ std::string plain_name(const std::string& name) {
   return plain;
 }
 
-/// Replaces NaN by null, because JSON has no NaN; Google Benchmark prints it as the spread of zeros.
+/// Replaces NaN by null, because JSON has no NaN. Google Benchmark prints NaN as the relative spread of times that are
+/// all 0.
 std::string without_nan(std::string text) {
   for (std::size_t at = 0; (at = text.find(": NaN", at)) != std::string::npos;) text.replace(at, 5, ": null");
   return text;

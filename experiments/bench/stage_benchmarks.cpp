@@ -60,7 +60,7 @@ BenchmarkCall make_call(Stage stage, const Contestant& contestant, const std::st
 void register_stage_benchmarks(const BenchOptions& options) {
   for (const fast::Backend backend : options.backends) {
     for (const Stage stage : compare::all_stages) {
-      // The CPU's contestant stands for both backends, because they have the same stages.
+      // Only the CPU's contestant is checked, because both backends have the same stages.
       if (!compare::can_judge(stage, fast::contestant(fast::Backend::cpu), reference::authority())) continue;
       const std::string name = "stage/" + std::string(stage_name(stage)) +
                                (takes_scene(stage) ? "/" + options.scale : "") + "/" + name_of(backend);

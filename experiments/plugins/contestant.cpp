@@ -108,7 +108,7 @@ BoundOut ask_bound(PluginProcess& plugin, const BoundIn& in) {
   return out;
 }
 
-/// Sorts the planes that the plug-in wrote one after another into rows.
+/// Sorts planes into rows by vertex. The plug-in wrote the planes one after another.
 VertexPlanes planes_of(const std::vector<ogc_vertex_plane>& all, const std::vector<double>& offsets, Index vertices) {
   std::vector<std::pair<Index, VertexPlane>> planes;
   for (std::size_t i = 0; i < all.size(); ++i) {

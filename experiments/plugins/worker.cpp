@@ -214,7 +214,7 @@ bool answer(Channel& channel, Library& library, const CallRequest& request,
 }
 
 /// Reads a question; returns nothing if the other side has closed the socket. Throws MalformedBlock if a part is
-/// missing, which only the plug-in can have read.
+/// missing; then the plug-in itself has read from the socket.
 std::optional<std::pair<CallRequest, std::vector<std::vector<std::byte>>>> next_question(Channel& channel) {
   std::vector<std::byte> block;
   CallRequest request;

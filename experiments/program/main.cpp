@@ -45,7 +45,7 @@ void add_commands(CLI::App& app, CommandContext& context) {
 
 /// Makes the program parse its command line and run nothing, as the environment variable OGC_PARSE_ONLY requests. Tests
 /// use it to check the commands in documents. The program ends inside the parser, where the callbacks of commands would
-/// run, because they own the variables for the options.
+/// run, because these callbacks own the variables for the options.
 void run_nothing(CLI::App& app) {
   experiments::log_line("ogc: OGC_PARSE_ONLY is set: the command line is parsed, and nothing is run");
   app.parse_complete_callback([] { throw CLI::Success(); });

@@ -46,7 +46,7 @@ std::string text_of(const fast::LaunchShape& shape) {
              : blocks;
 }
 
-/// Returns, as lines of a report, which results change with other launches.
+/// Returns a line of the report for each result that changes with other launches.
 std::vector<std::string> changed_by_shape(const compare::DeterminismReport& report, std::uint64_t cases,
                                           std::uint64_t seed, const compare::Authority& authority) {
   std::vector<std::string> changed;

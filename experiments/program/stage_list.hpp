@@ -18,8 +18,9 @@ std::string stage_list_markdown();
 /// Returns the same list for a terminal, with each stage's generators and parameters.
 std::string stage_list_text();
 
-/// Checks the determinism of stages on a backend. The CPU also uses one and two threads; a device also uses other block
-/// sizes, and launches as on devices of other sizes.
+/// Checks whether the stages return the same bits in repeated calls on a backend. The CPU also repeats them with one
+/// thread and with two threads. A device also repeats them with other block sizes, and with launches that are divided
+/// for other numbers of multiprocessors.
 std::vector<compare::DeterminismReport> determinism_of(fast::Backend backend, std::span<const compare::Stage> stages,
                                                        std::uint64_t cases, std::uint64_t seed);
 

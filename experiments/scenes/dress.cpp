@@ -159,8 +159,8 @@ class Band {
   std::vector<Index> first_;  ///< first vertex by panel
 };
 
-/// Appends half a cone about an axis along x, which leads over the shoulder from the front of the bodice's upper edge
-/// to its back. `side`: −1 or 1. The columns end at slots.
+/// Appends a strap: half a cone about an axis along x. The strap leads over the shoulder from the front of the bodice's
+/// upper edge to its back. `side`: −1 or 1. The columns end at slots.
 void append_strap(Scene& scene, const Band& bodice, Index cells, int side) {
   const Index around = bodice.slots();
   const auto slot_at = [&](double radians) {

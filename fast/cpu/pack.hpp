@@ -162,8 +162,8 @@ typename P::Mask first_of(int count) {
   (std::make_integer_sequence<int, P::width>());
 }
 
-/// Returns numbers p, q, r and s of each block of 16 B (four numbers). Index i < N means number i of the block in a,
-/// and index N + i means number i of the block in b.
+/// Returns a pack whose block k of 16 B (four numbers) holds numbers p, q, r and s of blocks k of a and b. An index i <
+/// N means number i of a's block, and N + i means number i of b's block.
 template <int p, int q, int r, int s, int N>
 PackOf<N> mixed(const PackOf<N>& a, const PackOf<N>& b) {
   return [&]<int... k>(std::integer_sequence<int, k...>) {

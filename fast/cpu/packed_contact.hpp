@@ -33,8 +33,8 @@ ContactWeightsOf<P> triangle_weights(const Vector<P>* x, typename P::Mask& usual
   return weights_of(at.weights());
 }
 
-/// Returns the weights of the closest points by vertex of the contact. Counted items that are not `usual` are computed
-/// one by one.
+/// Returns, for each vertex of the contacts, its weight in the closest points. Counted items that are not `usual` are
+/// computed one by one.
 template <class P>
 ContactWeightsOf<P> weights(const Items<ContactIncidence, P>& items, const Vector<P>* x) {
   bool segments = false;

@@ -307,8 +307,8 @@ class CudaBackend {
   }
 
   /// Runs the body's work `times` times. `body` runs on the host only if `recording` is empty or stale, so it must
-  /// enqueue the same calls with the same arguments every time. Numbers and targets that change from step to step are
-  /// counted on the device.
+  /// enqueue the same calls with the same arguments every time. The device itself counts the steps, and so finds what
+  /// changes from step to step, such as targets.
   template <class Body>
   void replay(Recording& recording, int times, Body body) {
     if (recording.graph_ == nullptr || recording.generation_ != buffer_generation) {

@@ -13,8 +13,8 @@ namespace ogc::fast {
 /// Returns whether a device can run this build; if not, the description says why and what to do.
 BackendInfo cuda_info();
 
-/// Returns a contestant with all stages on the device. Throws compare::ResourceError if cuda_info() says that it can't
-/// be used.
+/// Returns a contestant with all stages on the device. Throws compare::ResourceError if cuda_info() reports no usable
+/// device.
 compare::Contestant cuda_contestant(const LaunchShape& shape = {});
 
 /// Starts a resident simulation on the device. Throws compare::ResourceError as cuda_contestant does, and if the scene

@@ -1,6 +1,6 @@
-// Lets the judge test contacts. Each case becomes one record of a detection. The sweep's functions make its incidence
-// with the mollifier, and compute its force and block. Friction is computed alone: a difference of sums with and
-// without friction would contain their rounding errors.
+// Lets the judge test contacts. Each case becomes one record of a detection. The sweep's functions make its incidence,
+// including the mollifier, and compute its force and block. Friction is computed alone, because a difference of two
+// sums would contain the rounding errors of both.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Lets the judge test volumes: finds the contacts of points with a volume in its tree, and computes the force of one
-// contact. Each case is computed alone.
+// Lets the judge test volumes: finds the contacts between points and a volume by the volume's tree, and computes the
+// force of one contact. Each case is computed alone.
 #pragma once
 
 #include <algorithm>

@@ -57,10 +57,11 @@ class Bvh {
   const TreeView& edges() const { return edges_; }
   /// Returns the vertices in the order of a Hilbert curve.
   const int* vertex_order() const { return order_.data(); }
-  const float* vertex_limit() const { return vertex_limit_.data(); }  ///< gap limit of each vertex's reach
+  const float* vertex_limit() const { return vertex_limit_.data(); }  ///< by vertex: gap limit of its reach
 
-  /// Returns the functor that sets boxes at `positions` and reaches within *query_radius; the order of the trees stays.
-  /// for_each runs the functor over its count(). If the surface has no facet, vertices get no reach.
+  /// Returns the functor that sets boxes at `positions`, and reaches (fast/kernels/bvh.hpp) of at most *query_radius.
+  /// The order of the trees stays. for_each runs the functor over its count(). If the surface has no facet, vertices
+  /// get no reach.
   RefitTrees refit(const Vec* positions, const float* query_radius) {
     return {.reach = {surface_, positions, query_radius},
             .facets = facets_,

@@ -62,8 +62,8 @@ class Detection {
     d_min_triangle_.resize(static_cast<std::size_t>(surface.triangle_count));
   }
 
-  /// Sorts the trees anew for `positions`, which is worth its time every few steps. It is enqueued like a detection. No
-  /// result depends on the order of the trees.
+  /// Sorts the trees anew for `positions`. A sort every few steps saves more time than it takes, and it changes no
+  /// result. It is enqueued like a detection.
   void rebuild(const Vec* positions) { bvh_.rebuild(backend_, positions); }
 
   /// Computes contact sets, smallest distances and bounds at `positions` (on the backend). r = contact_radius [m], r_q

@@ -271,12 +271,12 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     backend_.synchronize();
   }
 
-  /// Returns whether the row of a step contains the forces that the step leaves. This depends on the step's number
-  /// alone, so a resumed run has the same rows.
+  /// Returns whether the row of a step contains the forces that are left at the end of the step. This depends on the
+  /// step's number alone, so a resumed run has the same rows.
   bool is_measured(std::int64_t step) const { return step % steps_between_measures(scene_.settings.iterations) == 0; }
 
-  /// Replays steps. Each kind of step (sorts trees or not, measures forces or not) has a recording, because a decision
-  /// on the device would cost each step ten launches. The host counts steps between sorts as BeginStep does.
+  /// Replays steps. Each kind of step (sorts trees or not, measures forces or not) has a recording. A decision on the
+  /// device would cost each step the time of ten launches. The host counts steps between sorts as BeginStep does.
   void replay(int count) {
     for (int since = since_sort_, done = 0; done < count;) {
       const std::int64_t next = step_number_ + done + 1;

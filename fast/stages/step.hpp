@@ -106,7 +106,7 @@ class Step {
 
   /// Enqueues one step. Equal arguments give the same calls each time, until a list grows. `group`: number of
   /// iterations between two decisions whether a detection is due. `group` and `sorting` change the time only.
-  /// `measures`: whether the step's row has the forces that the step leaves.
+  /// `measures`: whether the step's row gets the forces that are left at the end of the step.
   void enqueue(int group, Sorting sorting = Sorting::asked, bool measures = false) {
     if (observer_ != nullptr) observer_->begin();
     clock_.time(StepStage::begin, [&] { begin(sorting); });

@@ -161,7 +161,7 @@ class Sweep {
   }
 
   /// Runs one iteration: prescribed vertices, segments, then vertices, colour by colour. Each position is truncated
-  /// before it is written, and each cut is counted. `start` is `overlapping` if the sweep reads nothing that the
+  /// before it is written, and each cut is counted. Pass `overlapping` only if the sweep reads nothing that the
   /// previous launch writes, except StepControl::turn.
   void iterate(const SweepView& view, Start start = Start::after_previous) {
     const int prescribed = static_cast<int>(prescribed_host_.size());

@@ -250,7 +250,7 @@ class Volumes {
   static constexpr int usual_capacity = 4;
   /// A vertex is a corner of about six triangles; each of them may have contacts with several vertices.
   static constexpr int usual_corner_capacity = 16;
-  /// A corner's code is the place of a contact and two bits for the role.
+  /// A corner's code holds the place of a contact and, in two bits, the role. So a place has at most 29 bits.
   static constexpr std::int64_t most_places = (std::int64_t{1} << 29) - 1;
 
   template <bool has_solids>

@@ -25,7 +25,7 @@ int ogc_volume_force(const ogc_volume_force_in* in, ogc_force_out* out) {
     for (int k = 0; k < 3; ++k) slip[k] = moved[k] - along * n[k], squared += slip[k] * slip[k];
     const double depth = c.contact_radius - phi, pressure = depth > 0 ? c.stiffness * depth : 0;
     const double length = std::sqrt(squared), limit = c.slip_limit;
-    // f1(y)/y, with f1 = 2 y/e - y^2/e^2 up to e, 1 beyond
+    // f1(y)/y with y = length, e = limit; f1 = 2 y/e - y^2/e^2 if y < e, else 1
     const double ratio = length < limit ? (2 - length / limit) / limit : 1 / length;
     const double strength = c.friction * pressure * ratio, w = c.own == 0 ? 1 : -c.weights[c.own - 1];
     const double normal = pressure > 0 ? c.stiffness * w * w : 0, across = strength * w * w;

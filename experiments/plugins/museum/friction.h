@@ -32,7 +32,7 @@ inline Sides sides(const ogc_contact_force_case& c) {
   return {{1 - at.s, at.s, at.t - 1, -at.t}};
 }
 
-// Returns e_k, from the edges at the last detection.
+// Returns the mollifier e_k, computed from the edges at the last detection; 1 if the contact is not edge-edge.
 inline double energy_share(const ogc_contact_force_case& c) {
   if (c.sides != OGC_EDGE_EDGE) return 1;
   const Edges edges = edges_of(c.previous);

@@ -36,9 +36,9 @@ inline Weights on_edge(Vec p, const Vec* t, int k) {
 
 inline Vec point(const Vec* t, const Weights& w) { return w.of[0] * t[0] + w.of[1] * t[1] + w.of[2] * t[2]; }
 
-// Returns the weights of the closest point on the nearest edge, if the foot with the weights `w` is not inside the
-// triangle. An edge with the foot on its outer side, between its ends, takes precedence: an end of another edge may be
-// as near up to rounding.
+// Returns the weights of the closest point on the nearest edge. The foot, with the weights `w`, must lie outside the
+// triangle. If the foot lies on the outer side of an edge and between its ends, this edge takes precedence, because
+// rounding may make an end of another edge as near.
 inline Weights on_nearest_edge(Vec p, const Vec* t, const Weights& w) {
   Weights best;
   double nearest = INFINITY;

@@ -32,7 +32,7 @@ struct AuditedState {
   std::string in_volumes{};                             ///< describes `volumes` in words
   bool is_solid = false;                                ///< the mesh has tetrahedra
   std::filesystem::path file{};                         ///< the file of this state alone; empty if there is none
-  std::optional<RoundingDoubt> doubt{};                 ///< what the file's printed digits leave undecided
+  std::optional<RoundingDoubt> doubt{};  ///< findings that the rounding of the file's numbers may have caused
 };
 
 /// Provides the states to audit, from a run or from files of other programs.

@@ -68,14 +68,14 @@ class StateJudge {
   /// Returns a sentence with the number of vertices inside volumes, the deepest one, and the number of edges that meet
   /// a surface.
   std::string describe(const compare::VolumePenetration& penetration) const;
-  /// Judges a state together with the certificate since its last detection.
+  /// Judges a state, and the certificate of the motion to it since the last detection.
   Verdict judge(const compare::Snapshot& snapshot) const;
   /// Returns one line for each violation, with the names of the primitives; empty if there is none.
   std::string describe(const Verdict& verdict) const;
   std::string describe(const compare::AuditResult& result) const;
   /// Returns the pairs that the audit leaves out.
   const compare::Exclusions& exclusions() const { return exclusions_; }
-  /// Returns the names of the scene's elements in these texts.
+  /// Returns the names that these texts use for the scene's elements.
   const compare::ElementNames& names() const { return names_; }
 
  private:

@@ -12,7 +12,7 @@ namespace ogc::experiments {
 /// Holds the elements of the listed intersections, by number in the topology, ascending.
 struct Offenders {
   std::vector<compare::Index> vertices;  ///< vertices that lie on a triangle
-  std::vector<compare::Index> edges;     ///< edges that meet a triangle, or, if they belong to no triangle, each other
+  std::vector<compare::Index> edges;     ///< edges that meet a triangle, and loose edges that meet each other
   /// triangles that are met, and triangles that contain one of these edges or vertices
   std::vector<compare::Index> triangles;
   compare::Intersection first;  ///< first intersection in the audit's order

@@ -51,9 +51,9 @@ double to_triangle(const Vec3& p, const std::array<Vec3, 3>& t) {
   return is_over ? std::min(nearest, std::abs(dot(minus(p, t[0]), n)) / length(n)) : nearest;
 }
 
-/// Returns how far a vertex must move until the edge leaves the triangle: one of its ends through the triangle, or the
-/// edge past a side of the triangle. Vertices that edge and triangle share do not move. Double precision suffices,
-/// because its error of 1e-16 of the coordinates is below the digits of any text.
+/// Returns the smallest motion of one vertex after which the edge no longer meets the triangle: an end of the edge
+/// moves back through the triangle, or the edge moves past a side. Vertices that edge and triangle share do not move.
+/// Double precision suffices, because its error of 1e-16 of the coordinates is below the digits of any text.
 double depth(const Intersection& pair, const compare::Topology& topology, std::span<const Vec3> positions) {
   if (pair.kind != compare::IntersectionKind::edge_triangle) return 0;
   const compare::Edge& edge = topology.edges[static_cast<std::size_t>(pair.first)];

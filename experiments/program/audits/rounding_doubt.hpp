@@ -1,5 +1,5 @@
-// Finds what the audit of a text file can't decide: whether an intersection, or a distance below the last printed
-// digit, comes from the simulation or from the rounding of the text.
+// Finds which results of the audit of a text file may come from the rounding of the text instead of the simulation:
+// intersections, or a distance below the last printed digit.
 #pragma once
 
 #include <optional>
@@ -16,14 +16,14 @@ namespace ogc::experiments {
 /// √3: if each coordinate is off by at most half a unit, the distance of two points changes by at most this many units.
 inline constexpr double units_of_a_distance = 1.7320508075688773;
 
-/// Holds what the digits of a file leave undecided.
+/// Holds the results of an audit that the rounding of a file's coordinates may have caused.
 struct RoundingDoubt {
   compare::PrintedDigits printed;
   std::size_t listed = 0, doubtful = 0;  ///< number of listed intersections, and of those that rounding may have caused
   double smallest = 0;                   ///< smallest distance [m]; it matters only if nothing intersects
 };
 
-/// Returns empty if the file's digits decide everything that was found.
+/// Returns the results that rounding may have caused; empty if there are none.
 std::optional<RoundingDoubt> rounding_doubt(const std::optional<compare::PrintedDigits>& printed,
                                             const compare::AuditResult& result,
                                             const compare::SmallestDistances& distances,

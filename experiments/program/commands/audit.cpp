@@ -48,7 +48,7 @@ struct State {
   SmallestDistances distances;
   std::optional<compare::VolumePenetration> volumes;
   std::string in_volumes;
-  std::string doubt{};  ///< what the file's printed digits leave undecided, in words
+  std::string doubt{};  ///< findings that the rounding of the file's numbers may have caused, in words
 };
 
 Json to_json(const SmallestDistances& distances, const compare::Topology& topology,
@@ -84,8 +84,8 @@ const char* name_of(compare::IntersectionKind kind) {
   return "";
 }
 
-/// Returns the vertices of intersecting faces as a scene file excludes them. A mesh counts as one body with the name
-/// that `ogc run MESH` uses.
+/// Returns the pairs of vertices of intersecting faces in the format of a scene file's excluded pairs. A mesh counts as
+/// one body with the name that `ogc run MESH` uses.
 Json excluded_json(const AuditedState& audited, const compare::Scene* scene) {
   std::vector<compare::Edge> pairs = vertex_pairs(audited.result, *audited.topology);
   if (scene != nullptr) {
@@ -189,7 +189,7 @@ class Reading {
 };
 
 /// Judges as many states in parallel as there are threads, because a single thread does most of the work on a state.
-/// Ways are checked one after the other, each by all threads.
+/// Motions between states are checked one after the other, each by all threads.
 Audits audit_all(AuditSource& source, const AuditOptions& options) {
   const std::string& show = options.show;
   Audits audits;
@@ -273,8 +273,8 @@ std::string unseen_curves(const std::vector<State>& states) {
          "--audit-meetings)";
 }
 
-/// Describes what the printed digits of files leave undecided: in words for the first such state, then the number of
-/// further states. Empty if there is none.
+/// Describes findings that the rounding of printed coordinates may have caused: in words for the first such state, then
+/// the number of further states. Empty if there is none.
 std::string in_doubt(const std::vector<State>& states) {
   const auto has = [](const State& state) { return !state.doubt.empty(); };
   const auto first = std::ranges::find_if(states, has);

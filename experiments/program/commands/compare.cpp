@@ -106,7 +106,7 @@ std::vector<Stage> stages_of(const CompareOptions& options) {
   return stages;
 }
 
-/// Throws InputError if a named stage does not exist on both sides.
+/// Throws InputError if the contestant or the reference lacks a named stage.
 void check_stages(const CompareOptions& options, const Judged& judged, const compare::Authority& authority) {
   if (options.stages.empty()) return;
   for (const Stage stage : stages_of(options))

@@ -38,7 +38,7 @@ struct ContactsOptions {
   bool schema = false, margins = true, squares = false;
 };
 
-/// Returns the file's numbers of the vertices and triangles, which the JSON numbers from 0.
+/// Returns for each vertex and triangle, which the JSON numbers from 0, its number in the file.
 Json numbers_in_file(const MeshInput& input) {
   const compare::MeshSource& source = input.source;
   const auto listed = [&](const std::vector<compare::Index>& numbers, std::size_t count) {

@@ -96,9 +96,9 @@ class MeasuredSimulation : public compare::Simulation {
   std::string device() const override { return inner_->device(); }
 
  private:
-  /// Returns the scene whose first step is the step after `before`, because a trace covers a first step. Each motion
-  /// becomes two keyframes: its targets at the begin and the end of the step. Rotating motions keep their axis and
-  /// angular velocity, which also rotate the orientations of rods.
+  /// Returns the scene whose first step is the step after `before`, because a trace always covers the first step of a
+  /// scene. Each motion becomes two keyframes: its targets at the begin and the end of the step. Rotating motions keep
+  /// their axis and angular velocity, which also rotate the orientations of rods.
   compare::Scene scene_at(const Snapshot& before) const {
     compare::Scene scene = scene_;
     const double h = scene.settings.time_step, now = static_cast<double>(before.step) * h;

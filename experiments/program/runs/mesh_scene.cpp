@@ -19,9 +19,9 @@ namespace {
 
 using compare::Vec3;
 
-constexpr double ground_widths = 3;  ///< width of the ground over that of the mesh
+constexpr double ground_widths = 3;  ///< width of the ground divided by that of the mesh
 constexpr double ground_edges =
-    10;  ///< length of the ground's edges over that of the cloth's; its triangles are at most a hundred times as large
+    10;  ///< edge length of the ground divided by that of the mesh; triangles are at most a hundred times as large
 constexpr double most_ground_cells = 100;
 
 struct Box {
@@ -51,7 +51,8 @@ std::string usable_name(const std::string& file) {
   return name.empty() ? "mesh" : name;
 }
 
-/// Returns the height of the ground relative to `origin`, like the box. `ground` is in the file's coordinates.
+/// Returns the height of the ground relative to `origin`. The box is relative to `origin`, too; `ground` is in the
+/// file's coordinates.
 double height_of_ground(const std::string& file, const Box& box, std::optional<double> ground, double origin) {
   if (!ground) return box.low.y - box.fall();
   if (!std::isfinite(*ground)) throw compare::InputError("--ground " + number(*ground) + ": give a height [m]");

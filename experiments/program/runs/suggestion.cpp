@@ -30,7 +30,7 @@ constexpr double weights_held = 10;         ///< number of layers whose weight p
 constexpr double detections_a_step = 4;     ///< largest number of detections in a step at the speed of the fall
 constexpr double longest_step = 1.0 / 100;  ///< longest step of the paper's scenes [s]
 constexpr double fewest_iterations = 10, most_iterations = 100;
-/// Largest relative excess of the extension under weight, which remains if the sweeps have not converged.
+/// Largest accepted error of the extension under weight, relative to the converged extension.
 constexpr double most_excess = 0.01;
 /// Factor on the exponent of method.md §7.7. Measured rates are 0.9 to 1.2 times that exponent, because modes are not
 /// quite smooth, and a sweep goes colour by colour, not row by row (tests/experiments/program/runs/suggestion.cpp).
@@ -258,14 +258,14 @@ struct Sweeping {
   double block, mode;
   Sweeping(const Measures& mesh, double step)
       : block(1 + step * step * mesh.stiffness), mode(1 + step * step * mesh.slowest) {}
-  /// Returns the share by which this number of sweeps leaves an extension too large. `enough`: number of sweeps that
-  /// leave at most 1 %.
+  /// Returns the excess of the extension after this number of sweeps, as a share of the converged extension. `enough`:
+  /// number of sweeps after which the excess is at most 1 %.
   double excess(double iterations) const { return mode / std::expm1(2 * iterations * mode / block); }
   double enough() const { return block / (2 * mode * least_rate) * std::log1p(mode / most_excess); }
 };
 
-/// Returns the longest step up to `step` for which `iterations` sweeps leave at most 1 %. Bisection works because
-/// enough() grows with the step.
+/// Returns the longest step up to `step` for which the excess after `iterations` sweeps is at most 1 %. Bisection works
+/// because enough() grows with the step.
 double step_for(const Measures& mesh, double iterations, double step) {
   double low = 0, high = step;
   for (int halving = 0; halving < 50; ++halving) {
@@ -275,8 +275,8 @@ double step_for(const Measures& mesh, double iterations, double step) {
   return low;
 }
 
-/// Describes by how much the sweeps leave a hanging mesh too long. If this exceeds the limit, also describes what
-/// helps.
+/// Describes by how much a hanging mesh is still too long after the sweeps. If this exceeds the limit, also describes
+/// what helps.
 std::string hanging(const Measures& mesh, double iterations, double step) {
   const Sweeping sweeping(mesh, step);
   const std::string text = "hung by an end the mesh stretches about " + number(100 * sweeping.excess(iterations)) +

@@ -15,8 +15,8 @@ namespace {
 
 using compare::Vec3;
 
-/// Speed at the end of a step for which the warning suggests a tolerance, as a share of the speed that gravity adds in
-/// the step. It is a rough choice.
+/// The warning suggests the tolerance at which a step ends with this speed, given as a share of the speed that gravity
+/// adds in the step. The share is a rough choice.
 constexpr double share_of_gravity = 0.1;
 
 double norm(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
@@ -100,7 +100,7 @@ Vec3 at_start(const compare::PrescribedMotion& motion, std::size_t k) {
   return {from.x + s * (to.x - from.x), from.y + s * (to.y - from.y), from.z + s * (to.z - from.z)};
 }
 
-/// Warns of the motion whose first keyframe is farthest from its vertices.
+/// Warns of the motion whose keyframes are farthest from its vertices at the start.
 std::string keys_warning(const compare::Scene& scene) {
   double farthest = most_radii_from_keys * scene.settings.contact_radius;
   const compare::PrescribedMotion* of = nullptr;

@@ -17,8 +17,8 @@ inline constexpr double largest_diagonal = 20;
 /// Largest r without a warning, in median edges of a body. With a larger r, vertices are in contact with mesh
 /// neighbours that are several rings away.
 inline constexpr double most_edges_a_radius = 2;
-/// Largest distance without a warning between keyframes and their body at the start, in multiples of r. Contact can't
-/// miss so small a motion, and the rounding of files is far smaller.
+/// Largest distance without a warning between keyframes and their body at the start, in multiples of r. The body covers
+/// this distance in the first step. A jump so small can't pass a contact, and the rounding of files is far smaller.
 inline constexpr double most_radii_from_keys = 0.01;
 /// Largest share of a step's motion that truncation may take without a warning (MomentumShare).
 inline constexpr double most_momentum_lost = 0.5;
@@ -26,11 +26,13 @@ inline constexpr double most_momentum_lost = 0.5;
 /// Number of consecutive steps, each ending with every free vertex cut by its bound, that causes a warning.
 inline constexpr std::int64_t most_held_steps = 10;
 
-/// Largest share of the force (Eq. 29) that the median step may leave on free vertices without a warning.
+/// Largest residual (Eq. 29, the share of the force that is left on free vertices) of the median step without a
+/// warning.
 inline constexpr double most_force_left = 0.1;
 
-/// Collects the forces that the steps of a run leave. A step counts only if rounding explains at most most_force_left
-/// in Eq. 29. Otherwise there was hardly any force, as in free fall.
+/// Collects the residuals (Eq. 29) that the steps of a run leave. A step counts only if the part of its residual that
+/// rounded positions may cause does not exceed most_force_left. In other steps there was hardly any force, as in free
+/// fall.
 class ForcesLeft {
  public:
   /// Adds a step's row if it has these numbers.
