@@ -21,9 +21,7 @@ struct BlockMargin {
   int sign = 0;              ///< exact: 1 inside, 0 on the boundary, −1 outside
   double length = 0;         ///< distance to the boundary [m] with this sign, within 1 ulp of double
   bool closed = false;       ///< whether the boundary belongs to the block, as the equations print it
-  /// Returns all boundaries of U_a (Eq. 8, 9, 10) or, with `edge_only`, of U_a^E (Eq. 14, 15), the sphere first. x is
-  /// in the block if it is on the inner side of all of them. For an edge the "sphere" is the wall of a cylinder, for a
-  /// triangle two planes at distance r.
+  /// Returns whether the point is on the inner side of this boundary; points on the boundary count if it is closed.
   bool holds() const { return sign > 0 || (sign == 0 && closed); }
 };
 

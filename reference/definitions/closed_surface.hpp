@@ -22,8 +22,8 @@ struct PointLocation {
 ///
 /// The segment begins outside a triangle if x is on the side of the normal, and outside an edge if its triangles meet
 /// at less than π inside. At a vertex, an edge that is perpendicular to one of the vertex's normals decides. Points of
-/// the face itself are outward (closed). A rim, that is an edge with one triangle or an end of it, has no inner side.
-/// Triangles that are folded onto each other have none, either.
+/// the face itself are outward (closed). A rim (an edge with one triangle, or an end of this edge) has no inner side,
+/// and neither do triangles that are folded onto each other.
 bool begins_outside(const Complex& mesh, Face face, const Vec3f& x);
 
 /// A surface that encloses a volume: each edge has two triangles that run through it in opposite senses, each triangle

@@ -1,5 +1,5 @@
-// The functions over all pairs share with the detections only the predicates of Algorithms 1 and 2. The functions by
-// definition do not use these predicates.
+// The functions `…_over_all_pairs` share with the detections only the predicates of Algorithms 1 and 2. The functions
+// `…_by_definition` use none of these predicates.
 #include "reference/definitions/contact_sets.hpp"
 
 #include <algorithm>

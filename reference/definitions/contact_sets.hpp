@@ -11,8 +11,8 @@
 
 namespace ogc::reference {
 
-/// Returns F_OGC by Eq. 12, tested for all faces of triangles with DefinedBlocks, sorted, with d < r. Takes quadratic
-/// time.
+/// Returns the contacts of F_OGC with d < r by Eq. 12, sorted. Tests all faces of triangles with DefinedBlocks, in
+/// quadratic time.
 std::vector<compare::VertexFacetContact> vertex_facet_by_definition(const compare::DetectIn& in);
 
 /// Returns F_OGC by Algorithm 1 with the half-spaces of Eq. 8–10, over all pairs.
@@ -22,7 +22,8 @@ std::vector<compare::VertexFacetContact> vertex_facet_over_all_pairs(const compa
 /// quotients, then tests the closest points with DefinedBlocks.
 std::vector<compare::EdgeEdgeContact> edge_edge_by_definition(const compare::DetectIn& in);
 
-/// Returns E_OGC by Algorithm 2 (with the same corrections) with the half-spaces of Eq. 14 and 15, over all pairs.
+/// Returns E_OGC by Algorithm 2 (corrected: method.md §1.2, §1.3), over all pairs. Uses the half-spaces of Eq. 14 and
+/// 15.
 std::vector<compare::EdgeEdgeContact> edge_edge_over_all_pairs(const compare::DetectIn& in);
 
 /// Returns V_OGC(t): for each triangle the vertices in contact with a face that the triangle owns, ascending, one entry

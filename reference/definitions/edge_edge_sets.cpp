@@ -158,9 +158,9 @@ bool are_in_blocks(const Complex& mesh, const FacePair& faces) {
   return inside;
 }
 
-/// Returns whether closest points of two nearly parallel edges lie in each other's blocks. Tests all pairs of features:
-/// a pair satisfies the blocks' conditions only if it holds closest points. Exactly parallel edges have closest points
-/// at both ends of the overlap.
+/// Returns whether two nearly parallel edges have a pair of closest points that lie in the blocks of each other's
+/// faces. Tests all pairs of features, because only closest points satisfy the conditions of these blocks. Exactly
+/// parallel edges have closest points at both ends of the overlap.
 bool is_some_end_in_blocks(const Complex& mesh, Index e, Index f) {
   for (int k = 0; k < edge_feature_pairs; ++k) {
     const auto [first, second] = edge_features(k);

@@ -1,6 +1,6 @@
-// A three-dimensional set of directions bounds the cone by planes n·d = 0, so each extreme ray lies on two of them. If
-// the directions span only a plane or a line, the perpendicular line or plane belongs to the cone, and the other
-// generators lie in that plane or line.
+// A three-dimensional set of directions d bounds the cone by planes n·d = 0, and each extreme ray lies on two of these
+// planes. If the directions span only a plane or a line, the perpendicular line or plane belongs to the cone. The other
+// generators then lie in the span.
 #include "reference/definitions/normal_cone.hpp"
 
 #include <algorithm>

@@ -14,7 +14,7 @@ struct PairMargins {
 };
 
 /// Returns the margins of a contact. Signs are exact, lengths are within 8 ulp. Both lists are empty for the interiors
-/// of nearly parallel edges: their contact points are no closest points, so they need not lie in blocks (method.md
+/// of nearly parallel edges, whose contact points need not be the closest points and need not lie in blocks (method.md
 /// §1.4).
 PairMargins pair_margins(const Complex& mesh, const compare::EdgeEdgeContact& contact, float contact_radius);
 

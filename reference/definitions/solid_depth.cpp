@@ -1,9 +1,9 @@
 // A *way* is the straight segment from x to a boundary point. The grey zone: an error of 16 · 2⁻²⁴ in a tetrahedron's
 // coordinates changes each weight of a point by 16 · 2⁻²⁴ Σ|∂w/∂δ||δ|. The sum is at most three times the moduli of the
 // weight's terms, which have degree three. The end of a way on a triangle's interior has in addition the error of the
-// triangle's normal (normal_scale). Within this error a segment may pass each nearby triangle, edge and vertex. A way
-// is certain if none of these is on the body's boundary; inner ones do not matter. Then the way reaches its end,
-// whichever tetrahedra rounding selects.
+// triangle's normal (normal_scale). Within this error a segment may pass a nearby triangle, edge or vertex on either
+// side. A way is certain if none of these is on the body's boundary. Then the way reaches its end, whichever tetrahedra
+// rounding selects.
 //
 // Weights in double are known to 2⁻⁴⁶ of the moduli of their terms, which is negligible beside 16 · 2⁻²⁴. Whether a way
 // exists in exact numbers is decided with rational numbers, among the tetrahedra that the way may reach.

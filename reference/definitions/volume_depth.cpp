@@ -1,9 +1,9 @@
 // Finds the faces that could be nearest. Uses the distances of all triangles of a part, each known to 16 · 2⁻²⁴ of the
 // triangle's coordinates, and the faces that closest_face accepts. The exactly nearest face is found without rounding.
 //
-// For a face that is nearest only by rounding, another face decides on which side x is. This is the exactly nearest
-// face if it shares a vertex with the face and is not a rim. Otherwise it is the nearest triangle around the face,
-// because the edge of a valley alone would put every point inside. At a rim x is always outside.
+// A face F that is nearest only by rounding does not decide on which side x is. The exactly nearest face decides if it
+// shares a vertex with F and is not a rim. Otherwise the nearest triangle around F decides, because the edge of a
+// valley alone would put every point inside. At a rim x is always outside.
 #include "reference/definitions/volume_depth.hpp"
 
 #include <algorithm>

@@ -16,7 +16,7 @@ namespace {
 
 using compare::at;
 
-/// Largest error of a grey distance, relative to the sum of the moduli of its coordinates.
+/// Factor of `doubt`, the error up to which a distance is grey.
 constexpr double doubt_factor = compare::grey_factor;
 
 double norm_1(const Vec3f& a, const Vec3f& b) {

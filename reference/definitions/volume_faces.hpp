@@ -21,8 +21,8 @@ class VolumeFaces {
   bool grey = false, near = false;  ///< whether some decision up to now is grey, or near a grey one
 
  protected:
-  /// Returns the largest error of a grey distance: 16 · 2⁻²⁴ times the larger of the distance and Σ|δ|, where δ are the
-  /// coordinates relative to the triangle's first corner.
+  /// Returns the largest error of the distance to a triangle that still counts as rounding: 16 · 2⁻²⁴ times the larger
+  /// of the distance and Σ|δ|. δ are the coordinates relative to the triangle's first corner.
   double doubt(Index t) const;
   /// The smallest distance to triangles, and the triangles that may have it.
   struct Candidates {
@@ -33,11 +33,12 @@ class VolumeFaces {
   bool is_on_surface(const std::vector<Index>& candidates) const;
   Face exactly_nearest(const std::vector<Index>& triangles) const;
   Face face_of(Index t, int feature) const;
-  /// Returns the faces that may be nearest, the exactly nearest first. A face is possible if every triangle around it
-  /// accepts the face. If a triangle refuses the face, that triangle is nearer. But if t is farther than `least` by at
-  /// most 4 · 16 · 2⁻²⁴ doubt(t), the faces that t accepts are possible nevertheless. An error of 16 · 2⁻²⁴ of the
-  /// closest point changes the distance by at most the square of this error. The limit is four times the square,
-  /// because distances in double are known only to half of the limit.
+  /// Returns the faces that may be nearest, the exactly nearest first. A face of a candidate t may be nearest in two
+  /// cases:
+  ///  - Every triangle around the face accepts it. A triangle that refuses it is nearer.
+  ///  - t accepts it, and t is farther than `least` by at most 4 · 16 · 2⁻²⁴ doubt(t).
+  /// An error of 16 · 2⁻²⁴ of the closest point changes the distance by at most the square of this error. The limit is
+  /// four times the square, because distances in double are known only to half of the limit.
   std::vector<Face> possible_faces(const std::vector<Index>& candidates, Face nearest, double least) const;
   std::vector<Index> around(Face face) const;
   bool is_rim(Face face) const;

@@ -25,7 +25,7 @@ enum class FormKind : std::uint8_t {
 /// negative weights.
 struct ClosestForm {
   FormKind kind = FormKind::points;  ///< features that hold the contact points
-  std::array<std::uint8_t, 4> at{};  ///< for each place of FormKind, the vertex's place in the contact
+  std::array<std::uint8_t, 4> at{};  ///< vertices of the contact that the form uses, in the order of FormKind
   /// by vertex of the contact; they add up to 1 on the first side, to −1 on the second
   std::array<double, 4> weight{};
 };

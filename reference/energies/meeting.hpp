@@ -93,9 +93,9 @@ enum class Ends {
   nowhere     ///< only for d = 0, where the normal is undefined
 };
 
-/// Returns a stage's accepted answers for all meetings of a contact. `acting` returns the answer of a meeting with a
-/// force. `largest` takes a distance [m] and returns, as scales, upper limits of force and block at this distance or
-/// beyond. It is used for needles, and if the contact points may coincide.
+/// Returns a stage's accepted answers for all `meetings` (accepted places of the contact points) of a contact. `acting`
+/// returns the answer of a Meeting with a force. `largest` takes a distance [m] and returns, as scales, upper limits of
+/// force and block at this distance or beyond. It is used for needles, and if the contact points may coincide.
 std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings, Ends end,
                                           const std::function<compare::ForceAnswer(double)>& largest,
                                           const std::function<compare::ForceAnswer(const Meeting&)>& acting);
@@ -109,8 +109,8 @@ LargestSlopes largest_slopes(const compare::ContactForceCase& question, double d
 /// Returns an upper limit of Meeting::majorant, |w| Σ |w_u|. The moduli of all weights add up to 2.
 inline double largest_majorant(const compare::ContactForceCase& question) { return question.together == 0 ? 1 : 2; }
 
-/// Returns the scale of a number of size 1 for which `tolerance` accepts every value up to 1: 1/(2⁻²⁴ · tolerance),
-/// plus 1 for one rounding.
+/// Returns the scale with which a stage of this tolerance accepts an error of 1: 1/(2⁻²⁴ · tolerance), plus 1 for one
+/// rounding.
 inline double units_of_whole(double tolerance) { return 1 / (compare::unit_roundoff * tolerance) + 1; }
 
 /// Returns an upper limit of the answer's norm: its value plus its error.

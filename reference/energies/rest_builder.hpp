@@ -1,5 +1,5 @@
 // Collects the rest state. Each kind of element adds its own part. Each quantity is written once, as polynomials over a
-// number type. Exact numbers give the quantity's value: needles, flat hinges and folds lose no bit before the last
+// number type. Exact numbers give its value, so that even needles, flat hinges and folds lose no bit before the last
 // root, quotient or angle. Input numbers give the unit of the value's error.
 #pragma once
 

@@ -16,8 +16,8 @@ T spring_energy(const T& length, const Number& stiffness, const T& rest_length) 
   return Number(0.5) * stiffness * (length - rest_length) * (length - rest_length);
 }
 
-/// A spring between one vertex and another one, or a point between two others. Its energy is k_s/2 ((l − l₀)² + k (l −
-/// lᵗ)²) with l = ‖Σ wᵢ xᵢ‖.
+/// A spring between two vertices, or between a vertex and a point on the line of two others. Its energy is k_s/2 ((l −
+/// l₀)² + k (l − lᵗ)²) with l = ‖Σ wᵢ xᵢ‖.
 template <class Number>
 struct SpringTermOf {
   std::array<compare::Index, 4> vertex{-1, -1, -1, -1};

@@ -107,9 +107,10 @@ class EdgeQuery {
     if (doubtful || !tested.certain) accept_absence(other);
   }
 
-  /// Returns whether closest points of nearly parallel edges lie in each other's blocks. Exactly parallel edges have
-  /// closest points at both ends of the overlap; one of these pairs is enough. The answer is certain in two cases:
-  /// every possible pair of features certainly passes, or some certainly closest pair certainly passes.
+  /// Returns whether closest points of nearly parallel edges lie in the blocks of the other edge's faces. Exactly
+  /// parallel edges have closest points at both ends of the overlap; one of these pairs is enough. The answer is
+  /// certain in two cases: every possible pair of features certainly passes, or some certainly closest pair certainly
+  /// passes.
   Membership in_blocks_where_closest(Index other, const EdgePair& pair) const {
     Membership some{false, false, false};
     bool all_certain = true;

@@ -6,8 +6,8 @@
 namespace ogc::reference {
 
 /// Detects contacts, in parallel over edges; the answer does not depend on the number of threads. Nearly parallel edges
-/// nearer than r count as interior–interior in two cases: their closest points lie in each other's blocks, or neither
-/// edge has a triangle.
+/// nearer than r count as interior–interior in two cases: each closest point lies in the block of the other edge's
+/// face, or neither edge has a triangle.
 compare::DetectEdgeEdgeTruth detect_edge_edge(const compare::DetectIn& in);
 
 /// Returns only `exact` of the truth, for solvers. Skips pairs that are too far apart to be a contact or to lower a

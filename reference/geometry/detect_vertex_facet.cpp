@@ -111,8 +111,8 @@ class VertexQuery {
     if (!has_area(corners)) note_ties(closest);
   }
 
-  /// Notes all closest faces of a collapsed triangle, which may have several. Algorithm 1 takes one of them; the order
-  /// of the corners decides which.
+  /// Notes all faces of a collapsed triangle that are equally close. Algorithm 1 enters one of them; the order of the
+  /// corners decides which.
   void note_ties(const std::vector<Face>& closest) {
     for (const Face face : closest) {
       if (!membership(face).possible) continue;

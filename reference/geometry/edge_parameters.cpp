@@ -1,4 +1,4 @@
-// Computes values from exact margins, because their quotients in double can lose digits by cancellation. Computes
+// Computes values from exact margins, because quotients of margins in double can lose digits by cancellation. Computes
 // derivatives from the same formulas with dual numbers.
 #include "reference/geometry/edge_parameters.hpp"
 

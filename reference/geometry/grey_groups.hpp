@@ -1,5 +1,5 @@
-// Groups contacts that share a grey boundary into one decision, and finds out whether an answer with none of them is
-// accepted, too.
+// Groups contacts of which rounding may replace one by another into one decision, and finds out whether an answer with
+// none of them is accepted, too.
 #pragma once
 
 #include <map>
@@ -8,18 +8,18 @@
 
 namespace ogc::reference {
 
-/// Groups doubtful contacts, named by keys, by the boundaries that they share.
+/// Groups doubtful contacts that share a boundary. A key names a contact.
 template <class Key>
 class GreyGroups {
  public:
-  /// Adds a doubtful contact. `absence`: whether there is a boundary with no contact on its other side.
+  /// Adds a doubtful contact. `absence`: whether rounding can remove the contact without another contact in its place.
   void add(const Key& key, bool absence) {
     Entry& entry = entries_.try_emplace(key, Entry{key}).first->second;
     entry.absence = entry.absence || absence;
   }
 
-  /// Joins the contacts on both sides of a boundary. All doubtful contacts must have been added before groups() is
-  /// called.
+  /// Joins two contacts whose blocks share a grey boundary: rounding may replace one by the other. All doubtful
+  /// contacts must have been added before groups() is called.
   void join(const Key& a, const Key& b) { joins_.emplace_back(a, b); }
 
   /// Returns whether no contact is doubtful.

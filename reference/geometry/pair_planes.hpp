@@ -1,4 +1,5 @@
-// Computes planes between near pairs and balls for all other pairs by their definition (method.md §5.6).
+// Computes by their definition the planes between the sides of near pairs, and the balls for all other pairs (method.md
+// §5.6).
 #pragma once
 
 #include <array>

@@ -65,7 +65,7 @@ struct Way {
   double relative_error = infinity;  ///< ‖δw‖/‖w‖
 };
 
-/// Solves H w = n for w by cofactors. κ is computed in Frobenius norms and is at most three times that of ‖·‖₂.
+/// Solves H w = n for w by cofactors. κ is computed in Frobenius norms; it is at most three times as large as in ‖·‖₂.
 Way way_out(const std::array<float, 6>& block, const Vec3f& normal) {
   const auto [xx, xy, xz, yy, yz, zz] = std::array<Long, 6>{block[0], block[1], block[2], block[3], block[4], block[5]};
   const std::array<Long, 6> cofactor{yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy,
@@ -178,8 +178,8 @@ class RegionCheck {
     });
   }
 
-  /// Returns the half-space that the proposal certainly violates if it can violate no other one, even with a kernel's
-  /// rounding; otherwise null. Sets `is_ball` to whether the proposal certainly violates no half-space.
+  /// Returns the only half-space that the proposal can violate, even with a kernel's rounding, if the proposal
+  /// certainly violates it; otherwise null. Sets `is_ball` to whether the proposal certainly violates no half-space.
   const HalfSpace* only_violated(bool& is_ball) const {
     const HalfSpace* only = nullptr;
     int count = 0;

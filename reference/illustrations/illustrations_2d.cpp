@@ -38,7 +38,7 @@ struct Push {
   std::array<double, 2> from{}, force{};
 };
 
-/// Returns the push at the closest point of a segment or vertex to x.
+/// Returns the push at the point of `face` that is closest to x.
 Push push_on(const Slice& slice, SliceFace face, const Point2& x, double r) {
   const Point2& a = slice.polyline()[static_cast<std::size_t>(face.index)];
   std::array<double, 2> c{a[0], a[1]};
@@ -82,7 +82,7 @@ std::vector<SliceFace> segments_of(const Slice& slice, const std::vector<Index>&
   return faces;
 }
 
-/// Returns the faces in contact by Eq. 12: their blocks hold the vertex, and they do not contain it.
+/// Returns the faces in contact with the vertex by Eq. 12: faces without the vertex whose blocks hold it.
 std::vector<SliceFace> ogc_faces(const Slice& slice, Index vertex, float r) {
   const Complex mesh = slice.mesh();
   const std::vector<Index> no_groups;

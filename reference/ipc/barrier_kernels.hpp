@@ -1,5 +1,5 @@
-// Differentiates several barriers with the same kind of closest features at once in the lanes of a register, like
-// energies/stencils/stencil_kernels.hpp for other stencils.
+// Differentiates several barriers at once in the lanes of a register; all must have the same kind of closest features.
+// energies/stencils/stencil_kernels.hpp does the same for other stencils.
 #pragma once
 
 #include "reference/energies/stencils/stencil_kernels.hpp"

@@ -37,8 +37,8 @@ struct IpcDerivatives {
   double energy_noise = 0;                ///< as in PotentialDerivatives [J]
 };
 
-/// The energies of a step: the potential without contacts, barriers, lagged friction, and the pull of prescribed
-/// vertices.
+/// The energies of a step: barriers, lagged friction, the pull of prescribed vertices, and the potential without
+/// contacts.
 class IpcForces {
  public:
   /// The scene must be rounded and valid; scene and topology must outlive this.
@@ -46,13 +46,13 @@ class IpcForces {
 
   /// Begins the step with this number from xᵗ with target y [m]. Removes the previous friction and pull.
   void begin_step(const State& start, const State& target, std::int64_t number);
-  /// Returns the segments of rods, with the frames for energies and forces.
+  /// Returns the rods, whose frames energies and forces use.
   RodSystem& rods() { return potential_.rods(); }
   /// Computes λ, n and weights of these barriers at x; they stay until the next call.
   void lag_friction(const BarrierSet& set, const State& x, double stiffness);
 
-  /// Returns the energies at x, with the barriers `set` of x and κ [J/m⁴]. After its vertices, x may have the rotations
-  /// ω of frames.
+  /// Returns the energies at x. `set` holds the barriers at x; `stiffness` is κ [J/m⁴]. x may have the rotations ω of
+  /// frames after its vertices.
   IpcEnergy energy(const State& x, const BarrierSet& set, double stiffness) const;
   /// Returns the derivatives at x. `room` is an earlier result whose memory is used again, because the operating system
   /// would have to clear tens of megabytes of new memory.

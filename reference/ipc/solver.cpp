@@ -14,7 +14,7 @@ namespace {
 constexpr double smallest_share = 1e-10;             ///< share of the direction p below which a step has stalled
 constexpr std::size_t window = 3;                    ///< number of iterations over which `velocity` averages
 constexpr double first_pull = 1e3, most_pull = 1e8;  ///< ρ (Li et al. 2020, supplement)
-/// Share of their total distance after which prescribed vertices are fixed.
+/// Prescribed vertices are fixed after this share of the distance to their targets.
 constexpr double pulled_enough = 0.999;
 constexpr std::size_t most_named = 20;  ///< largest number of pairs in a message
 

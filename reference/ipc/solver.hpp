@@ -81,7 +81,7 @@ class IpcSolver {
 
  private:
   enum class Outcome { converged, limit, indefinite, stuck, not_finite };
-  /// The linear system of the free vertices and frames, with a pull also of the prescribed vertices.
+  /// The linear system of the free vertices and frames; with a pull, it includes the prescribed vertices.
   struct System {
     BlockMatrix matrix;
     Factor factor;

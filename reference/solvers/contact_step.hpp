@@ -129,8 +129,8 @@ class ContactStep {
   void move_towards(const Triple<double>& proposal, std::size_t vertex, std::size_t& cut);
 
   ContactSet contact_set_;
-  /// Number of prescribed vertices behind their targets since the last call of `asks`; whether one of them has moved
-  /// since the last detection; whether such a vertex has triggered a detection in this step.
+  /// State of `asks`: the number of prescribed vertices behind their targets since its last call, whether one of them
+  /// has moved since the last detection, and whether one has triggered a detection in this step.
   std::size_t lagging_ = 0;
   bool advanced_ = false, lag_asked_ = false;
   bool guessing_ = false;  ///< whether the guess loop runs

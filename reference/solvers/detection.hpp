@@ -24,9 +24,9 @@ struct Detected {
 std::vector<compare::Vec3f> rounded(const State& x);
 
 /// Returns a query radius between r and `most` [m] that gives the `movable` vertices the same contacts and bounds as
-/// `most`. A bound b_v is at most γ_p times the distance from v to any triangle without v. If such a triangle adjoins
-/// the side opposite to v of one of v's triangles, the distance to this side limits b_v. The function computes the
-/// smallest such distance for each vertex, or `most` if there is none, and returns the largest.
+/// `most`. Let e be the edge opposite to v in a triangle of v. If e has another triangle, without v, that triangle
+/// limits b_v to γ_p times the distance from v to e. The function computes the smallest such distance for each vertex,
+/// or `most` if there is none, and returns the largest.
 float sufficient_query_radius(const compare::Topology& topology, const compare::ExclusionView& exclusions,
                               const std::vector<std::size_t>& movable, const std::vector<compare::Vec3f>& positions,
                               float contact_radius, float most);

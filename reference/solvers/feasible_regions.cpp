@@ -11,9 +11,10 @@ constexpr int slide_passes = 8;
 
 }  // namespace
 
-/// Reduces the bounds by the error of rounding to single precision. A coordinate is at most ‖X_prev‖_∞ + b_v and moves
-/// by 2⁻²⁴ of it; the point moves by √3 times that. A tiny coordinate moves by at most the smallest positive
-/// single-precision number. A projection in double adds errors of 2⁻⁵⁰ of coordinates and step.
+/// Reduces the bounds by the error of rounding to single precision. A coordinate is at most c = ‖X_prev‖_∞ + b_v.
+/// Rounding moves the coordinate by at most 2⁻²⁴ c and so the point by at most √3 · 2⁻²⁴ c. A tiny coordinate moves by
+/// at most the smallest positive single-precision number. A projection in double adds errors of 2⁻⁵⁰ of coordinates and
+/// step.
 FeasibleRegions::FeasibleRegions(const Detected& detected, compare::Bounds bounds)
     : centre_(widened(detected.previous)), planes_(centre_.size()), is_scaled_(!traits_of(bounds).slides) {
   const compare::BoundsTraits policy = traits_of(bounds);

@@ -30,8 +30,8 @@ class FeasibleRegions {
   };
   /// Returns x if it is inside the region; otherwise a point of the region near x. Without half-spaces this is the
   /// closest point of the ball. With half-spaces, x slides along them in the given metric, or to their closest points
-  /// if there is no metric. If it is still outside, it is scaled towards `from`, which must be inside. With bounds=dat,
-  /// x is only scaled, towards X_prev.
+  /// if there is no metric. A point that is still outside is scaled towards `from`, which must be inside. With
+  /// bounds=dat, x is only scaled, towards X_prev.
   Inside inside(std::size_t vertex, const Triple<double>& from, const Triple<double>& x,
                 const Metric& metric = {}) const;
   /// Truncates a prescribed vertex, which does not slide: the result is on the path from `from` to x.

@@ -35,9 +35,9 @@ struct PotentialDerivatives {
   std::vector<StencilDerivatives> stencil;
   std::vector<double> slopes, curvatures;  ///< Σ |∂E| and Σ |∂²E| of each stencil's free vertices [N], [N/m]
   State gradient;                          ///< by unknown, vertices [N] then segments [N m]; 0 if not free
-  /// Errors by rounding the unknowns: of the mean ‖gradient‖ over free vertices, of the sum of ‖torque‖ over segments
-  /// of rods, and of the energy. Each is 2⁻⁵² times a sum of |∂²E| or |∂E| times the size of the rounded unknown: ‖x‖_∞
-  /// for positions, 1 for frames (unit quaternions).
+  /// Errors that rounding of the unknowns causes: in the mean ‖gradient‖ over free vertices, in the sum of ‖torque‖
+  /// over segments of rods, and in the energy. Each is 2⁻⁵² times a sum of |∂²E| or |∂E| times the size of the rounded
+  /// unknown: ‖x‖_∞ for positions, 1 for frames (unit quaternions).
   double force_noise = 0, torque_noise = 0, energy_noise = 0;  ///< [N], [N m], [J]
 };
 
@@ -100,7 +100,7 @@ class Potential {
   /// Returns the friction of a contact; empty if it has none. λ, n and w are evaluated at `corners`; entries beyond the
   /// contact's vertices are not read.
   std::optional<FrictionTerm> friction_at(const ContactTerm& term, const std::array<Triple<double>, 4>& corners) const;
-  /// Returns the segments of rods, with the orientations for energies and forces.
+  /// Returns the rods, whose orientations energies and forces use.
   RodSystem& rods() { return std::get<RodSystem>(elements_); }
   const RodSystem& rods() const { return elements<SegmentKind>(); }
   const State& target() const { return target_; }                                       ///< y of the step [m]

@@ -18,8 +18,8 @@ class VbdSolver : public StepSolver, private ContactStep {
  public:
   /// Takes a rounded and valid scene; scene and topology must outlive the solver. Reads the settings of
   /// variants/settings.hpp. `colour` holds a number from 0 on for each free vertex, −1 for all others. Two vertices of
-  /// a membrane, hinge or spring must have different colours. If `colour` is empty, the solver colours the vertices
-  /// (colouring.hpp). Throws std::invalid_argument if the colours do not fit the scene.
+  /// one element must have different colours. If `colour` is empty, the solver colours the vertices (colouring.hpp).
+  /// Throws std::invalid_argument if the colours do not fit the scene.
   VbdSolver(const compare::Scene& scene, const compare::Topology& topology, const compare::SimulationOptions& options,
             std::vector<compare::Index> colour = {});
 

@@ -15,8 +15,8 @@ namespace ogc::reference {
 
 /// One term of force and block, with the tolerances of its stage in units of 2⁻²⁴ · scale. Accepted answers within a
 /// tolerance of the exact answer are not tried one by one; they enlarge the spread. The spread is the largest
-/// difference from the exact answer, plus the tolerance, because the scale of an accepted answer may be twice that of
-/// the exact one.
+/// difference of these answers from the exact one, plus the tolerance, because their scale may be twice the scale of
+/// the exact answer.
 struct Term {
   std::vector<compare::ForceAnswer> accepted;  ///< the exact answer first
   double force_tolerance = 0, block_tolerance = 0;

@@ -104,8 +104,8 @@ double beyond_planes(const FreeVertex& vertex, const Vec3& x) {
 }
 
 /// Returns the accepted error of a vertex whose block is so ill-conditioned that the exact position is unknown. The
-/// error is infinity if the vertex may be cut, or if dx·f ≥ −‖dx‖(φ + η‖dx‖) up to the error of storing. Otherwise it
-/// is 0: the answer is wrong.
+/// error is infinity if the vertex may be cut, or if dx·f ≥ −‖dx‖(φ + η‖dx‖) up to the error of storing (φ, η: head of
+/// this file). Otherwise it is 0: the answer is wrong.
 double accepted_without_position(const System& system, const FreeVertex& vertex, const Vec3f& answer) {
   const Vec3 moved = minus(wide(answer), wide(vertex.old));
   const bool may_be_cut = norm(minus(wide(answer), wide(vertex.previous))) + truncation_error(vertex) >= vertex.bound ||

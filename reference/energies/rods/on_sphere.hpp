@@ -54,7 +54,7 @@ Four<T> basis(std::size_t k) {
 
 template <class T>
 struct Problem {
-  Triple<T> apart, direction;  ///< D [m], c [1]
+  Triple<T> apart, direction;  ///< D [m], c = e₃ + k R(qᵗ)ᵀ Dᵗ/l [1] (compare/rods.md)
   T stretch;                   ///< k_s [N]
   Four<T> vector;              ///< b [N m]
   std::array<Four<T>, 4> matrix;

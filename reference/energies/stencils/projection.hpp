@@ -84,8 +84,8 @@ class Eigensystem {
   }
 
   /// Does one QL sweep for the eigenvalue `first`. In each lane the sweep runs from the last row of a block to the
-  /// block's first row, `first`. The block ends at the first negligible entry beside the diagonal. Returns false if all
-  /// lanes have this eigenvalue.
+  /// block's first row, `first`. The block ends at the first negligible entry beside the diagonal. Returns false if
+  /// this eigenvalue is already found in all lanes.
   bool turn(std::size_t first) {
     L last(static_cast<double>(N - 1));
     for (std::size_t k = N - 1; k-- > first;)

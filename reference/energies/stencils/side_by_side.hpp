@@ -13,7 +13,7 @@ inline namespace OGC_LANES {
 
 using One = Lanes<1>;
 
-/// Fills the lanes; `of(lane)` returns the number of a lane.
+/// Fills the lanes; `of(lane)` returns the value of a lane.
 template <class Of>
 void pack(One& to, Of of) {
   for (std::size_t lane = 0; lane < One::width; ++lane) to.part[0][lane] = of(lane);
@@ -119,7 +119,8 @@ class SideBySide {
     for (std::size_t first = 0; first < batch.size; first += One::width) expand(first);
   }
 
-  /// Returns the stencils of the lanes of a pack, from `first` on. Lanes after the last stencil of the batch repeat it.
+  /// Returns the stencils of the lanes of a pack; the first lane has the stencil `first`. Lanes beyond the end of the
+  /// batch repeat its last stencil.
   LaneNumbers stencils(std::size_t first) const {
     LaneNumbers numbers;
     for (std::size_t lane = 0; lane < One::width; ++lane)

@@ -22,8 +22,9 @@ struct StencilDerivatives {
   std::array<double, 144> hessian{};
 };
 
-/// Orthonormal coordinates: row k, column d is the share of vertex k in the d-th coordinate; each column adds up to 0.
-/// The entries of row k are nonzero from column k − 1 on.
+/// `coordinate_count` is the number of coordinates without translations. `without_translation` returns the orthonormal
+/// matrix of one axis: entry (k, d) is the share of vertex k in coordinate d. Each column adds up to 0. Row k is 0
+/// before column k − 1.
 template <std::size_t Count>
 constexpr std::size_t coordinate_count = 3 * (Count - 1);
 template <std::size_t Count>

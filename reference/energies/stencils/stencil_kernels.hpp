@@ -63,15 +63,14 @@ struct PlacedContactOf {
 /// A contact over doubles.
 using PlacedContact = PlacedContactOf<double>;
 
-/// One function for each kind of stencil of contacts, compiled for one machine; solvers/kinds/kernels.hpp has those of
-/// elements.
+/// Kernels for contacts and friction, compiled for one machine; solvers/kinds/kernels.hpp has those for elements.
 struct StencilKernels {
   template <class Term, std::size_t Count>
   using Function = void (*)(const Batch<Term, Count>& batch, HessianProjection projection);
   Function<PlacedContact, 2> contacts_of_2;  ///< the number counts the vertices of the closest form
   Function<PlacedContact, 3> contacts_of_3;
   Function<PlacedContact, 4> contacts_of_4;
-  /// For energies that depend on Σ wᵢ xᵢ alone; missing vertices have the weight 0.
+  /// differentiates contacts whose energy depends on Σ wᵢ xᵢ alone; missing vertices have the weight 0
   Function<PlacedContact, 4> weighted_contacts;
   Function<FrictionTerm, 4> frictions;
 };

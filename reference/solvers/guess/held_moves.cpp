@@ -229,8 +229,8 @@ Passed passed(const Meeting& meeting, const Asked& asked, std::size_t own, const
                                 roundings / compare::contact_grey * meeting.doubt / apart);
   for (double* number : {&at.taken, &at.sliding, &at.normal}) *number /= 1 - std::min(doubt, 0.5);
   Passed result = passed(at, move, error);
-  // The contact changes the move by at most its length times 1 + μ, because q is at most the length and friction at
-  // most μ q.
+  // The contact changes the move by at most 1 + μ times the move's length: q is at most the length, friction is at most
+  // μ q.
   if (meeting.needle || doubt > 0.5)
     result = {result.move, {}, error + 2 * (1 + at.hold.friction) * (norm(move) + error), true};
   if (!ends) return result;

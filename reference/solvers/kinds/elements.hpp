@@ -54,7 +54,7 @@ class Elements {
     std::ranges::copy(terms_[stencil].vertex, all.begin());
     return all;
   }
-  /// Returns the largest number of vertices of an element. Vertices are its first unknowns.
+  /// Returns the largest number of vertices of an element. The first unknowns of an element are its vertices.
   static std::size_t corners(std::size_t) { return 4; }
 
   /// Sets xᵗ, the positions at the start of the step, for damping.

@@ -2,12 +2,12 @@
 // list. Each kind has these members:
 //
 //     List                    all elements in double: Elements<Kind>, or a class with its members
-//     elements, vertices      from the kind of compare, its base
+//     elements, vertices      inherited from the kind of the same name in compare
 //     pulled                  the vertices that an element moves, if these are not all of its vertices
 //     add_at_rest             adds the rest data of a scene, if a rest state has elements of the kind
 //     TermOf, term, begin, corners
-//                             for Elements: one element over any number type, how it is made of the rest state, its
-//                             start of a step, and the positions that it reads
+//                             for Elements: the type of one element over any number type; functions that make an
+//                             element from the rest state, begin a step, and return the positions that it reads
 //     add                     adds force and block of one vertex, in double
 //     question, answers, force_tolerance, block_tolerance
 //                             the question of the kind's stage about one vertex, its answers and tolerances

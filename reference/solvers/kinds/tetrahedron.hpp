@@ -18,7 +18,7 @@ struct TetrahedronKind : compare::TetrahedronKind {
   using List = Elements<TetrahedronKind>;
   /// Adds the rest data of a scene.
   static void add_at_rest(RestBuilder& to) { add_tetrahedra_at_rest(to); }
-  /// Tolerances of the kind's stage, in units of u · scale.
+  /// Tolerances of the kind's stage, in units of 2⁻²⁴ · scale.
   static constexpr double force_tolerance = compare::tetrahedron_force_tolerance,
                           block_tolerance = compare::tetrahedron_block_tolerance;
 
@@ -85,7 +85,8 @@ struct TetrahedronKind : compare::TetrahedronKind {
   }
 
  private:
-  /// Lists for each corner the corners of the opposite face, in the order that makes a positive volume at rest.
+  /// Lists for each corner the corners of the opposite face. Corner and face, in this order, have a positive volume at
+  /// rest.
   static constexpr std::array<std::array<std::size_t, 3>, 4> seen_from{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
   /// Returns the index of V ∇N_k·∇N_l among the weights of a tetrahedron.

@@ -1,5 +1,5 @@
-// A supernodal Cholesky factorisation that reuses its symbolic part until the pattern changes. Only the source of this
-// header includes CHOLMOD.
+// A supernodal Cholesky factorisation that reuses its symbolic part until the pattern changes. Only factor.cpp includes
+// CHOLMOD.
 #pragma once
 
 #include <memory>

@@ -7,7 +7,7 @@
 namespace ogc::reference {
 namespace {
 
-/// Limit of the sweeps that move apart pairs whose sides would come too near (see `truncated`).
+/// Limit of the sweeps of `truncated`, which move apart the sides of pairs that would come too near.
 constexpr int most_sweeps = 64;
 /// Rounds that scale vertices one by one; after them all vertices get the same scale.
 constexpr int most_scalings = 16;

@@ -147,7 +147,8 @@ class NewtonSolver : public StepSolver, private ContactStep {
   BlockMatrix matrix_;
   Factor factor_;
   PotentialDerivatives derivatives_;  ///< of the last iteration
-  /// whether the next detection judges a solve that converged with earlier contacts; whether the present detection does
+  /// whether the next detection (`judge_next_`) or the present one (`judging_`) judges a solve that converged with
+  /// earlier contacts
   bool judge_next_ = false, judging_ = false;
   HessianProjection projection_ = HessianProjection::none;  ///< projection with which derivatives_ were computed
   int judgements_ = 0;                                      ///< number of judgements that did not halve the force
