@@ -43,8 +43,8 @@ std::string iterations_of(const fs::path& run) {
   return text;
 }
 
-/// Checks the folder of an interrupted run. Every frame must be complete. All rows up to the checkpoint, and all frames
-/// that the run's output `said` to have written, must exist.
+/// Checks the folder of an interrupted run. Every frame must be complete. All rows up to the checkpoint must exist, and
+/// all frames that the run's output `said` reports as written.
 void check_left(const fs::path& run, const std::string& said) {
   const compare::RunReader reader(run);
   std::int64_t last = -1;

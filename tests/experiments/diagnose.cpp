@@ -57,7 +57,7 @@ std::vector<Evidence> evidence_of(Stage stage, const Contestant& contestant, std
   return all;
 }
 
-/// Returns the number of failing cases in a longer run. Needed because few meshes have rigid groups or other rare
+/// Returns the number of failing cases in a longer run. In a short run few meshes have rigid groups or other rare
 /// properties.
 std::size_t failing_of_many(Stage stage, const Contestant& contestant, const Authority& authority) {
   JudgeOptions options;

@@ -169,8 +169,8 @@ Contestant exact_contestant(const Authority& authority) {
 
 Contestant contestant_of(const WrongForm& form, const Authority& authority) {
   Contestant wrong = exact_contestant(form.wrong(authority));
-  // The truth about a plane or a sweep depends on the answer. So this contestant answers correctly, but for the input
-  // as the wrong form changes it.
+  // The truth about a plane or a sweep depends on the answer. So this contestant changes the input as the wrong form
+  // does, and answers the changed input correctly.
   wrong.plane = [form, authority, right = wrong.plane](const PlaneIn& in) {
     PlaneOut out;
     Authority seen = authority;

@@ -128,8 +128,8 @@ std::vector<Fault> division_faults() {
   };
 }
 
-/// Imitates a cap by vertex: removes the last plane of a vertex that has the most planes, but keeps the planes of the
-/// same pair at other vertices.
+/// Imitates a limit of the number of planes at each vertex: removes the last plane of a vertex that has the most
+/// planes, but keeps the planes of the same pair at other vertices.
 void asymmetric_cap(const PlaneIn&, Rows& rows) {
   for (auto& row : rows)
     if (row.size() == planes_of_vertex) row.pop_back();

@@ -1,13 +1,14 @@
 // Compares Newton's method, VBD in double and VBD in single precision on the same step. Procedural scenes press a free
 // sheet onto another one, free or fixed, with friction and damping.
 //
-// If the Hessian between two states is at least m/(2h²), the step has at most one solution x* with f(x*) = 0. Each
-// solver then ends within 2 h²/m ‖f(x)‖ of x*; f(x) is the force that it leaves. The test checks two conditions for
+// If the Hessian between two states is at least m/(2h²), the step has at most one solution x* with f(x*) = 0. A solver
+// that stops at a state x with the force f(x) is then within 2 h²/m ‖f(x)‖ of x*. The test checks two conditions for
 // this:
 //
 // - The Hessian without half of the inertia has a Cholesky factorisation.
-// - No contact is at an open boundary of a block, where OGC's force jumps. The exact detection is not grey at either
-//   end, and both ends have the same contacts. A VBD that alternates across a boundary has different contacts.
+// - No contact is at an open boundary of a block, where OGC's force jumps. The exact detection is not grey at the final
+//   states of both solvers, and these have the same contacts. A VBD that alternates across a boundary has different
+//   contacts.
 //
 // For all other steps the test compares energies and residuals.
 #include <cmath>
@@ -128,7 +129,7 @@ class Pair {
 
   double start_energy() const { return start_energy_; }  ///< energy at xᵗ [J]
 
-  /// Returns the largest possible distance of two ends: 2 h²/m Σ ‖f‖ over both, plus the rounding of the stored
+  /// Returns the largest possible distance of two final states: 2 h²/m Σ ‖f‖ over both, plus the rounding of the stored
   /// positions.
   double farthest_apart(const End& a, const End& b) const {
     double lightest = std::numeric_limits<double>::infinity(), largest = 0;

@@ -10,7 +10,7 @@ using namespace ogc;
 
 namespace {
 
-/// Returns two free triangles, at height 0 and at `height`, as two bodies; r [m].
+/// Returns two free triangles as two bodies, at the heights 0 and `height` [m].
 compare::Scene two_triangles(double height, double contact_radius) {
   compare::Scene scene;
   for (const double y : {0.0, height}) {

@@ -25,7 +25,7 @@ struct Surface {
   }
 };
 
-/// Returns a detection question about a surface, which must outlive it, as must the topology.
+/// Returns a detection question about a surface. The surface and the topology must outlive the question.
 inline compare::DetectIn question(const Surface& surface, const compare::Topology& topology, float r, float r_q) {
   return {&topology, surface.groups, surface.positions, r, r_q};
 }

@@ -97,8 +97,8 @@ inline std::size_t address_space() {
   return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-/// Runs the cases in this process, which must be separate. Writes to `out` the number of each case and the error of the
-/// first that fails. Never returns.
+/// Runs the cases in this process, a child process of the test. Writes to `out` the number of each case and the error
+/// of the first that fails. Never returns.
 [[noreturn]] inline void run_cases(const Sample& sample, Judge judge, std::uint64_t seed, std::size_t cases, int out) {
   const auto say = [&](const std::string& text) {
     if (write(out, text.data(), text.size()) < 0) _exit(3);

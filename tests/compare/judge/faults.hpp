@@ -1,7 +1,7 @@
 // Declares wrong contestants that the judge must catch: each changes the exact answer in one way. Most follow from the
 // wrong forms of a stage (compare/judge/report/wrong_forms.hpp). Others are written by hand because no form can express
-// them: a last bit, a share of 0.1 %, one item of a list, the order of a step's events, a whole step. The exact
-// contestant must pass, which checks the judge, its tolerances and its grey zone.
+// them: an error in the last bit or of 0.1 %, one wrong item of a list, a wrong order of a step's events, a wrong step.
+// The exact contestant must pass, which checks the judge, its tolerances and its grey zone.
 #pragma once
 
 #include <functional>
@@ -18,7 +18,7 @@ namespace ogc::tests {
 compare::Contestant exact_contestant(const compare::Authority& authority);
 
 /// Returns the contestant that makes the form's mistake. `form.wrong` must not be empty. Forms of Stage::step are not
-/// allowed, because they accept other guesses but make none.
+/// allowed: they accept wrong guesses in a given answer, but compute no answer.
 compare::Contestant contestant_of(const compare::WrongForm& form, const compare::Authority& authority);
 
 /// Returns the wrong forms of a stage that `contestant_of` accepts.

@@ -48,9 +48,9 @@ TEST_CASE("laws' elastic energy: a stretched triangle, a bent hinge, both by han
   CHECK(elastic(scene, x, turning).change == Approx(0.75 * angle));
 }
 
-// U varies over the length of a cell, 0.03 m, so along a direction d of 1 m its third derivative is about 10³ = 1/0.03²
-// times its first. A central difference with t = 10⁻⁵ thus has a relative error of t²/6 · 10³ = 2 · 10⁻⁸, and rounding
-// adds less. The tolerance is fifty times as large.
+// The energy varies over the length of a cell, 0.03 m. So along a displacement of 1 m its third derivative is about 10³
+// = 1/0.03² times its first. A central difference with t = 10⁻⁵ thus has a relative error of t²/6 · 10³ = 2 · 10⁻⁸, and
+// rounding adds less. The tolerance is fifty times as large.
 TEST_CASE("laws' elastic energy: its change is that of the energy, on the pinned sheet", "[unit]") {
   const Scene scene = find_law("pinned_sheet").scenes(LawSize::least).at(0);
   std::vector<Vec3> x = scene.rest_positions, along(x.size());

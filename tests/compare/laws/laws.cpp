@@ -127,8 +127,8 @@ TEST_CASE("laws of rods hold of their closed answers, and of nothing a tenth off
 }
 
 // In the last step an outer corner is moved by Δ = 1 cm, and everything else is at rest. So the step leaves a force f
-// at this corner only: −f = M Δ/h² + ∇U − M a, with the elastic energy U and the acceleration a by gravity. Equation
-// (5) of beams.cpp derives a limit of the energy gained from f. The limit applies to few sweeps, but not to many.
+// at this corner only: −f = M Δ/h² + ∇U − M a, with the elastic energy U and the acceleration a by gravity. From f,
+// Equation (5) of beams.cpp derives a limit of the gained energy. The limit applies to few sweeps, but not to many.
 TEST_CASE("laws: energy is gained by what few sweeps leave, and by nothing else", "[unit]") {
   const Law& pinned = find_law("pinned_sheet");
   const std::vector<Scene> scenes = pinned.scenes(LawSize::least);
@@ -195,8 +195,9 @@ TEST_CASE("laws: readings are held by side, tolerance and limit", "[unit]") {
   CHECK_THROWS_AS(find_law("free_fal"), InputError);
 }
 
-// Below the friction velocity ε, v' = v − h b f₁(v'/ε) is a quadratic equation; b is the brake. With h b = ε, v = 7/4 ε
-// and y' = v'/ε it is y' = 7/4 − (2 y' − y'²), so y'² − 3 y' + 7/4 = 0 and y' = (3 − √2)/2.
+// Friction changes the velocity v to v' = v − h b f₁(v'/ε), with the deceleration b of full friction and the friction
+// velocity ε. Let h b = ε, v = 7/4 ε and y' = v'/ε < 1. Then y' = 7/4 − (2 y' − y'²), so y'² − 3 y' + 7/4 = 0 and y' =
+// (3 − √2)/2.
 TEST_CASE("laws: the step of a body with friction solves its equation", "[unit]") {
   using law_measures::slid;
   CHECK(slid(1.75, 0, 10, 1, 0.1) == Approx((3 - std::sqrt(2.)) / 2));

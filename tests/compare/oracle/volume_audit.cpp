@@ -143,7 +143,8 @@ TEST_CASE("vertices of free volumes inside each other, and inside their own body
   }
   CHECK(audited(free_cubes(-0.125, false)).vertices_inside == 0);
   CHECK(audited(free_cubes(-0.125, false)).edges_meeting == 0);
-  // A touching vertex is outside another body, but lies on a tetrahedron of its own body.
+  // A vertex that only touches another body is outside of it. A vertex that touches a tetrahedron of its own body
+  // counts as inside.
   CHECK(audited(free_cubes(0, true)).vertices_inside == 0);
   CHECK(audited(free_cubes(0, false)).vertices_inside == 2);
 }

@@ -104,7 +104,7 @@ TEST_CASE("yarn scenes have the paper's numbers: one rod, neighbours of a smooth
     REQUIRE(scene.bodies[0].material.rod);
     CHECK(scene.bodies[0].material.rod->density == static_cast<double>(1e-3f));
     REQUIRE(scene.motions.size() == 2);
-    // Both motions hold all vertices within 10 mm of the edges, which include the open loops of the last row.
+    // Each motion holds the vertices within 10 mm of an edge of the knit, including the open loops of the last row.
     CHECK(scene.motions[0].vertices.size() > 33 * 12);
   }
   CHECK(make_scene("yarn_stretch", Scale::paper).settings.steps == 16'250);

@@ -136,9 +136,9 @@ TEST_CASE(
   for (std::size_t v = 0; v < 64; ++v) CHECK(std::abs(outcome.end.positions[v].y - 0.005) < 9.81 * h * h);
 }
 
-// Membrane and contact are soft compared with the inertia m/h² of 0.2 N/m, so that few sweeps suffice. The first sweep
-// brakes the patch by the normal force of a start inside the plane. A stiff membrane would recover slowly from this,
-// and stiff contacts do not converge (see the chattering above).
+// Membrane and contact are soft compared with the inertia m/h² of 0.2 N/m, so that few sweeps suffice. The patch starts
+// inside the plane's contact radius, and the normal force there brakes it in the first sweep. A stiff membrane would
+// recover slowly from this, and stiff contacts do not converge (see the previous test).
 TEST_CASE("a patch on a tilted plane holds with enough friction and slides at g (sin a - mu cos a) without",
           "[property]") {
   const double tilt = 0.35, h = 0.01;

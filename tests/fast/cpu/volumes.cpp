@@ -184,7 +184,7 @@ TEST_CASE("a driven volume is at its targets, and carries along what lies on it"
 }
 
 TEST_CASE("without friction a driven volume slides away below what lies on it", "[unit]") {
-  // The same sheet on a volume at rest, for comparison. The difference comes from rounding errors of the triangles'
+  // Compares with the same sheet on a volume at rest. The difference comes from rounding errors of the triangles'
   // points.
   const auto velocities = [](bool is_driven) {
     Scene scene = sheet_over_box(0.0049, 0);

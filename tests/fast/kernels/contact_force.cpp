@@ -56,7 +56,8 @@ TEST_CASE(
 TEST_CASE("a point far above a corner keeps its foot on the side where it is, though all distances agree", "[unit]") {
   const float d = 0.0127f;
   for (const float off : {1e-6f, 1e-5f, 1e-4f}) {
-    // The foot is on the side from the third corner to the first, `off` from the third.
+    // The foot of the perpendicular lies on the side from the third corner to the first, at the distance `off` from the
+    // third.
     const Vec x[4] = {{off, 0, d}, {0.01f, 0, 0}, {-0.005f, 0.01f, 0}, {0, 0, 0}};
     const ContactWeights w = contact_weights(ContactKind::point_triangle, x);
     CHECK(-w.slot[1] == Approx(off / 0.01).margin(2 * u));  // the complement of a parameter near 1
@@ -65,8 +66,8 @@ TEST_CASE("a point far above a corner keeps its foot on the side where it is, th
 }
 
 TEST_CASE("almost collinear edges one behind the other meet at the end that is nearer, whichever it is", "[unit]") {
-  // Projected on the first edge, the second edge begins beyond the first one's end. Projected on the tilted second
-  // edge, it begins before the first one's end.
+  // Projected on the first edge, the second edge begins beyond the first edge's end. In `tilted` the second edge slopes
+  // towards the first one, so the first edge's end projects into the second edge's interior.
   const Vec x[4] = {{0, 0, 0}, {1, 0, 0}, {1.00002f, 0, 0.1f}, {2, 0, 0.1004f}};
   const ContactWeights forward = contact_weights(ContactKind::segment_segment, x);
   CHECK(forward.slot[1] == 1);

@@ -35,7 +35,7 @@ TEST_CASE("another round of the guess needs enough cut vertices and a round left
   c = running();
   c.cut = 2;
   EndRound{&c, settings}(0);
-  CHECK(c.guess == 0);  // too few
+  CHECK(c.guess == 0);  // too few cut vertices
 }
 
 TEST_CASE("round k of the guess asks for another where k γ_e K vertices were cut, at least one", "[unit]") {

@@ -1,5 +1,5 @@
-// Tests §3.9 outside the body: which points are inside, and blocks that extend only outward. The two decisions share no
-// formula, so each tests the other.
+// Tests two decisions of §3.9: whether a point is inside a body, and whether it is in an outward block of the body's
+// surface. The two decisions share no formula, so each tests the other.
 #include "reference/definitions/closed_surface.hpp"
 
 #include <algorithm>

@@ -188,9 +188,9 @@ TEST_CASE(
       if (!polygon || !polygon->closed) continue;
       ++closed;
       CHECK(polygon->normals.size() == topology.vertex_triangles[static_cast<std::size_t>(v)].size());
-      // The area of a spherical polygon is defined up to whole spheres (4π). If the star passes through itself, it is
-      // defined only up to half spheres: when neighbouring normals become opposite, the arc between them changes to the
-      // other side of the sphere.
+      // The area of a spherical polygon is defined up to whole spheres (4π). If the star passes through itself, the
+      // area is defined only up to half spheres: when neighbouring normals become opposite, the arc between them
+      // changes to the other side of the sphere.
       const bool crosses_itself = specimen.name.starts_with("folded sheet") || specimen.name.starts_with("jittered") ||
                                   specimen.name.starts_with("soup");
       const double turns = (polygon->area - angle_deficit(mesh, v)) / (crosses_itself ? 2 * pi : 4 * pi);

@@ -1,5 +1,9 @@
-// Compares the contacts with a volume of triangles with winding numbers, with the contacts of each part alone, and with
-// results by hand. The contacts follow from the side of the nearest face, so winding numbers are independent of them.
+// Tests contacts with volumes of triangles in three ways:
+//
+// - For closed parts, a contact is on the inside exactly if its point is inside by the winding number. Contacts take
+//   their side from the nearest face, without winding numbers.
+// - If a volume has several parts, each part has the contacts that it has alone.
+// - In simple cases contacts have the values derived by hand.
 #include "reference/definitions/part_contacts.hpp"
 
 #include <algorithm>
@@ -226,7 +230,8 @@ TEST_CASE("ridges, valleys and corners: the side is that of the dihedral, not of
   REQUIRE(corner.size() == 1);
   CHECK(corner[0].face.kind == FaceKind::vertex);
   CHECK(!corner[0].inside);
-  // In a cube that faces inward, the inner side of the corner is beyond the box, where no point is inside.
+  // The corner of an inverted cube has its inner side outside the cube. No point outside a part's bounding box is
+  // inside.
   Surface inner = cube();
   for (compare::Triangle& t : inner.triangles) std::swap(t[1], t[2]);
   CHECK(Body(inner).ask({2.25f, 2.25f, 2.25f}, 0.5f).empty());

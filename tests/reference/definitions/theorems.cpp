@@ -104,8 +104,8 @@ void examine_edges(const Complex& mesh, const std::set<Face>& blocks, const Vec3
   }
 }
 
-/// Checks the faces a of a triangle t whose blocks hold x: a must hold the closest point of t. Then dis(x, a) ≤ dis(x,
-/// b) for all faces b of t, with < if b ⊂ a. Also counts triangles with two such faces.
+/// Checks each face a of a triangle t if the block of a holds x: a must be the closest face of t. Then dis(x, a) ≤
+/// dis(x, b) for all faces b of t, with < if b ⊂ a. Also counts triangles with two faces whose blocks hold x.
 void examine_triangles(const Complex& mesh, const std::set<Face>& blocks, const Vec3f& x, Findings& findings) {
   for (std::size_t i = 0; i < mesh.topology.triangles.size(); ++i) {
     const auto t = static_cast<Index>(i);
@@ -256,7 +256,8 @@ TEST_CASE("theorems: the block of a vertex without normals is the vertex itself,
 
 TEST_CASE("theorems: orthogonality, the connection of a point in a block with the face is perpendicular to it",
           "[property]") {
-  // The connection is perpendicular if the closest point of a lies in its interior; this is decided without rounding.
+  // The shortest line from x to a is perpendicular to a if it ends in the interior of a, which is decided without
+  // rounding.
   for (const Specimen& specimen : mesh_zoo()) {
     if (specimen.collapsed) continue;
     CAPTURE(specimen.name);

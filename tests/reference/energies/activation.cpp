@@ -121,9 +121,9 @@ TEST_CASE("activation: the two stages by hand, and their scales", "[unit]") {
 }
 
 TEST_CASE("activation: IPC's curvature over OGC's at equal force", "[unit]") {
-  // Here k_c = r = 1, f is the force, and κ is IPC's stiffness over k_c. For κ = 1 the largest ratio is 3.35, at f =
-  // 1/2, where OGC's stages meet; at f = 0.02 it is 0.52. For small f the depth of IPC's contact is √(f/(3κ)), and the
-  // ratio is κ √(12 f/κ). For large f OGC's curvature is 4 f² and IPC's is f²/κ, up to a logarithm.
+  // Here k_c = r = 1, f is the force, and κ is IPC's stiffness over k_c. For κ = 1 the largest ratio of the curvatures
+  // is 3.35, at f = 1/2, where OGC's stages meet; at f = 0.02 it is 0.52. For small f the depth of IPC's contact is
+  // √(f/(3κ)), and the ratio is κ √(12 f/κ). For large f OGC's curvature is 4 f² and IPC's is f²/κ, up to a logarithm.
   using reference::curvature_ratio;
   CHECK(curvature_ratio(0.5, 1) == Approx(3.35).margin(0.005));
   CHECK(curvature_ratio(0.02, 1) == Approx(0.52).margin(0.005));

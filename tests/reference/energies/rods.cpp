@@ -193,12 +193,13 @@ TEST_CASE("from a near old q it minimises the energy of stretch, shear, bend and
     c.damping = 0;
     const Four q = reference::orientation(c).front().orientation;
     for (std::size_t k = 0; k < 4; ++k) c.orientation[k] = static_cast<float>(q[k]);
-    // Solves again from the answer. If the result stays, the neighbours' signs are those of the nearest turns.
+    // Solves again with q as the old orientation, which decides the signs of the neighbours' terms. If a sign changes,
+    // so does the result. Then q does not minimise the physical energy, and the case is skipped.
     const Four again = reference::orientation(c).front().orientation;
     if (std::abs(again[0] - q[0]) + std::abs(again[1] - q[1]) + std::abs(again[2] - q[2]) + std::abs(again[3] - q[3]) >
         1e-5)
       continue;
-    // Skips turns near π: the turn beyond π has the opposite sign and may have less energy.
+    // Skips cases in which a neighbour's turn θ is near π. A turn beyond π changes the sign and may have less energy.
     if (std::max(angle_to(c, c.orientation, false), angle_to(c, c.orientation, true)) > 2.9) continue;
     ++compared;
     const double least = physical_energy(c, c.orientation);

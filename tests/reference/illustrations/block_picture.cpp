@@ -91,11 +91,11 @@ TEST_CASE(
       CHECK(patch.closed != open);
     }
   }
-  // The patches are a cylinder, two ends and two walls.
+  // The patches lie on a cylinder, on two planes of kind `end` and on two planes of kind `wall`.
   CHECK(reference::block_picture(mesh, reference::edge_face(2), 1).patches.size() == 5);
   const Surface flat = grid(3);
   const auto names = flat.topology();
-  // The block has one segment on either side.
+  // The block is a line segment on either side of the sheet.
   CHECK(reference::block_picture({names, flat.positions}, reference::vertex_face(4), 1).patches.size() == 2);
   const Surface star = saddle();
   const auto around = star.topology();

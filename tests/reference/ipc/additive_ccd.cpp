@@ -105,8 +105,8 @@ TEST_CASE("CCD: a long slide at a hair's breadth, away from a triangle, and a co
   CHECK(additive_ccd(ContactSides::point_triangle, x, delta, 0) == 1);
 }
 
-/// The first safe step ends where rounding hides the gap. There the computed connection of the edges is only rounding:
-/// the edges move apart along it, but this proves nothing.
+/// The first safe step ends where rounding hides the gap. There the computed vector between the closest points is only
+/// rounding: the edges move apart along it, but this proves nothing.
 TEST_CASE("CCD: two nearly parallel edges that meet after 2e-12 of their way are stopped before", "[unit]") {
   const Points4 x{{{0.80323611859320732, -0.19054859758035292, 0.28876038511262969},
                    {0.80187377197897902, -0.19347845971359057, 0.28876038511262969},

@@ -21,8 +21,8 @@ std::unique_ptr<compare::Simulation> start_sweeps(const compare::Scene& scene,
 
 constexpr double stretch = 1.3, mu = 1e4, lambda = 3e4;
 
-/// Returns the width without a lateral force: J − 1 = μ (a − 1)/((λ + μ) a) for the stretch a
-/// (tests/fast/cpu/solids.cpp).
+/// Returns the bar's width over its width at rest, without a lateral force: J − 1 = μ (a − 1)/((λ + μ) a) for the
+/// stretch a (tests/fast/cpu/solids.cpp).
 double width() { return std::sqrt((1 + mu * (stretch - 1) / ((lambda + mu) * stretch)) / stretch); }
 
 /// Returns a bar whose ends are held at this stretch and at their final width. Its inside starts at the width of the

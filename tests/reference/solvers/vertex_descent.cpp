@@ -73,9 +73,9 @@ struct Pile {
 
 /// The effect of one vertex's update on its potential; friction, normals and closest points are those of the old state.
 struct Change {
-  double predicted = 0;  ///< by the quadratic model, negative [J]
-  double real = 0;       ///< [J]
-  double model = 0;      ///< of inertia, contact and friction only, with fixed normals and closest points [J]
+  double predicted = 0;  ///< change by the quadratic model, negative [J]
+  double real = 0;       ///< change of the potential [J]
+  double model = 0;      ///< change of inertia, contact and friction only, with fixed normals and closest points [J]
 };
 
 template <class Term, std::size_t N>

@@ -27,7 +27,7 @@ std::string base64(const std::string& bytes) {
   return uri.substr(uri.find(',') + 1, uri.rfind('"') - uri.find(',') - 1);
 }
 
-/// Returns a VTP file whose points zlib packs in one block.
+/// Returns a VTP file whose points zlib has compressed in one block.
 std::string packed_vtp() {
   std::string points;
   for (const Vec3& p : square.positions)

@@ -19,10 +19,11 @@ std::vector<compare::StepMetrics> rows_of(const compare::Contestant& contestant,
 
 }  // namespace
 
-// Both residuals use the same positions and contact sets. They differ in f* and in rounding, by at most left_rounding,
-// the row's limit for the force of rounded positions. Scenes are stiff and have few sweeps, so that the remaining
-// forces exceed ten times this limit. An error of a tenth would thus be detected. Contacts of yarn have nearly no
-// stiffness, because the reference detects other contacts in its guess loop. No bound stops any vertex.
+// Both residuals use the same positions and contact sets. They differ only in f* and in rounding, by at most
+// `left_rounding`: the residual that may come from storing positions in single precision. Scenes are stiff and have few
+// sweeps, so that residuals exceed ten times this limit. An error of a tenth would thus be detected. Contacts of yarn
+// have nearly no stiffness, because the reference detects other contacts in its guess loop. Bounds are off, so no
+// vertex is held.
 TEST_CASE("what a step leaves of forces is what the reference finds, but for rounding", "[figure]") {
   struct Case {
     std::string name;
@@ -44,7 +45,7 @@ TEST_CASE("what a step leaves of forces is what the reference finds, but for rou
     for (const compare::StepMetrics& row :
          rows_of(measured(fast::contestant(fast::Backend::cpu), {.iterations = true}), scene)) {
       CAPTURE(name, row.step, row.left_residual, row.left_rounding);
-      CHECK(std::isnan(row.left_residual) == (row.step % every != 0));  // ⌈300/iterations⌉
+      CHECK(std::isnan(row.left_residual) == (row.step % every != 0));  // `every` is ⌈300/iterations⌉
       if (row.step % every != 0) continue;
       CHECK(std::abs(row.left_residual - row.iteration_rows.back().residual) <= row.left_rounding);
       CHECK(row.left_residual > 10 * row.left_rounding);
@@ -100,7 +101,7 @@ TEST_CASE("the last sweep's motion is that of a run with one sweep more", "[unit
       };
       swept += squared(last[i], before[i]), moved += squared(last[i], start[i]);
     }
-    // The fast path stores masses in single precision, so the shares of both sides may differ by 2 · 2⁻²⁴.
+    // The fast path stores masses in single precision, so its ratio may differ from this one by 2 · 2⁻²⁴.
     CHECK(rows.front().last_motion == Approx(std::sqrt(swept / moved)).epsilon(2 * 0x1p-24));
     CHECK(rows.front().last_motion > 0);
   }

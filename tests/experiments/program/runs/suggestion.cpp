@@ -138,8 +138,9 @@ double measured_excess(const compare::Mesh& mesh, const compare::Material& mater
 
 }  // namespace
 
-// Strips of 4 × 16 cells hang by a short side. For an error of 1 %, edges of 6 cm need fewer sweeps than the limit,
-// edges of 2 cm need more. The error decreases at the rate of method.md §7.7, about ln(1 + 1/number) per sweep.
+// Strips of 4 × 16 cells hang by a short side. For an error of 1 %, edges of 6 cm need fewer sweeps than the limit of
+// 100, edges of 2 cm need more. By method.md §7.7, ln(1 + 1/e) of the error e is nearly proportional to the number of
+// sweeps. So the test compares these logarithms of the measured and the predicted error.
 TEST_CASE("suggested iterations leave what hangs at most 1 % longer, or as much longer as is said", "[property]") {
   const auto hung = [](double edge) {
     const compare::Mesh mesh = strip(edge);

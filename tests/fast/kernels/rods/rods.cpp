@@ -50,7 +50,7 @@ D3 turned_by(const Quat& q, const D3& v) {
 }
 
 /// Holds a segment that starts at (1, 2, 3) along z and moves to lie along y. `turns` has the rotations of two motions
-/// in two steps, of which the tests use the second. There w = 2 marks that the second motion has no rotation.
+/// in each of two steps; tests use the second step. In this step the second motion has no rotation, which w = 2 marks.
 struct OneSegment {
   SegmentRest rest{{1, 0}, 2, 1, 0};
   std::array<Vec, 2> start{Vec{1, 2, 5}, Vec{1, 2, 3}}, position{Vec{7, 10, 3}, Vec{7, 8, 3}};

@@ -35,7 +35,8 @@ MembraneTerm membrane(Draw& draw, bool damped, compare::MembraneModel model) {
   return term;
 }
 
-/// Returns the derivatives that stencil_derivatives.cpp in this folder compares with differences of energies.
+/// Returns a function that differentiates a single stencil. stencil_derivatives.cpp in this folder compares its results
+/// with differences of energies.
 template <std::size_t Count>
 auto alone() {
   return [](const auto& term, const Corners<Count>& x, HessianProjection projection) {
@@ -210,10 +211,10 @@ TEST_CASE("contacts side by side have the derivatives of each alone, to the bit,
     }
 }
 
-/// Kernels differentiate an energy that depends on one weighted sum of positions by this sum. Three variables replace
-/// nine, and derivatives agree up to roundings. The Hessian by all vertices has the eigenvalues of the Hessian by the
-/// sum, times ‖w‖². So projections agree, too. The limit of 10⁻¹³ of the largest entry is about a thousand roundings of
-/// 10⁻¹⁶.
+/// If an energy depends only on one weighted sum Σ w x of positions, kernels differentiate it by this sum. Three
+/// variables replace nine, and derivatives agree up to roundings. The Hessian by all vertices has the eigenvalues of
+/// the Hessian by the sum, times ‖w‖². So projections agree, too. The limit of 10⁻¹³ of the largest entry is about a
+/// thousand roundings of 10⁻¹⁶.
 TEST_CASE("what depends on one weighted sum has the derivatives of the energy over all vertices, side by side or alone",
           "[property]") {
   Draw draw(13);

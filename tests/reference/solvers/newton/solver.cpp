@@ -289,7 +289,7 @@ TEST_CASE("Newton: a step that can't converge says so, keeps the state before it
 
 TEST_CASE("Newton: a number that is not finite ends the step and keeps the state before it", "[unit]") {
   compare::Scene scene = drop_scene();
-  // validate refuses this scene, but a solver must also end with it.
+  // validate refuses this scene. A solver that gets it without validation must stop, too.
   scene.bodies[0].material.lame_mu = std::numeric_limits<double>::quiet_NaN();
   const auto simulation = reference::start_newton(scene, {});
   const auto rows = simulation->advance(3);

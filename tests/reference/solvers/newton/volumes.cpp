@@ -32,7 +32,7 @@ reference::VolumeTerm term() {
   return term;
 }
 
-/// Returns the positions; the contact's point has the height φ.
+/// Returns the positions of a contact whose point is at `height` above the triangle.
 std::array<Triple<double>, 4> at_height(double height) {
   return {{{0.1, height, 0.2}, {0, 0, 0}, {1, 0, 0}, {0, 0, 1}}};
 }
