@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -218,16 +219,20 @@ struct Scene {
   friend bool operator==(const Scene&, const Scene&) = default;
 };
 
+/// A member of an element. nvcc writes a plain pointer to a member of a template with parentheses, of which g++ warns.
+template <class Element, class Value>
+using MemberOf = std::type_identity_t<Value Element::*>;
+
 /// One field of an element that a scene lists: a vertex or a number. Files have the fields in this order.
 template <class Element>
 struct ElementField {
-  const char* name;                     ///< its key in files
-  const char* meaning;                  ///< text for the schema, with the unit; empty for a vertex
-  Index Element::*vertex = nullptr;     ///< either this
-  double Element::*number = nullptr;    ///< or this, at least 0
-  bool is_required = false;             ///< whether a file must give it
-  Index Element::*goes_with = nullptr;  ///< member with a vertex; files omit the field if this vertex is −1
-  std::optional<double> maximum = {};   ///< largest value of a number, for the schema
+  const char* name;                              ///< its key in files
+  const char* meaning;                           ///< text for the schema, with the unit; empty for a vertex
+  MemberOf<Element, Index> vertex = nullptr;     ///< either this
+  MemberOf<Element, double> number = nullptr;    ///< or this, at least 0
+  bool is_required = false;                      ///< whether a file must give it
+  MemberOf<Element, Index> goes_with = nullptr;  ///< member with a vertex; files omit the field if this vertex is −1
+  std::optional<double> maximum = {};            ///< largest value of a number, for the schema
 };
 
 // The structs below describe the elements that a scene lists beside its mesh: key, list, fields and a check. SceneLists
