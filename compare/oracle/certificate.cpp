@@ -1,7 +1,8 @@
-// ‖x − x_prev‖² − b² is a sum of 19 doubles without rounding: a difference of two floats is two doubles, and a product
-// of two such doubles is two more (fma). Every term is a multiple of 2⁻²⁹⁸ below 2²⁶⁰, so nothing under- or overflows.
-// The sign of the sum is that of the last component left by Shewchuk's "grow expansion" (Adaptive Precision
-// Floating-Point Arithmetic, 1997, Theorem 10).
+// ‖x − x_prev‖² − b² is the exact sum of 19 doubles. The difference of two floats is the sum of two doubles. Its square
+// has three products of doubles, and each product is again the sum of two doubles (fma). That gives 18 for three
+// coordinates; b² is one double. Every term is a multiple of 2⁻²⁹⁸ below 2²⁶⁰, so nothing under- or overflows. The sign
+// of the sum is that of the last component left by Shewchuk's "grow expansion" (Adaptive Precision Floating-Point
+// Arithmetic, 1997, Theorem 10).
 #include "compare/oracle/certificate.hpp"
 
 #include <array>

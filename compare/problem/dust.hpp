@@ -20,8 +20,8 @@ struct Dust {
 /// and keeps powers of two: x ≥ 2⁻⁴⁰ M stays true.
 Dust clear_dust(Mesh& mesh);
 
-/// Sets the dust of start and rest positions to 0, relative to the scene's largest coordinate. Equal coordinates of
-/// both count once.
+/// Sets the dust of start and rest positions to 0 and returns what it cleared. The limit is 2⁻⁴⁰ of the largest finite
+/// coordinate of both. If a vertex has the same cleared coordinate at the start and at rest, it is counted once.
 Dust clear_dust(Scene& scene);
 
 /// Returns "7 coordinates are dust (…): taken as 0" with the given treatment; empty without dust.

@@ -10,8 +10,8 @@
 namespace ogc::compare {
 namespace {
 
-// The value goes through memory because g++ 12.2 vectorises a pair of conversions double → float → double to nothing at
-// -O2 (basic-block vectorisation).
+// The value goes through memory, because g++ 12.2 at -O2 omits the conversions double → float → double where it
+// vectorises those of two neighbouring values (basic-block vectorisation).
 double rounded(double value) {
   const volatile float single = static_cast<float>(value);
   return single;

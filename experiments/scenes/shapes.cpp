@@ -218,7 +218,8 @@ std::vector<Triangle> cross_diagonals(Index rows, Index columns) {
 
 Mesh ground(Index vertices_a_side, double height) {
   constexpr double side = 4;
-  // as long as ten cells of the cloth: a triangle then has a hundred times the area of the cloth's triangles
+  // The ground's cells are at most as long as ten cells of the cloth. A triangle then has up to a hundred times the
+  // area of the cloth's triangles.
   const double largest_cell = 10.0 / (vertices_a_side - 1);
   return grid(static_cast<Index>(std::ceil(side / largest_cell)) + 1, side, height);
 }

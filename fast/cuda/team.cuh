@@ -215,7 +215,7 @@ class SpreadTeam : public NeighbourLanes<W> {
   bool present_;
 };
 
-/// A team whose team lanes compute all parts of a sum (head of this file).
+/// A team whose team lanes compute the parts of a sum one after the other (head of this file).
 template <int W>
 class SerialLaneTeam : public NeighbourLanes<W> {
   using NeighbourLanes<W>::lane;

@@ -49,10 +49,11 @@ struct Elastic {
 
 double length_of(const Triple<Input>& v) { return std::hypot(v[0].value, v[1].value, v[2].value); }
 
-/// Adds errors that the condition lacks:
+/// Adds errors that the scales Σ ‖∂f/∂q‖ ‖q‖ (Inputs::condition) do not contain:
 /// - The edges of the face opposite to the own corner are rounded separately. So the face's normal (6 roundings) has
-///   an error of 6 u (u = 2⁻²⁴) times the product of the two longest edges. The condition is smaller if one corner is
-///   far from the two others. J has this error times the longest distance to the face.
+///   an error of 6 u (u = 2⁻²⁴) times the product of the two longest edges. If one corner of the face is far from the
+///   two others, Inputs::condition gives less than this. J has this error times the longest distance from the own
+///   corner to a corner of the face.
 /// - If J − 1 (12 roundings) and the normal (6) nearly vanish together, the product of their errors remains
 ///   (compare/stages/tetrahedron.hpp).
 /// With damping by vertex, `resisted` is k ‖moved‖, and the block is `grown` times the elastic block.

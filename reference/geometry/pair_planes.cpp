@@ -1,5 +1,5 @@
-// Computes directions and offsets in long double and rounds them. Then decides exactly whether all vertices keep the
-// rounded plane, by the same comparison that judges planes (plane.hpp).
+// Computes directions and offsets in long double and rounds them. Then decides exactly whether each vertex lies in its
+// half-space of the rounded plane, by the same comparison that judges planes (`keeps` in plane.hpp).
 #include "reference/geometry/pair_planes.hpp"
 
 #include <tbb/combinable.h>

@@ -22,8 +22,8 @@ std::span<const compare::VertexPlane> planes_of(const compare::SweepIn& in, Inde
 
 bool is_scaled(const compare::SweepIn& in) { return !traits_of(in.scene->settings.bounds).slides; }
 
-/// Returns the start of the path on which a position outside the half-spaces is moved back: X_prev if the bounds scale
-/// moves instead of letting vertices slide, otherwise the old position.
+/// Returns the start of the path on which a position outside the half-spaces is moved back: X_prev if cut vertices do
+/// not slide (BoundsTraits::slides), otherwise the old position.
 const compare::Vec3f& start_of_way(const compare::SweepIn& in, std::size_t i) {
   return is_scaled(in) ? in.previous[i] : in.old[i];
 }
@@ -83,8 +83,8 @@ compare::SweepTruth sweep(const compare::SweepIn& in, const compare::SweepOut& a
 
 namespace {
 
-/// Returns the position of an update in single precision, inside its region. If the bounds scale moves, the path from
-/// X_prev to the position is first cut at the half-spaces.
+/// Returns the position of an update in single precision, inside its region. If cut vertices do not slide
+/// (BoundsTraits::slides), the path from X_prev to the position is first cut at the half-spaces.
 compare::Vec3f stored(const compare::Vec3& position, const compare::SweepIn& in, std::size_t v) {
   const compare::TruncateIn region{{in.previous[v]},
                                    {in.old[v]},

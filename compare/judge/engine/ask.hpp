@@ -1,4 +1,4 @@
-// Gives cases to both sides and measures the time of each side.
+// Gives cases to the contestant and the authority, and measures the time of each.
 #pragma once
 
 #include <chrono>

@@ -19,7 +19,8 @@ struct Explanation {
   std::string file{}, mesh{};         ///< saved files, for replay and audit; empty if not saved
 };
 
-/// Gets answers from both sides. `test` may be smaller than the original case of its name.
+/// Asks the contestant and the authority. `test` may be a shrunk case: it has the name of the generated case, but may
+/// be smaller.
 Explanation explain(const TestCase& test, const Contestant& contestant, const Authority& authority);
 
 /// Prints a text for readers: the first entries of long lists, and those entries of long answers that differ most.

@@ -107,7 +107,8 @@ class StepVerdict {
     if (const std::string wrong = wrong_segment_colour(*in_.scene, out_); !wrong.empty()) tally_.mismatch(wrong);
   }
 
-  /// Judges the frames of segments as turns of stage initial_guess.
+  /// Judges the turned frames of segments as cases of stage initial_guess (InitialGuessIn::turns). `wrong` says what is
+  /// wrong with the other frames; it is empty if nothing is.
   void judge_frames(const std::string& when, const TurnedFrames& frames, const std::string& wrong) {
     if (!wrong.empty()) tally_.mismatch(when + ": " + wrong);
     if (frames.in.turns.empty()) return;

@@ -174,7 +174,8 @@ void RunSession::reopen_folder() {
   log_line("goes on after step " + std::to_string(step_) + " of " + std::to_string(settings_.steps));
 }
 
-/// Reads the start velocities of those steps whose loss counts; reading every frame would take long.
+/// Reads the start velocities of those steps whose loss of momentum is measured: steps after a stored frame whose guess
+/// loop did all its rounds (MomentumShare). Reading every frame would take long.
 void RunSession::remember_starts(const std::vector<StepMetrics>& rows) {
   const compare::RunReader reader(request_.folder);
   for (std::size_t i = 0; i < reader.frame_count(); ++i) {

@@ -41,7 +41,7 @@ struct Sign {
 OGC_HD inline int sign_of(double a) { return (a > 0) - (a < 0); }
 
 /// Holds a value in single precision and the sum of the moduli of its terms, for degrees up to 4. Contraction by the
-/// compiler only omits roundings, so it cannot change a certain sign.
+/// compiler only omits roundings, so a sign that is certain (Sign::certain) stays right.
 struct Single {
   float value = 0, scale = 0;  ///< scale: Σ of the moduli of the terms of value
 

@@ -165,7 +165,8 @@ Four<T> minimised(const Problem<T>& problem, Four<T> q, const T& unit, double en
           q, Four<T>{T(0.0) - share * (*turn)[0], T(0.0) - share * (*turn)[1], T(0.0) - share * (*turn)[2], T(1.0)});
       there = scaled(T(T(1.0) / size_of(there)), there);
       const T found = problem.energy(there);
-      // Near the minimum, rounding hides whether a step lowers the energy; full steps are right there.
+      // Near the minimum, rounding hides whether a step lowers the energy. A full step is correct there, so it is
+      // accepted.
       const bool is_small = length_of(*turn) < T(1e-4) && shift == 0.0;
       if (found < energy || (is_small && share == 1.0)) q = there, energy = found, lower = true;
     }

@@ -24,7 +24,8 @@ constexpr double most_pinned = 1e6;
 /// Limit of the rounds that stiffen these springs. Each round costs a factorisation; from the third round on they
 /// rarely lower the energy more.
 constexpr int most_pin_rounds = 6;
-/// If the line search accepts a smaller share, it has stalled at its balls or at a kink of its contacts.
+/// If the line search accepts a smaller share of the step, the solve has stalled: vertices are at the limits of their
+/// balls, or the energy has a kink where contacts change.
 constexpr double least_share = 1e-3;
 
 }  // namespace
