@@ -57,10 +57,10 @@ struct InitialGuessTruth {
 /// the sum with vᵗ, the product with h, the sum with xᵗ), h vᵗ three times, xᵗ once.
 inline constexpr double initial_guess_target_tolerance = 4;
 /// Largest error of a turned frame in units of u · orientation_scale. Let a and b be the directions of Dᵗ and D. Their
-/// lengths are off by 5 u (a scalar product, a root, a quotient), their components by 1 u. The quaternion (a × b, 1 +
-/// a·b) is off by both lengths (10) and its own rounding errors (cross product 2, scalar product and sum 4): 16. Half
-/// of this counts, because the quaternion's length is 2 cos(θ/2). A product of quaternions adds 8, and two
-/// normalisations 4 each.
+/// lengths have errors of 5 u each (a scalar product, a root, a quotient), their components 1 u. The error of the
+/// quaternion (a × b, 1 + a·b) is 16 u: 10 u from both lengths, 2 u from the cross product, 4 u from the scalar product
+/// and the sum. Normalisation divides it by the quaternion's length 2 cos(θ/2), which leaves 8 u · orientation_scale.
+/// The product with q adds 8, and two normalisations 4 each.
 inline constexpr double initial_guess_turn_tolerance = 24;
 
 }  // namespace ogc::compare
