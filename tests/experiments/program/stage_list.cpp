@@ -47,7 +47,7 @@ TEST_CASE("every stage has a contract, a reference, and a CPU and a CUDA impleme
     // tests/experiments/plugins/build_plugins.sh judges the examples.
     CHECK(is_ours != (stage == Stage::ccd || stage == Stage::barrier));
     if (!is_ours) CHECK(has_stem({"experiments/plugins/examples"}, name));
-    CHECK((!is_ours || has_stem({"fast/kernels", "fast/kernels/models", "fast/stages"}, name) ||
+    CHECK((!is_ours || has_stem({"fast/kernels", "fast/kernels/kinds", "fast/kernels/models", "fast/stages"}, name) ||
            has_stem({"fast/kernels/models"}, name + "_models")));
     if (fast::backend_info(fast::Backend::cuda).usable)
       CHECK(can_judge(stage, fast::contestant(fast::Backend::cuda), authority) == is_ours);
