@@ -1,6 +1,5 @@
-// A correct plug-in in double precision for the stage ccd, by conservative advancement (like Li et al. 2021, Algorithm
-// 1). Each advance is nine tenths of the longest time that is known to be safe. Two bounds are known: the gap divided
-// by the sum of both sides' largest speeds, and the time during which the slab between the closest points stays empty.
+// A correct plug-in in double precision for the stage ccd, by conservative advancement (Li et al. 2021, Algorithm 1).
+// Each advance is 0.9 of the longest time known to be safe: gap over speed, or until the slab between both fills.
 //
 //     g++ -O2 -shared -fPIC -I INCLUDE ccd.cpp -o ccd.so
 //     ogc compare ccd --plugin ./ccd.so
