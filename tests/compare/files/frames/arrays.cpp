@@ -193,14 +193,15 @@ constexpr bool has_limit = true;
 class MemoryLimit {
  public:
   explicit MemoryLimit(std::uint64_t more) {
-    ::getrlimit(RLIMIT_AS, &before_);
-    std::uint64_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
+    ::getrlimit(RLIMIT_DATA, &before_);
+    std::uint64_t pages = 0;  // the sixth number: data and stack
+    std::ifstream status("/proc/self/statm");
+    for (int i = 0; i < 6; ++i) status >> pages;
     rlimit now = before_;
     now.rlim_cur = std::min<rlim_t>(before_.rlim_max, pages * 4096 + more);
-    if (has_limit) ::setrlimit(RLIMIT_AS, &now);
+    if (has_limit) ::setrlimit(RLIMIT_DATA, &now);
   }
-  ~MemoryLimit() { ::setrlimit(RLIMIT_AS, &before_); }
+  ~MemoryLimit() { ::setrlimit(RLIMIT_DATA, &before_); }
   MemoryLimit(const MemoryLimit&) = delete;
   MemoryLimit& operator=(const MemoryLimit&) = delete;
 
@@ -247,6 +248,7 @@ void fuzz(std::uint64_t seed, int cases) {
   const Mesh mesh = tied();
   std::map<bool, int> read;
   const MemoryLimit limit(std::uint64_t{100} << 20);
+  if (has_limit) CHECK_THROWS_AS(std::vector<char>(std::size_t{120} << 20), std::bad_alloc);
   for (int i = 0; i < cases; ++i) {
     Random random("arrays", "damaged", seed, static_cast<std::uint64_t>(i));
     const bool archive = random.one_in(2);
