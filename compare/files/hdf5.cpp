@@ -43,8 +43,6 @@ std::vector<hsize_t> shape_of(hid_t dataset) {
   return shape;
 }
 
-std::size_t divide_up(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
-
 /// Returns the number of rows in a chunk of a dataset that is written `part` rows at a time. A chunk holds several
 /// whole parts if they are small, otherwise an even share of one part.
 std::size_t rows_in_chunk(std::size_t part) {

@@ -10,8 +10,6 @@ namespace {
 
 constexpr int level = 1;
 
-std::size_t quotient_up(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
-
 /// Returns the bytes in the order of HDF5's shuffle filter: the first bytes of all values, then all second bytes, ….
 std::string shuffled(std::string_view bytes) {
   constexpr std::size_t size = sizeof(float);
@@ -47,7 +45,7 @@ std::uint32_t crc32(std::string_view bytes, std::uint32_t before) {
 }
 
 std::size_t even_chunk_rows(std::size_t rows) {
-  return rows == 0 ? 1 : quotient_up(rows, quotient_up(rows, largest_chunk_rows));
+  return rows == 0 ? 1 : divide_up(rows, divide_up(rows, largest_chunk_rows));
 }
 
 std::size_t PackedArray::byte_count() const {

@@ -19,6 +19,9 @@ std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0);
 /// than compression saves.
 inline constexpr std::size_t largest_chunk_rows = 1 << 16, smallest_chunk_rows = 1 << 10;
 
+/// Returns a / b, rounded up.
+constexpr std::size_t divide_up(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
+
 /// Returns the rows of each chunk if `rows` rows are cut evenly; at least 1.
 std::size_t even_chunk_rows(std::size_t rows);
 

@@ -65,7 +65,6 @@ namespace {
 using namespace law_measures;
 using namespace law_shapes;
 
-constexpr Vec3 standard_pull{0, -standard_gravity, 0};
 constexpr double flap_side = 0.1, flap_bending = 2e-3;
 
 /// Returns θ of (1), by fixed-point iteration.
@@ -81,7 +80,7 @@ double hinge_angle(const Scene& scene) {
 /// (1).
 std::vector<Scene> hinge_scenes(LawSize) {
   Scene scene = empty_scene("cantilever_hinge", 0.005, 200, 40);
-  scene.gravity = standard_pull;
+  scene.gravity = down;
   Material material = cloth(0);
   material.density = 0.3;
   material.bending = BendingModel::discrete_hinge;
@@ -151,7 +150,7 @@ constexpr double bar_side = 1, bar_length = 4, bar_mu = 1e7, bar_density = 1000;
 
 Scene clamped_bar(Index across, std::int64_t iterations) {
   Scene scene = empty_scene("cantilever_bar", 0.05, 60, iterations);
-  scene.gravity = standard_pull;
+  scene.gravity = down;
   Material material = cloth(0);
   material.solid_density = bar_density;
   material.solid_mu = bar_mu;
@@ -196,7 +195,7 @@ constexpr double swing_side = 0.1, swing_start = 0.5;
 
 std::vector<Scene> swing_scenes(LawSize) {
   Scene scene = empty_scene("pendulum", 0.005, 200, 100);
-  scene.gravity = standard_pull;
+  scene.gravity = down;
   Material material = cloth(0);
   material.lame_mu = material.lame_lambda = 2000;
   const double half = swing_side / 2, tall = swing_side;
@@ -272,7 +271,7 @@ double solving_sweeps(double time_step) {
 /// contacts.
 Scene pinned_arc(double time_step, std::int64_t steps, std::int64_t iterations) {
   Scene scene = empty_scene("pinned_sheet", time_step, steps, iterations);
-  scene.gravity = standard_pull;
+  scene.gravity = down;
   scene.settings.contact_radius = 0.002;
   Material material = cloth(0);
   material.density = arc_density;

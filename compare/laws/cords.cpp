@@ -30,7 +30,6 @@ namespace {
 using namespace law_measures;
 using namespace law_shapes;
 
-constexpr Vec3 gravity_down{0, -standard_gravity, 0};
 constexpr double segment = 0.01, rod_density = 0.005, rod_stretch = 1, rod_bend = 1e-4;
 constexpr std::size_t segments = 10;
 
@@ -50,7 +49,7 @@ Mesh straight(std::size_t count, const Vec3& start) {
 
 Scene rod_scene(const char* name, const Mesh& mesh, double bend) {
   Scene scene = empty_scene(name, 0.005, 100, 200);
-  scene.gravity = gravity_down;
+  scene.gravity = down;
   scene.settings.contact_radius = 0.002;
   append_body(scene, {.name = "rod", .material = cord(bend)}, mesh);
   return scene;
@@ -148,7 +147,7 @@ std::vector<Reading> read_catenary(std::span<const Trajectory> runs) {
 /// Returns a thrown stiff cord of two segments, which moves as a point does (falls.cpp).
 std::vector<Scene> thrown_scenes(LawSize) {
   Scene scene = empty_scene("cord_falls", 1. / 240, 60, 20);
-  scene.gravity = gravity_down;
+  scene.gravity = down;
   Material material = cord(rod_bend);
   material.rod->stretch = 1000;
   append_body(scene, {.name = "rod", .material = material}, chain({{-0.08, 0, 0}, {0, 0, 0}, {0.08, 0, 0}}));

@@ -30,7 +30,6 @@ using namespace law_shapes;
 
 constexpr double spacing = 0.05, reach = 0.5;
 constexpr Index sheet_vertices = 25;
-constexpr Vec3 down{0, -standard_gravity, 0};
 
 /// Returns a scene with a sheet at d = r and the given gravity.
 Scene leaving(const char* name, const Vec3& gravity, double floor_speed) {

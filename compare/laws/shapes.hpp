@@ -10,6 +10,9 @@ namespace ogc::compare::law_shapes {
 
 /// Standard gravity [m/s²].
 inline constexpr double standard_gravity = 9.81;
+/// Gravity that points straight down [m/s²].
+inline constexpr Vec3 down{0, -standard_gravity, 0};
+
 /// Returns degrees as radians.
 constexpr double degrees(double angle) { return angle * std::numbers::pi / 180; }
 

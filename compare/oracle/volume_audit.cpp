@@ -21,7 +21,7 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Corners = std::array<Vec3, 3>;
-constexpr double unreached = std::numeric_limits<double>::infinity();
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Returns the sign of the area of the triangle (a, b, x + (0, ε, ε²)), seen along the x axis.
 int side_seen(const Vec3& a, const Vec3& b, const Vec3& x) {
@@ -96,7 +96,7 @@ class PlacedPart {
 
   bool holds(const Vec3& x) const {
     Box ray = box_of({x});
-    ray.high[0] = unreached;
+    ray.high[0] = infinity;
     int winding = 0;
     bool is_on = false;
     tree_.for_each_meeting(ray, [&](Index i) {
@@ -108,7 +108,7 @@ class PlacedPart {
   }
 
   double distance(const Vec3& x) const {
-    double least = unreached;
+    double least = infinity;
     for (std::size_t i = 0; i < triangles_.size(); ++i) least = std::min(least, to_triangle(x, all_[i]));
     return least;
   }
@@ -131,7 +131,7 @@ class PlacedPart {
     for (const Triangle& t : triangles_)
       if (std::ranges::find(t, vertex) != t.end()) around.insert(around.end(), t.begin(), t.end());
     std::ranges::sort(around);
-    double least = unreached;
+    double least = infinity;
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
       const auto is_around = [&](Index v) { return std::ranges::binary_search(around, v); };
       if (std::ranges::none_of(triangles_[i], is_around))

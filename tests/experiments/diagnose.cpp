@@ -31,7 +31,7 @@ void look_for_more(Stage stage, const Contestant& contestant, const Authority& a
 /// Returns the judge's diagnosis of this contestant after a short run.
 Diagnosis diagnosis_of(Stage stage, const Contestant& contestant, const Authority& authority) {
   JudgeOptions options;
-  options.cases = 1000;
+  options.cases = is_mesh_stage(stage) ? 1000 : 2000;
   options.batch = 1000;
   std::vector<TestCase> failing;
   for (const Mismatch& mismatch : judge_stage(stage, contestant, authority, options).tally.mismatches)
@@ -72,7 +72,7 @@ std::size_t check_forms(CaseKind kind) {
   std::size_t forms = 0;
   for (const Stage stage : all_stages) {
     if (stage_info(stage).kind != kind) continue;
-    const std::uint64_t each = is_mesh_stage(stage) ? 4 : 20;
+    const std::uint64_t each = is_mesh_stage(stage) ? 4 : 40;
     for (const WrongForm& form : tests::answering_forms(stage)) {
       const Contestant wrong = tests::contestant_of(form, authority);
       const std::vector<Evidence> answers = evidence_of(stage, wrong, each);

@@ -68,7 +68,7 @@ Body to_body(const Json& json) {
   body.material.bending = to_model<BendingModel>(material.at("bending"), choice_names<BendingModel>);
   for_each_of<MeshLists>([&]<class List, std::size_t>() {
     if constexpr (HasRange<List>) {
-      if (!json.contains(List::key)) return;
+      if (HasVolume<List> && !json.contains(List::key)) return;
       body.*List::first = json.at(List::key).at(0).template get<Index>();
       body.*List::count = json.at(List::key).at(1).template get<Index>();
     }
@@ -203,7 +203,7 @@ Scene to_scene(const Json& json) {
   for (const Json& body : json.at("bodies")) scene.bodies.push_back(to_body(body));
   for (const Json& motion : json.at("motions")) scene.motions.push_back(to_motion(motion));
   for_each_of<SceneLists>([&]<class List, std::size_t>() {
-    if (json.contains(List::key)) to_elements<List>(json.at(List::key), scene);
+    to_elements<List>(json.at(List::key), scene);
   });
   if (json.contains("excluded_pairs"))
     scene.excluded_pairs = json.at("excluded_pairs").get<std::vector<std::array<Index, 2>>>();

@@ -453,7 +453,7 @@ Body to_body(const Json& json, const Scene& scene) {
   for_each_of<MeshLists>([&]<class List, std::size_t>() {
     if constexpr (HasRange<List>) {
       body.*List::first = before.*List::first + before.*List::count;
-      body.*List::count = json.value(List::key, Index{0});
+      body.*List::count = HasVolume<List> ? json.value(List::key, Index{0}) : json.at(List::key).template get<Index>();
     }
   });
   body.fixed = json.at("fixed").get<bool>();
@@ -528,7 +528,7 @@ struct RestState : MeshStage<RestState, &Contestant::rest_state, &Authority::res
     scene.rest_positions = to_wide_points(data.at("rest_positions"));
     scene.mesh.positions = to_wide_points(data.at("positions"));
     for_each_of<MeshLists>([&]<class List, std::size_t>() {
-      if (data.contains(List::key)) data.at(List::key).get_to(scene.mesh.*List::list);
+      if (!HasVolume<List> || data.contains(List::key)) data.at(List::key).get_to(scene.mesh.*List::list);
     });
     scene.velocities.resize(scene.mesh.positions.size());
     for (const Json& body : data.at("bodies")) scene.bodies.push_back(to_body(body, scene));

@@ -1,5 +1,5 @@
 // A correct plug-in in double precision for the stage ccd, by conservative advancement (Li et al. 2021, Algorithm 1).
-// Each advance is 0.9 of the longest time known to be safe: gap over speed, or until the slab between both fills.
+// Each advance is 0.9 of the longest safe time, which follows from the faces' speeds or from the slab between them.
 //
 //     g++ -O2 -shared -fPIC -I INCLUDE ccd.cpp -o ccd.so
 //     ogc compare ccd --plugin ./ccd.so

@@ -1,5 +1,5 @@
-// A projection onto the tangent plane that starts from a matrix full of ones, not from the identity. Friction's block
-// gets off-diagonal entries, which pull a vertex along the normal and may make the block indefinite.
+// Computes the projection onto the tangent plane from a matrix full of ones, not from the identity. Friction's block
+// then has wrong off-diagonal entries, which pull a vertex along the normal and may make the block indefinite.
 #include "experiments/plugins/museum/friction.h"
 
 OGC_PLUGIN("ones in place of the identity", OGC_HOST_MEMORY)

@@ -11,7 +11,7 @@
 // The first condition keeps pairs apart that are farther than r_q at X_prev. The left side of (*) is a minimum of
 // linear functions of all positions, so the set of inside states is convex. On the straight path from X_prev or an
 // inside state to an inside state, a plane with the normal n always separates the hulls of p and q. (*) is weaker than
-// Eq. 21: two balls of radius γ_p d keep (*), too, but (*) restricts only approach.
+// Eq. 21. If all vertices stay in their balls of radius γ_p d, (*) holds, too; but (*) restricts only approach.
 //
 // Positions are doubles within a step, but X_prev and stored positions are rounded. So the right side of (*) is
 // enlarged by the rounding error. If the gap is too small for that, the pair's vertices stay at X_prev.

@@ -3,6 +3,7 @@
 // processes under a limit on memory.
 #pragma once
 
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,7 +13,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <random>
 #include <string>
 #include <vector>
@@ -23,7 +23,7 @@
 
 namespace ogc::tests {
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool limits_memory = false;  // the sanitizer's shadow memory is reserved address space
 #else
 inline constexpr bool limits_memory = true;
@@ -90,11 +90,14 @@ class Mutator {
 /// Reads a damaged file and returns "", or a description of what the reader did wrong.
 using Judge = std::string (*)(const std::string& bytes, const std::string& name);
 
+/// Returns the process's address space [bytes]. It allocates nothing, because a limit may already forbid that.
 inline std::size_t address_space() {
-  std::ifstream file("/proc/self/statm");
-  std::size_t pages = 0;
-  file >> pages;
-  return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  std::array<char, 64> text{};
+  const int file = open("/proc/self/statm", O_RDONLY);
+  REQUIRE(file >= 0);
+  REQUIRE(read(file, text.data(), text.size() - 1) > 0);
+  close(file);
+  return std::strtoull(text.data(), nullptr, 10) * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
 /// Runs the cases in this process, a child process of the test. Writes to `out` the number of each case and the error

@@ -12,12 +12,6 @@ namespace ogc::compare::volume_bodies {
 
 using namespace placement;
 
-namespace {
-
-using compare::at;
-
-}  // namespace
-
 Vec3 outer(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }

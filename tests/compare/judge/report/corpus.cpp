@@ -164,6 +164,25 @@ TEST_CASE("a saved case that asks of what is not there, or is no legal scene, is
   REQUIRE_THROWS_WITH(load_case(path), Contains("vertex"));
 }
 
+TEST_CASE("a saved case without a list that every scene has is refused by the list's name", "[unit]") {
+  using Catch::Matchers::Contains;
+  const Scratch folder;
+  const auto refused = [&](const char* problem, const std::string& where, const char* key) {
+    nlohmann::ordered_json json = case_to_json(generate(parse_problem(problem)), "");
+    nlohmann::ordered_json& scene = json.at(nlohmann::ordered_json::json_pointer(where));
+    REQUIRE(scene.erase(key) == 1);
+    write(folder / "case.json", json.dump());
+    INFO(problem << ": " << key);
+    CHECK_THROWS_WITH(load_case(folder / "case.json"), Contains("case.json") && Contains(key));
+  };
+  for (const char* key : {"triangles", "loose_edges", "springs"})
+    refused("stage=step gen=few seed=1 index=1", "/data/scene", key);
+  refused("stage=step gen=few seed=1 index=1", "/data/scene/bodies/0", "triangles");
+  for (const char* key : {"triangles", "loose_edges"})
+    refused("stage=rest_state gen=soup seed=1 index=1", "/data", key);
+  refused("stage=rest_state gen=soup seed=1 index=1", "/data/bodies/0", "triangles");
+}
+
 TEST_CASE("a batch file holds one problem a line, comments and empty lines apart", "[unit]") {
   using Catch::Matchers::Contains;
   const Scratch folder;
