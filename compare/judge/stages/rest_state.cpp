@@ -20,12 +20,12 @@ namespace ogc::compare {
 
 namespace {
 
-/// An exact angle. If rounding errors could turn it past ±π, the angle turned by 2π is accepted, too.
+/// An exact angle. If rounding errors could move it past ±π, the angle plus or minus 2π is accepted, too.
 struct Angle {
   double exact;
 };
 
-/// Returns whether θ₀ is so near ±π that rounding errors could turn it by 2π.
+/// Returns whether the rest angle is so near ±π that rounding errors could change it by 2π.
 bool is_folded(double angle, double scale) {
   return std::abs(angle) + rest_state_angle_tolerance * unit_roundoff * scale >= std::numbers::pi;
 }
@@ -274,7 +274,7 @@ class RestErrors {
   void operator()(std::size_t metric, const char* what, std::size_t i, const Quaternion& value,
                   const std::array<double, 4>& exact, double scale) const {
     const double off = apart(value, exact);
-    const bool any = std::isinf(scale);  // unit quaternion is right
+    const bool any = std::isinf(scale);  // any unit quaternion is right
     note(metric, what, i, any ? (off == 1 ? 1 : 0) : off, any ? 1 : scale, double{value[3]}, exact[3]);
   }
 
