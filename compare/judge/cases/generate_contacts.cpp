@@ -257,7 +257,7 @@ CaseData contact_thin(Random& random) { return contact_case(random, thin(random)
 CaseData contact_needle(Random& random) { return contact_case(random, needle(random)); }
 CaseData contact_parallel(Random& random) {
   auto question = case_of<ContactForceCase>(contact_case(random, nearly_parallel(random)));
-  // edges without triangles, for which e_k is the share of their overlap
+  // Edges without triangles: e_k is the share of their overlap.
   if (random.one_in(2)) question.rest_squared = {};
   return question;
 }

@@ -49,8 +49,8 @@ double apart(const Quaternion& stored, const std::array<double, 4>& exact) {
   return std::sqrt(std::min(same, other));
 }
 
-/// Specialised for each kind of element: its metrics, a visit to each of its numbers (for comparing and rounding), the
-/// quantities that are printed, and its wrong forms.
+/// Holds what the judge needs of a kind of element: metrics, a visit to each number (to compare and to round), printed
+/// quantities, and wrong forms.
 template <class Kind>
 struct RestJudge;
 
@@ -243,7 +243,7 @@ struct RestJudge<SegmentKind> {
   }
 };
 
-/// Visits all numbers of a kind: visit(metric, what, element, value, exact value, scale).
+/// Calls visit(metric, what, element, value, exact value, scale) for each number of a kind.
 template <class Kind, class Visit>
 void each_number(auto& elements, const RestStateTruth& truth, const Visit& visit) {
   for (std::size_t i = 0; i < elements.size(); ++i) RestJudge<Kind>::each_number(elements[i], truth, i, visit);

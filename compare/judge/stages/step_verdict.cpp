@@ -184,8 +184,8 @@ class StepVerdict {
                       std::to_string(truth_.events.size()));
   }
 
-  /// Checks that X_prev is x, that sets and smallest distances are those at X_prev, and that bounds follow from the
-  /// answer's distances.
+  /// Checks that X_prev is x, that contact sets and smallest distances belong to X_prev, and that bounds follow from
+  /// the answer's distances.
   void judge_detection(std::size_t i) {
     const StepEvent& event = out_.events[i];
     if (policy().divides) {
@@ -219,7 +219,7 @@ class StepVerdict {
     part(where(i), Stage::bound, [&](Tally& own) { judge_bound(test_, authority_.bound(bounds), {event.bound}, own); });
   }
 
-  /// Judges the volume contacts, at X_prev, of vertices that may be pushed.
+  /// Judges the contacts, at X_prev, between volumes and vertices that they may push.
   void judge_volumes(std::size_t i) {
     const StepEvent& event = out_.events[i];
     if (!volumes_.has_any()) {
