@@ -107,7 +107,8 @@ Shape near_feature(Random& random) {
   const ContactSides sides = random.pick(std::span<const ContactSides>(all_sides).subspan(1));
   Shape shape = sized(random, sides, random.between(0.05, 1));
   double s = near_end(random), t = random.one_in(2) ? random.unit() : near_end(random);
-  if (sides == ContactSides::point_triangle && random.one_in(3)) {  // the side opposite to the first corner
+  // puts the point near the edge opposite to the first corner
+  if (sides == ContactSides::point_triangle && random.one_in(3)) {
     s = random.unit();
     t = 1 - s + random.rung();
   }
@@ -115,8 +116,8 @@ Shape near_feature(Random& random) {
   return shape;
 }
 
-/// Returns a contact with a triangle of small height or side, or with one short edge. `thinness` is this length
-/// relative to `shape.size`.
+/// Returns a contact of two edges of which one is short, or of a point with a triangle that has a small height or a
+/// short edge. `thinness` is the small length relative to `shape.size`.
 Shape thin_by(Random& random, double thinness) {
   Shape shape = sized(random, random.one_in(4) ? ContactSides::edge_edge : ContactSides::point_triangle,
                       random.between(0.05, 1));
@@ -256,7 +257,8 @@ CaseData contact_thin(Random& random) { return contact_case(random, thin(random)
 CaseData contact_needle(Random& random) { return contact_case(random, needle(random)); }
 CaseData contact_parallel(Random& random) {
   auto question = case_of<ContactForceCase>(contact_case(random, nearly_parallel(random)));
-  if (random.one_in(2)) question.rest_squared = {};  // edges without triangles, whose energy is that of the overlap
+  // Edges without triangles: e_k is the share of their overlap.
+  if (random.one_in(2)) question.rest_squared = {};
   return question;
 }
 CaseData contact_radius(Random& random) { return contact_case(random, near_radius(random)); }

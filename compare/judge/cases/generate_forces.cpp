@@ -171,8 +171,8 @@ constexpr std::array<Generator, 15> membrane_table{
      {"per_vertex", 15, true, membrane_damped_otherwise<membrane_corner>},
      {"ladder.per_vertex", 15, false, membrane_damped_otherwise<membrane_collapse>}}};
 
-/// A hinge x0, x1, o0, o1 whose edge lies along x. o0 lies in the upper half of the xy plane; o1 lies in the lower
-/// half, turned by `angle` about the edge.
+/// A hinge x0, x1, o0, o1 whose edge lies along x. o0 lies in the upper half of the xy plane. o1 lies in the lower
+/// half, rotated by `angle` about the edge.
 struct HingeShape {
   double size = 1, foot_a = 0.5, foot_b = 0.5, height_a = 1, height_b = 1, angle = 0;
   std::array<Vec3, 4> points() const {
@@ -191,7 +191,7 @@ HingeShape hinge_shape(Random& random) {
   return shape;
 }
 
-/// Places a hinge's shapes, now and at the start, by one rigid motion.
+/// Returns a case with the hinge now and at the start of the time step, both placed by one rigid motion.
 CaseData bending_case(Random& random, const HingeShape& now, const HingeShape& start, bool turned = true) {
   BendingCase question;
   question.stiffness = single(random.magnitude(-8, -2));

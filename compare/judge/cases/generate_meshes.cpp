@@ -109,7 +109,7 @@ CaseData bits(Random& random) {
   return mesh;
 }
 
-/// Makes two flat parallel sheets: vertex above vertex, shifted by half a cell, or turned.
+/// Makes two flat parallel sheets: vertex above vertex, shifted by half a cell, or rotated or sheared in their plane.
 CaseData sheets(Random& random) {
   MeshBuilder builder;
   const double gap = random.magnitude(-2, 0);
@@ -356,7 +356,7 @@ CaseData field(Random& random) {
   return finish(random, builder, {jitter_rung(random), radius_at(random, gap)});
 }
 
-/// Makes triangles with a height or a side near 0. Each has a point near its short side, where single precision
+/// Makes triangles with a short edge or nearly no height. Each has a point near its short edge, where single precision
 /// determines the smallest distance least accurately.
 CaseData needles(Random& random) {
   MeshBuilder builder;

@@ -65,7 +65,7 @@ CaseData finished(Random& random, const MeshBuilder& builder, double query_radiu
   return with_planes(random, mesh, mesh.contact_radius);
 }
 
-/// Makes two patches at distances down to 0: vertex above vertex, shifted, turned, or corner to corner.
+/// Makes two patches at distances down to 0. The second patch may be shifted, rotated or tilted.
 CaseData gap(Random& random) {
   MeshBuilder builder;
   const double height = std::abs(random.rung()), turn = random.one_in(2) ? 0.8 : 1;

@@ -23,9 +23,9 @@ namespace {
 
 using namespace placement;
 
-/// Takes the legal part of a mesh; enlarges a tiny mesh 2¹⁰ times, and reduces a vast one (edges up to 2²⁰ m at twice
-/// the size) to an eighth. Coordinates that are too small become 0; faces that are too short, flat or repeated are left
-/// out, and vertices without a face with them.
+/// Takes the legal part of a mesh. Enlarges a tiny mesh 2¹⁰ times and reduces a vast one to an eighth, so that edges
+/// are legal at twice the size, too (up to 2²⁰ m). Coordinates that are too small become 0. Faces that are too short,
+/// flat or repeated are left out, and vertices without a face with them.
 class Cleaner {
  public:
   explicit Cleaner(const MeshCase& mesh) : mesh_(mesh) {
@@ -224,7 +224,7 @@ CaseData solid(Random& random) { return block_beside_sheet(random, random.betwee
 /// Makes tetrahedra with nearly no thickness.
 CaseData sliver(Random& random) { return block_beside_sheet(random, std::pow(10.0, -random.below(6))); }
 
-/// Adds a rod of this plan as another body, turned by a symmetry of the cube and in half of the cases by a rotation.
+/// Adds a rod of this plan as another body, after a symmetry of the cube and, in half of the cases, a rotation.
 void add_rod(Random& random, Scene& scene, const RodPlan& plan, double scale) {
   Mesh mesh = rod_mesh(random, plan);
   permute(random, mesh.positions);
@@ -249,7 +249,7 @@ CaseData rods(Random& random) {
 }
 
 /// Makes rods whose segments nearly reverse the direction of the segment before, or nearly continue it. Symmetries of
-/// the cube turn some directions to near −e₃.
+/// the cube map some directions to near −e₃.
 CaseData turned_rods(Random& random) {
   // Least angle between a segment and the reverse of the segment before; exact reversal is refused. Rounding moves ends
   // by 2⁻²⁴ of a few lengths, so it cannot reduce this angle to 0.

@@ -235,8 +235,8 @@ CaseData collide(Random& random) {
   return builder.finish();
 }
 
-/// Returns a motion with keyframes for the vertices of `like`; each vertex has its own path. The step ends between two
-/// keyframes, at one, or after the last.
+/// Returns a motion with keyframes for the vertices of `like`; each vertex has its own path. The time step ends between
+/// two keyframes, at one, or after the last.
 PrescribedMotion keyframed(Random& random, const StepBuilder& builder, const PrescribedMotion& like) {
   const double h = builder.scene.settings.time_step;
   PrescribedMotion motion;
@@ -252,7 +252,7 @@ PrescribedMotion keyframed(Random& random, const StepBuilder& builder, const Pre
   return motion;
 }
 
-/// Moves one row of a sheet away, turns it, or both. In some cases the motion starts or ends within the step.
+/// Moves one row of a sheet, rotates it, or does both. In some cases the motion starts or ends within the time step.
 CaseData handle(Random& random) {
   StepBuilder builder(random);
   const int nx = side(random), ny = side(random);

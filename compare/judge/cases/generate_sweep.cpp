@@ -216,8 +216,8 @@ CaseData alone(Random& random) {
   return finish(random, std::move(cloth), generic(random));
 }
 
-/// Returns flat parallel sheets, vertex above vertex or shifted by quarters and halves of a cell. Closest points tie,
-/// and distances are r, τ = r/2 or between.
+/// Returns two flat parallel sheets at a distance of `gap` r, vertex above vertex or shifted by quarters of a cell. The
+/// upper one is rotated by `turn`. Without rotation closest points tie.
 Cloth flat_sheets(Random& random, double gap, double turn = 0) {
   Cloth cloth;
   cloth.contact_radius = 0.5;

@@ -105,9 +105,10 @@ struct StageTraits {
 
   // Functions of the question.
 
-  /// Checks whether both sides have the stage, and whether the authority has all stages that the verdict calls.
+  /// Checks whether contestant and authority have the stage, and whether the authority has all stages that the verdict
+  /// calls.
   bool (*can_judge)(const Contestant&, const Authority&);
-  /// Gives the cases to both sides and judges the answers.
+  /// Gives the cases to contestant and authority, and judges the answers.
   void (*ask)(std::span<const TestCase>, const Contestant&, const Authority&, Asker&, Tally&);
   /// Returns the bits of the answers, one string for each case.
   std::vector<std::string> (*bits)(std::span<const TestCase>, const Contestant&, const Authority&);

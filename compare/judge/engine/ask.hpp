@@ -12,7 +12,7 @@
 
 namespace ogc::compare {
 
-/// Cases of one batch, all of one stage.
+/// Asks contestant and authority the same question. Adds the seconds of each to a tally.
 using Cases = std::span<const TestCase>;
 
 /// Asks both sides the same question and adds the seconds of each to a tally.
@@ -48,8 +48,8 @@ class Asker {
   Tally& tally_;
 };
 
-/// Gives cases of one stage to both sides and judges the answers. Holds `contestant_turn` during each call of the
-/// contestant, which need not be safe for several threads.
+/// Gives cases of one stage to contestant and authority, and judges the answers. Holds `contestant_turn` during each
+/// call of the contestant, which need not be safe for several threads.
 void ask(Stage stage, Cases cases, const Contestant& contestant, const Authority& authority,
          std::mutex& contestant_turn, Tally& tally);
 

@@ -31,7 +31,7 @@ struct DeterminismReport {
   std::uint64_t cases = 0;          ///< number of cases; a mesh counts once
   /// FNV-1a of all answers in order; equal on two machines or builds that give the same bits
   std::uint64_t digest = 0;
-  /// one line for each condition that changed bits: its name, the number of cases, the first of them
+  /// one line for each condition that changed bits: its name, the number of changed cases, the first changed case
   std::vector<std::string> changed;
   bool skipped = false;  ///< the contestant does not have the stage
 };

@@ -11,7 +11,7 @@ namespace ogc::compare {
 
 /// A second mistake, which explains failing cases that the first form does not explain.
 struct SecondMistake {
-  std::string name, meaning;  ///< of its wrong form
+  std::string name, meaning;  ///< name and meaning of the wrong form
   std::uint64_t fits = 0;     ///< failing cases that this form fits and no earlier form fits
   /// true if the answers contain both mistakes, false if they contain this one instead of the first
   bool together = false;
@@ -19,7 +19,8 @@ struct SecondMistake {
 
 /// A wrong form that matches the answers, and the inputs for which they fail.
 struct Diagnosis {
-  std::string name, meaning;         ///< of the form (compare/judge/report/wrong_forms.hpp); empty if none fits
+  /// name and meaning of the form (compare/judge/report/wrong_forms.hpp); empty if none fits
+  std::string name, meaning;
   std::vector<std::string> as_well;  ///< other forms that fit equally well, so that these cases do not distinguish them
   std::uint64_t fits = 0, failing = 0;  ///< failing cases that the form fits, and all failing cases that were tried
   /// right cases that contradict the form, and all right cases that were tried

@@ -34,7 +34,7 @@ static_assert([] {
   return count == stage_count;
 }());
 
-// Meshes in one batch; generators of large meshes (Generator::least > 0) have batches of one.
+// Number of meshes in one batch. Generators of large meshes (Generator::least > 0) have batches of one mesh.
 constexpr std::uint64_t mesh_batch = 4;
 
 /// Runs one generator in batches of consecutive indices until it has counted `cases`.

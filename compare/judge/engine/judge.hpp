@@ -1,5 +1,5 @@
-// Takes a contestant and an authority through the same cases, stage by stage. The judge never learns which programs
-// they are.
+// Gives a contestant and an authority the same cases, stage by stage, and judges the answers. The judge does not know
+// which programs they are.
 #pragma once
 
 #include <cstdint>
@@ -32,16 +32,16 @@ struct JudgeOptions {
 /// What the judge found about a stage.
 struct StageReport {
   Tally tally;           ///< all counts and errors
-  double seconds = 0;    ///< time of both sides and the judge
+  double seconds = 0;    ///< time of contestant, authority and judge
   bool skipped = false;  ///< true if the contestant or the authority lacks the stage
   /// set if a diagnosis of the failures was requested (compare/judge/report/diagnose.hpp)
   std::optional<Diagnosis> diagnosis{};
-  std::string note{};  ///< why the given run has no cases for the stage; empty if it has
+  std::string note{};  ///< why the given run has no cases for the stage; otherwise empty
   /// Checks that there is at least one case and no mismatch, and that few decisions of the generic generators are grey.
   bool passed() const;
 };
 
-/// Checks whether both sides have the stage.
+/// Checks whether contestant and authority have the stage.
 bool can_judge(Stage stage, const Contestant& contestant, const Authority& authority);
 
 /// A stage ends after this many failures of the contestant (ContestantFailure); it reports the cases judged so far.

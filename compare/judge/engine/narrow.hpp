@@ -8,8 +8,8 @@
 namespace ogc::compare {
 
 /// Does the same as `ask`. If the contestant fails (ContestantFailure), the batch is halved until one case remains.
-/// This case becomes a mismatch with the failure's message, and the rest is asked again. After `allowed` failing cases
-/// the rest is skipped.
+/// This case becomes a mismatch with the failure's message, and the cases after it are asked next. After `allowed`
+/// failing cases the rest is skipped.
 void ask_narrowing(Stage stage, Cases cases, const Contestant& contestant, const Authority& authority,
                    std::mutex& contestant_turn, std::uint64_t allowed, Tally& tally);
 

@@ -1,5 +1,5 @@
-// Renumbers a mesh, and converts its answer back. Contact sets and bounds must not depend on the numbers of vertices
-// and triangles.
+// Renumbers a mesh and arrays by vertex, edge or triangle. Contact sets and bounds must not depend on the numbers of
+// vertices and triangles.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ class Renumbering {
 
   /// Returns the same mesh under the new numbers.
   const std::shared_ptr<const Topology>& topology() const { return topology_; }
-  /// Return the entries for vertices, edges or triangles in the new order.
+  /// Return entries by vertex, edge or triangle in the new order.
   template <class T>
   std::vector<T> by_vertex(const std::vector<T>& old) const {
     return renumbered(old, vertex_);

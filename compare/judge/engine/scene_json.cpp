@@ -32,7 +32,6 @@ std::vector<Vec3> to_vectors(const Json& json) {
   return vectors;
 }
 
-/// Returns the model of this name.
 template <class Model>
 Model to_model(const Json& json, std::span<const std::string_view> names) {
   const auto found = std::find(names.begin(), names.end(), json.get<std::string>());
@@ -202,9 +201,7 @@ Scene to_scene(const Json& json) {
   scene.velocities = to_vectors(json.at("velocities"));
   for (const Json& body : json.at("bodies")) scene.bodies.push_back(to_body(body));
   for (const Json& motion : json.at("motions")) scene.motions.push_back(to_motion(motion));
-  for_each_of<SceneLists>([&]<class List, std::size_t>() {
-    to_elements<List>(json.at(List::key), scene);
-  });
+  for_each_of<SceneLists>([&]<class List, std::size_t>() { to_elements<List>(json.at(List::key), scene); });
   if (json.contains("excluded_pairs"))
     scene.excluded_pairs = json.at("excluded_pairs").get<std::vector<std::array<Index, 2>>>();
   if (json.contains("orientations")) scene.orientations = to_orientations(json.at("orientations"));

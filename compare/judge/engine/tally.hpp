@@ -26,7 +26,7 @@ class Histogram {
   /// The number of values in [2^exponent, 2^(exponent+1)). Octaves ascend without gaps. The lowest octave also counts
   /// all smaller values, including 0.
   struct Octave {
-    int exponent = 0;         ///< of the lower end
+    int exponent = 0;         ///< exponent of the octave's lower end
     std::uint64_t count = 0;  ///< number of values
   };
   std::vector<Octave> octaves(int lowest) const;  ///< begins at octave `lowest`
@@ -94,7 +94,7 @@ class Tally {
   std::uint64_t mismatched = 0;                      ///< number of all mismatches
   std::uint64_t questions = 0;  ///< generated cases; in a mesh stage these are meshes, sweeps or steps
   std::uint64_t failures = 0;   ///< questions to which the contestant gave no answer (ContestantFailure)
-  double contestant_seconds = 0, authority_seconds = 0;  ///< time of each side's answers
+  double contestant_seconds = 0, authority_seconds = 0;  ///< time of the answers of each
   static constexpr std::uint64_t listed = 20;            ///< largest number of listed mismatches for each generator
 
   GeneratorTally total() const;  ///< sum over all generators

@@ -6,8 +6,8 @@
 
 namespace ogc::compare {
 
-/// One output of both sides. In a sweep or a step the exact values follow from the contestant's own answer
-/// (compare/stages/sweep.hpp).
+/// One output of contestant and authority. In a sweep or a step the exact values follow from the contestant's own
+/// answer (compare/stages/sweep.hpp).
 struct AnswerPair {
   Quantity given, exact;  ///< `given` is empty if there is no answer
 };
@@ -21,7 +21,7 @@ struct Answers {
 /// Pairs given and exact outputs by position. If the given list is shorter, its missing outputs are empty.
 Answers paired(const std::vector<Quantity>& given, const std::vector<Quantity>& exact, std::string note);
 
-/// Returns the answers of both sides.
+/// Returns the answers of contestant and authority.
 Answers answers_to(const TestCase& test, const Contestant& contestant, const Authority& authority);
 
 }  // namespace ogc::compare

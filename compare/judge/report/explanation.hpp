@@ -15,7 +15,7 @@ struct Explanation {
   std::string problem;                ///< the problem string
   std::vector<std::string> messages;  ///< what is wrong; empty if the answer is right
   std::vector<Quantity> inputs;       ///< in the contract's order
-  Answers answers;                    ///< of both sides
+  Answers answers;                    ///< answers of contestant and authority
   std::string file{}, mesh{};         ///< saved files, for replay and audit; empty if not saved
 };
 

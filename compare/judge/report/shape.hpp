@@ -13,7 +13,7 @@ namespace ogc::compare {
 struct Shape {
   std::vector<Vec3f> points;                    ///< [m]
   std::vector<std::array<Index, 3>> triangles;  ///< by indices of points
-  std::vector<std::array<Index, 2>> lines;      ///< without the sides of triangles
+  std::vector<std::array<Index, 2>> lines;      ///< without edges of triangles
   std::vector<Index> dots;                      ///< points that the question concerns
 
   /// Returns the index of the new point.

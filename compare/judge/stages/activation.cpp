@@ -62,8 +62,8 @@ ActivationCase with_any_activation(Random& random, const CaseData& data) {
 
 CaseData activation_variants(Random& random) { return with_any_activation(random, activation_uniform(random)); }
 
-/// Approaches the distances where an activation changes or terms cancel: d = r, d = τ = r/2 (where logarithms may
-/// cancel, too) and d = 0.
+/// Makes cases with any activation. They approach d = r, d = τ = r/2 and d = 0, where activations change or terms
+/// cancel.
 CaseData activation_ladders(Random& random) {
   switch (random.below(8)) {
     case 0: return with_any_activation(random, activation_touching(random));

@@ -30,7 +30,7 @@ bool tells_gap(const BarrierCase& c) {
   return gap_of(c) >= 0x1p-40 * support_of(c) && gap_of(c) >= 0x1p-18 * c.squared_distance;
 }
 
-/// Returns the case with legal lengths; raises D to its least legal value.
+/// Returns the case with legal lengths; raises the squared distance D to its least legal value.
 BarrierCase legal(BarrierCase c) {
   c.activation_distance = std::clamp(c.activation_distance, ranges::least, ranges::most);
   if (c.thickness != 0)
@@ -42,7 +42,7 @@ BarrierCase legal(BarrierCase c) {
   return c;
 }
 
-/// Returns a case with g = `share` H.
+/// Returns a case with D − ξ² = `share` · H, where support_of returns H.
 BarrierCase at_share(double share, float distance, float thickness) {
   BarrierCase c{0, distance, thickness};
   c = legal(c);

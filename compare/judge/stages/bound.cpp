@@ -22,7 +22,7 @@ void judge_bound(const TestCase& test, const BoundTruth& truth, const BoundOut& 
 
 namespace {
 
-/// Makes the form that ignores one of the three minima.
+/// Makes the form that ignores `minima`, the smallest distances of vertices, edges or triangles.
 WrongForm unread(std::string name, std::string meaning, std::span<const float> BoundIn::*minima) {
   return form(std::move(name), std::move(meaning), &Authority::bound,
               [minima](const std::function<BoundTruth(const BoundIn&)>& right, const BoundIn& in) {

@@ -55,7 +55,7 @@ void shuffle(Random& random, CcdCase& c) {
   }
 }
 
-/// Places positions at the start and the end by one symmetry and rotation.
+/// Returns the case from time 0 to time 1, after one random symmetry and rotation of all positions.
 CcdCase placed(Random& random, const Draft& draft) {
   std::array<Vec3, 8> points;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -70,7 +70,7 @@ CcdCase placed(Random& random, const Draft& draft) {
 }
 
 /// Returns faces in the plane z = 0: a vertex at weights (a, b) of a triangle, or edges that cross at parameters a and
-/// b with this sine of their angle.
+/// b, at an angle of this sine.
 Four touching_faces(Random& random, CcdKind kind, double a, double b, double sine) {
   if (kind == CcdKind::edge_edge) {
     const double cosine = std::sqrt(1 - sine * sine), length = random.magnitude(-1, 1);
@@ -88,7 +88,7 @@ void lift(Draft& draft, double height) {
     if (is_first(draft.kind, k)) draft.x[k].z += height;
 }
 
-/// Moves the first face against the second; each vertex also gets a small motion of its own.
+/// Moves the first face along −z at `speed`. Each vertex also gets a random velocity of up to `own` · `speed`.
 void approach(Random& random, Draft& draft, double speed, double own) {
   for (std::size_t k = 0; k < 4; ++k) {
     draft.v[k] = scaled(in_box(random, -1, 1), own * speed);
@@ -194,7 +194,8 @@ CaseData planar(Random& random) {
   return placed(random, draft);
 }
 
-/// Turns a long edge or triangle about a point near the other face: through this face and back, or beside it.
+/// Moves each vertex of the second face up or down, so that the face rotates about a point near the first face. It
+/// passes through the first face and back, or beside it.
 CaseData turning(Random& random) {
   Draft draft{.kind = some_kind(random), .at = 0.5};
   draft.x = touching_faces(random, draft.kind, inside(random), inside(random), random.between(0.2, 1));

@@ -1,6 +1,6 @@
-// Makes the traits of stage closest_face. In the canonical frame of the ladders a = 0, b is on the x axis, and c in the
-// xy plane. The planes between the blocks of a and ab are then coordinate planes, which the point can approach by any
-// power of ten.
+// Makes the traits of stage closest_face. In the canonical frame of the ladders, corner a is the origin, corner b is on
+// the x axis, and corner c is in the xy plane. So the planes between the blocks of a and ab are coordinate planes,
+// which the point can approach by any power of ten.
 #include <array>
 #include <span>
 
@@ -68,7 +68,7 @@ CaseData near(Random& random) {
   return placed(random, {s * corners[1].x + t * corners[2].x, t * corners[2].y, random.rung()}, corners);
 }
 
-/// Approaches a height of 0: c nears the line ab, inside or outside of the edge.
+/// Approaches a height of 0: corner c nears the line ab, within edge ab or beyond its ends.
 CaseData needle(Random& random) {
   auto corners = canonical(random);
   corners[2].y = random.rung();
@@ -77,7 +77,7 @@ CaseData needle(Random& random) {
   return placed(random, {random.between(-0.3, 1.3) * corners[1].x, y, z}, corners);
 }
 
-/// Approaches a side of length 0.
+/// Approaches an edge of length 0.
 CaseData sliver(Random& random) {
   auto corners = canonical(random);
   corners[2] = sum(corners[random.below(2)], {random.rung(), random.rung(), 0});
@@ -87,8 +87,8 @@ CaseData sliver(Random& random) {
                 corners);
 }
 
-/// Puts the point near the short side of a triangle that is 10⁰ … 10⁶ times as long. There the weight of the far corner
-/// is least certain.
+/// Puts the point near the shortest edge of a triangle whose height is 10⁰ … 10⁶ times this edge. There the weight of
+/// the far corner is least certain.
 CaseData base(Random& random) {
   const double side = random.magnitude(-3, 0), height = side * random.magnitude(0, 6);
   const Vec3 p{side * random.rung(), random.between(-0.2, 1.2) * side, side * random.rung()};

@@ -249,7 +249,7 @@ void by_clamping(const Authority&, const ClosestFaceIn& in, std::size_t i, Close
   round_answer(truth, i);
 }
 
-/// Make the nearest corner the answer, or the closest point of the edge whose line is nearest.
+/// Makes the nearest corner the answer.
 void nearest_corner(const Authority&, const ClosestFaceIn& in, std::size_t i, ClosestFaceTruth& truth) {
   const Seen seen(in, i);
   const auto squared = [](const Vec3& v) { return dot(v, v); };

@@ -72,7 +72,8 @@ CaseData exact_parallel(Random& random) {
   return placed(random, {Vec3{}, Vec3{1, 0, 0}, Vec3{x, y, z}, Vec3{x + length, y, z}});
 }
 
-/// Makes the closest point of the first edge approach its end; the other closest point is anywhere.
+/// Makes the closest point of the first edge approach an end of this edge. The closest point of the second edge is
+/// anywhere.
 CaseData end(Random& random) {
   const double x = random.rung(), slope = random.one_in(2) ? 0 : random.between(-2, 2), z = height(random);
   const double low = random.one_in(3) ? random.rung() : -random.between(0.1, 1), high = random.between(0.1, 1);
@@ -245,7 +246,7 @@ void without_parallel_rule(ClosestPointsTruth& truth, std::size_t i) {
   truth.exact.nearly_parallel[i] = 0;
   truth.contact_distance[i] = truth.distance[i];
   truth.parameter_condition[i] =
-      std::numeric_limits<double>::infinity();  // only the rule chooses one pair among the many closest points
+      std::numeric_limits<double>::infinity();  // only the rule chooses one of many pairs of closest points
 }
 
 /// Returns ‖e × e'‖² [m⁴].
@@ -310,7 +311,7 @@ void from_start(const ClosestPointsIn& in, ClosestPointsTruth& truth, std::size_
       squared({r.x + s * e.x - t * f.x, r.y + s * e.y - t * f.y, r.z + s * e.z - t * f.z}));
   truth.exact.distance_below[i] = surely_above(distance, size_of(in, i));
   truth.distance[i] = distance;
-  if (truth.exact.nearly_parallel[i]) return;  // the rule defines other points
+  if (truth.exact.nearly_parallel[i]) return;  // The rule for nearly parallel edges defines other points.
   truth.parameters[i] = {s, t};
   truth.parameter_condition[i] = std::numeric_limits<double>::infinity();
   truth.contact_distance[i] = distance;

@@ -7,8 +7,8 @@ namespace ogc::compare {
 
 namespace {
 
-/// Returns the weight w of the question's vertex: its share of the force on its side, because the weights of a side sum
-/// to 1.
+/// Returns the weight w of the question's vertex. Weights of one side of the contact sum to 1, so w is the vertex's
+/// share of the force on its side.
 double weight_of(const ContactForceCase& c, const std::function<ForceTruth(const ContactForceIn&)>& right) {
   const bool is_first = c.own < (c.sides == ContactSides::edge_edge ? 2 : 1);
   Vec3 side{}, own{};

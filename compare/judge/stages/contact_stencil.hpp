@@ -37,7 +37,7 @@ inline float* contact_parameter(ContactForceCase& c, std::string_view name) {
 /// A wrong order of a triangle's corners: corner of[k] takes the place of corner k.
 struct CornerOrder {
   const char* name;                ///< "swapped_01"
-  std::array<std::int32_t, 3> of;  ///< by corner
+  std::array<std::int32_t, 3> of;  ///< corner that takes the place of corner k
 };
 /// All orders except the right one.
 inline constexpr std::array<CornerOrder, 5> corner_orders{{{"swapped_01", {1, 0, 2}},

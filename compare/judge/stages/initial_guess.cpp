@@ -138,12 +138,12 @@ Vec3f stretched(Random& random, const Vec3& direction) {
   return single(scaled(direction, random.one_in(6) ? std::ldexp(1.0, random.below(70) - 38) : random.magnitude(-4, 0)));
 }
 
-/// Returns a case with a segment that turns from one direction to another.
+/// Returns a case with a segment whose direction changes from `from` to `to`.
 CaseData turned(Random& random, const Vec3& from, const Vec3& to, const Four& frame) {
   return GuessCase{uniform(random), TurnCase{stretched(random, from), stretched(random, to), rod_cases::single(frame)}};
 }
 
-/// Turns a segment by any angle, or by a small angle as in a step.
+/// Makes a segment that rotates by any angle, or by a small angle as in a time step.
 CaseData turn(Random& random) {
   const Vec3 from = rod_cases::some_direction(random);
   const Four by = rod_cases::rotation(rod_cases::some_direction(random), random.magnitude(-6, 0.4));
@@ -151,7 +151,7 @@ CaseData turn(Random& random) {
   return turned(random, from, rod_cases::turned(by, from), frame);
 }
 
-/// Approaches turns by an angle of 0 and of π; a direction may have length 0.
+/// Approaches rotations by an angle of 0 and of π. A direction may have length 0.
 CaseData turn_at(Random& random) {
   if (random.one_in(2)) random.be_fine();
   const Vec3 from = random.one_in(2) ? rod_cases::some_direction(random)

@@ -305,8 +305,8 @@ struct Plane : Numbered, InEveryRun {
   }
   static std::int64_t in_vertices(const TestCase& test) { return case_of<Case>(test.data).topology->vertex_count; }
 
-  /// Lists bounds and planes of the contestant as both answers, because the truth has none. Only counts of mistakes
-  /// differ: the contestant's side shows 0, the exact side the number of mistakes in the contestant's answer.
+  /// Lists the contestant's bounds and planes as both answers, because the truth has none. Only counts of mistakes
+  /// differ: the exact answer shows the contestant's mistakes, the contestant's answer shows 0.
   static Answers answers(const TestCase& test, const Contestant& c, const Authority& a) {
     const In in = question_of(test);
     std::string note;

@@ -20,12 +20,12 @@ namespace ogc::compare {
 
 namespace {
 
-/// An exact angle. If rounding errors could turn it past ±π, the angle turned by 2π is accepted, too.
+/// An exact angle. If rounding errors could move it past ±π, the angle plus or minus 2π is accepted, too.
 struct Angle {
   double exact;
 };
 
-/// Returns whether θ₀ is so near ±π that rounding errors could turn it by 2π.
+/// Returns whether the rest angle is so near ±π that rounding errors could change it by 2π.
 bool is_folded(double angle, double scale) {
   return std::abs(angle) + rest_state_angle_tolerance * unit_roundoff * scale >= std::numbers::pi;
 }
@@ -49,8 +49,8 @@ double apart(const Quaternion& stored, const std::array<double, 4>& exact) {
   return std::sqrt(std::min(same, other));
 }
 
-/// Specialised for each kind of element: its metrics, a visit to each of its numbers (for comparing and rounding), the
-/// quantities that are printed, and its wrong forms.
+/// Holds what the judge needs of a kind of element: metrics, a visit to each number (to compare and to round), printed
+/// quantities, and wrong forms.
 template <class Kind>
 struct RestJudge;
 
@@ -243,7 +243,7 @@ struct RestJudge<SegmentKind> {
   }
 };
 
-/// Visits all numbers of a kind: visit(metric, what, element, value, exact value, scale).
+/// Calls visit(metric, what, element, value, exact value, scale) for each number of a kind.
 template <class Kind, class Visit>
 void each_number(auto& elements, const RestStateTruth& truth, const Visit& visit) {
   for (std::size_t i = 0; i < elements.size(); ++i) RestJudge<Kind>::each_number(elements[i], truth, i, visit);
@@ -274,7 +274,7 @@ class RestErrors {
   void operator()(std::size_t metric, const char* what, std::size_t i, const Quaternion& value,
                   const std::array<double, 4>& exact, double scale) const {
     const double off = apart(value, exact);
-    const bool any = std::isinf(scale);  // unit quaternion is right
+    const bool any = std::isinf(scale);  // any unit quaternion is right
     note(metric, what, i, any ? (off == 1 ? 1 : 0) : off, any ? 1 : scale, double{value[3]}, exact[3]);
   }
 

@@ -73,7 +73,7 @@ constexpr StageTraits make_traits() {
 
 /// A case that cannot be made smaller.
 struct TakenWhole {
-  /// Return the members of StageTraits for a case that stays whole.
+  /// Returns what StageTraits needs for a case that stays whole.
   template <class Case>
   static const Topology* mesh(const Case&) {
     return nullptr;
@@ -91,13 +91,13 @@ struct TakenWhole {
 /// A stage without a check of renumbering: its answers depend on the numbers of vertices and triangles, or its
 /// questions have no mesh.
 struct Numbered {
-  /// null: renumbering is not checked
+  /// Null means that renumbering is not checked.
   static constexpr std::nullptr_t is_same_renumbered = nullptr;
 };
 
 /// A stage whose benchmarks use its own generic cases.
 struct OwnCases {
-  /// null: no scene makes a case
+  /// Null means that no scene makes a case.
   static constexpr std::nullptr_t of_scene = nullptr;
 };
 
@@ -121,7 +121,7 @@ struct ParametersOfCase {
   }
 };
 
-/// A stage that has cases in every run.
+/// Returns an empty text, because every run has cases.
 struct InEveryRun {
   /// Returns an empty text.
   static std::string missing_in(const States&) { return {}; }
@@ -143,7 +143,7 @@ In case_question(Cases cases, std::vector<Case> In::*questions) {
   return in;
 }
 
-/// The types of a side's question and answer.
+/// The types of question and answer of a stage of Contestant or Authority.
 template <class Member>
 struct SideTypes;
 template <class Answered, class Asked, class Side>
@@ -163,14 +163,15 @@ std::optional<Out> answer_or_note(const std::function<Out(const In&)>& contestan
   }
 }
 
-/// A stage that asks both sides the same question. `S::outputs(in, answer)` lists an Out or a Truth by name.
+/// A stage that asks contestant and authority the same question. `S::outputs(in, answer)` lists an Out or a Truth by
+/// name.
 template <class S, auto contestant, auto authority>
 struct SameQuestion {
   using In = typename SideTypes<decltype(contestant)>::In;
   using Out = typename SideTypes<decltype(contestant)>::Answer;
   using Truth = typename SideTypes<decltype(authority)>::Answer;
 
-  /// Checks whether both sides have the stage.
+  /// Checks whether contestant and authority have the stage.
   static bool can_judge(const Contestant& c, const Authority& a) { return c.*contestant && a.*authority; }
 
   /// Returns a remark that is printed with an exact answer.
@@ -196,7 +197,7 @@ struct BatchStage : SameQuestion<S, contestant, authority>, Numbered, OwnCases {
   /// Returns the question of a single case.
   static In question_of(const TestCase& test) { return S::question({&test, 1}); }
 
-  /// Asks each side one question with all cases, and judges the answer.
+  /// Asks contestant and authority one question with all cases, and judges the answer.
   static void ask(Cases cases, const Contestant& c, const Authority& a, Asker& asker, Tally& tally) {
     const In in = S::question(cases);
     S::judge(cases, in, asker.truth(in, a.*authority), asker.answer(in, c.*contestant), tally);
@@ -224,7 +225,7 @@ struct MeshStage : SameQuestion<S, contestant, authority> {
   /// Returns a view of the case.
   static In question_of(const TestCase& test) { return S::question(case_of<typename S::Case>(test.data)); }
 
-  /// Asks both sides about each mesh, and judges the answers.
+  /// Asks contestant and authority about each mesh, and judges the answers.
   static void ask(Cases cases, const Contestant& c, const Authority& a, Asker& asker, Tally& tally) {
     for (const TestCase& test : cases) {
       const In in = question_of(test);

@@ -42,7 +42,7 @@ class StepVerdict {
         start_(to_single(in.scene->mesh.positions)),
         at_(start_),
         wrong_before_(tally.mismatched) {
-    // driven volumes start at their targets
+    // A driven volume is at its target from the start of the time step on.
     const std::vector<bool> is_volume = volume_flags(*in.scene);
     for (std::size_t v = 0; v < at_.size(); ++v)
       if (is_volume[v] && groups_[v] > 0) at_[v] = truth.prescribed_target[v];
@@ -108,7 +108,7 @@ class StepVerdict {
   }
 
   /// Judges the turned frames of segments as cases of stage initial_guess (InitialGuessIn::turns). `wrong` says what is
-  /// wrong with the other frames; it is empty if nothing is.
+  /// wrong with the other frames, or is empty.
   void judge_frames(const std::string& when, const TurnedFrames& frames, const std::string& wrong) {
     if (!wrong.empty()) tally_.mismatch(when + ": " + wrong);
     if (frames.in.turns.empty()) return;
@@ -184,8 +184,8 @@ class StepVerdict {
                       std::to_string(truth_.events.size()));
   }
 
-  /// Checks that X_prev is x, that sets and smallest distances are those at X_prev, and that bounds follow from the
-  /// answer's distances.
+  /// Checks that X_prev is x, that contact sets and smallest distances belong to X_prev, and that bounds follow from
+  /// the answer's distances.
   void judge_detection(std::size_t i) {
     const StepEvent& event = out_.events[i];
     if (policy().divides) {
@@ -219,7 +219,7 @@ class StepVerdict {
     part(where(i), Stage::bound, [&](Tally& own) { judge_bound(test_, authority_.bound(bounds), {event.bound}, own); });
   }
 
-  /// Judges the volume contacts, at X_prev, of vertices that may be pushed.
+  /// Judges the contacts, at X_prev, between volumes and vertices that they may push.
   void judge_volumes(std::size_t i) {
     const StepEvent& event = out_.events[i];
     if (!volumes_.has_any()) {
@@ -274,8 +274,8 @@ class StepVerdict {
     Index certain = 0, doubtful = 0;
   };
 
-  /// Judges a guess. A vertex with contacts must be at the truncated end of the move that its contacts allow. Any other
-  /// vertex must be at the truncated y, and counts as cut if it is not at y, because truncation changes only positions
+  /// Judges a guess. A vertex with contacts must be where truncation stops the move that its contacts allow. Any other
+  /// vertex must be at the truncated y. It counts as cut if it is not at y, because truncation changes only positions
   /// beyond the bound.
   void judge_guess(std::size_t i) {
     const StepEvent& event = out_.events[i];
@@ -417,10 +417,10 @@ class StepVerdict {
   VolumeQuestion volumes_;
   std::vector<Vec3f> start_;
   std::vector<Vec3f> at_;                 ///< x before the event
-  std::vector<Quaternion> q_;             ///< of the segments, before the event
+  std::vector<Quaternion> q_;             ///< orientations of segments before the event
   bool is_swept_ = false;                 ///< true after the guess loop
   const StepEvent* detection_ = nullptr;  ///< the last detection
-  std::vector<Vec3f> displacement_;       ///< with bounds=dat: the displacements that divide the detection's gaps
+  std::vector<Vec3f> displacement_;       ///< with bounds=dat: displacements that divide gaps at the detection
   std::uint64_t wrong_before_, decisions_ = 0, grey_ = 0;
 };
 

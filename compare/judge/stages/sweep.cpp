@@ -54,7 +54,7 @@ bool judge_bounds(const SweepIn& in, const SweepOut& out, const std::vector<Inde
   return true;
 }
 
-/// Returns the number of decisions: one for each vertex (cut or not), and one for each of its stencils (side of a
+/// Returns the number of decisions: one for each vertex (cut or not), and one for each of its stencils (which side of a
 /// jump).
 std::uint64_t decisions(const SweepIn& in) {
   constexpr std::array<std::uint64_t, 3> corners{1, 2, 3};

@@ -56,8 +56,8 @@ void set_material(Random& random, TetrahedronCase& question) {
   if (random.one_in(4)) question.damping_form = another(random, DampingForm::strain);
 }
 
-/// Places the deformed corners `x` and the start by one rigid motion. In half of the cases the start is near x,
-/// otherwise at rest.
+/// Places the deformed corners `x` and the corners at the start of the time step by one rigid motion. In half of the
+/// cases the latter are near x, otherwise at rest.
 CaseData placed(Random& random, TetrahedronCase question, const Corners& rest, const Corners& x, double size,
                 bool lattice) {
   std::array<Vec3, 8> points;

@@ -157,8 +157,8 @@ CaseData regions_lattice(Random& random) {
   return region.finish(on_lattice(random, 4));
 }
 
-/// Puts X_prev or the vertex on a half-space or a rung before it. The proposed position is beyond the half-space, along
-/// it, or away from it.
+/// Puts X_prev on the plane of a half-space, or inside of it by a rung of the bound. The proposed position differs from
+/// X_prev by a rung along the normal and, in half of the cases, by a move along the plane.
 CaseData on_plane(Random& random) {
   const double bound = random.magnitude(-3, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);
@@ -166,7 +166,7 @@ CaseData on_plane(Random& random) {
   region.add(n, bound * std::abs(random.rung()));
   if (random.one_in(3)) region.add(direction(random), bound * random.unit());
   region.set_current(random.unit());
-  // along the half-space, so that the proposed position is near it
+  // `along` is parallel to the plane, so that the proposed position is near the plane.
   const Vec3 any = direction(random), across = scaled(n, n.x * any.x + n.y * any.y + n.z * any.z);
   const Vec3 along = scaled(sum(any, scaled(across, -1)), bound * random.between(0.1, 2));
   return region.finish(sum(random.one_in(2) ? along : Vec3{}, scaled(n, bound * random.rung())));

@@ -22,10 +22,10 @@ constexpr float least_slip_limit = 0x1p-38f, least_weight = 0x1p-40f;
 
 /// A contact in its canonical frame.
 struct Pressed {
-  double size = 1, contact_radius = 1;    ///< about the length of an edge; r
+  double size = 1, contact_radius = 1;    ///< about the length of an edge, and r
   std::array<Vec3, 4> x{};                ///< x₀, and the corners
   std::array<Vec3, 4> moved{};            ///< x − xᵗ
-  std::array<float, 3> weights{1, 0, 0};  ///< of c
+  std::array<float, 3> weights{1, 0, 0};  ///< weights of the triangle's point c
   Vec3 direction{0, 0, 1};                ///< n
   double slip_limit = 1;                  ///< ε_v h
   bool turned = true;                     ///< true if it may be rotated
@@ -231,7 +231,7 @@ CaseData units(Random& random) {
   for (Vec3& m : p.moved) m = scaled(m, scale);
   p.contact_radius *= scale;
   p.slip_limit *= scale;
-  p.turned = random.one_in(2) && scale > 1;  // a rotation shifts by about 1 m
+  p.turned = random.one_in(2) && scale > 1;  // placed() shifts rotated points by about 1 m
   return placed(random, p);
 }
 

@@ -63,7 +63,7 @@ inline Four some_orientation(Random& random) {
   }
 }
 
-/// Returns q, or q turned by a rung.
+/// Returns q, or q rotated by a rung [rad].
 inline Four beside(Random& random, const Four& q) {
   return product(q, rotation(some_direction(random), random.rung()));
 }

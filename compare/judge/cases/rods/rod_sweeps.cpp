@@ -57,7 +57,7 @@ void add_rod(Random& random, SweepCase& test, Scene& scene, const Vec3& centre, 
   }
 }
 
-/// Returns a frame along the segment ab, turned a little about a random axis. In some cases its twist is random;
+/// Returns a frame along the segment ab, rotated a little about a random axis. In some cases its twist is random;
 /// otherwise neighbouring segments have similar twists.
 Four frame_of(Random& random, const Vec3f& a, const Vec3f& b) {
   const Vec3 d{double{b.x} - a.x, double{b.y} - a.y, double{b.z} - a.z};

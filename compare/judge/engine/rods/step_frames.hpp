@@ -22,14 +22,14 @@ std::string wrong_segment_colour(const Scene& scene, const StepOut& out);
 /// if nothing is.
 std::string wrong_orientation_count(const Scene& scene, const StepOut& out);
 
-/// Returns the turns from the rest direction to the direction at the start, for segments whose ends at the start differ
-/// from rest. All other segments must start with the frame of the scene or of the answer's rest state. If one does not,
-/// `wrong` names it.
+/// If the scene has no orientations, returns a rotation for each segment whose ends at the start differ from rest: from
+/// the rest direction to the direction at the start. All other segments must start with the frame of the scene or of
+/// the answer's rest state. If one does not, `wrong` names it.
 TurnedFrames start_frames(const StepIn& in, const StepOut& out, std::string& wrong);
 
-/// Returns the turns of segments in the guess loop, which ended at x. Free segments have turns if the setting rod_start
-/// is `turned`. Prescribed segments have turns if their motion does not define them. If another segment has a wrong
-/// frame, `wrong` names it.
+/// Returns the rotations of segments in the guess loop, which ended at x. Free segments have one if the setting
+/// rod_start is `turned`. Prescribed segments have one if their motion does not define a rotation. If another segment
+/// has a wrong frame, `wrong` names it.
 TurnedFrames turned_frames(const StepIn& in, const StepOut& out, const std::vector<Vec3f>& x, std::string& wrong);
 
 }  // namespace ogc::compare

@@ -31,13 +31,13 @@ using namespace rod_cases;
 using placement::single;
 using rod_cases::single;
 
-/// A segment to be built. D and Dᵗ are given by strains relative to the frames `aim` and qᵗ.
+/// A segment to be built, with D = l R(aim) (e₃ + strain) and Dᵗ = l R(start) (e₃ + strain_start).
 struct Draft {
   double length = 1;     ///< l [m]
-  Four aim{0, 0, 0, 1};  ///< an orientation; D is its director times l, except for the strain
+  Four aim{0, 0, 0, 1};  ///< orientation from which D is built
   Four old{0, 0, 0, 1};
-  Four start{0, 0, 0, 1};         ///< qᵗ
-  Vec3 strain{}, strain_start{};  ///< strain of D relative to aim, of Dᵗ relative to qᵗ
+  Four start{0, 0, 0, 1};  ///< qᵗ
+  Vec3 strain{}, strain_start{};
 };
 
 void set_material(Random& random, OrientationCase& question) {
@@ -142,8 +142,8 @@ CaseData ends(Random& random) {
   return question;
 }
 
-/// Makes one side of a ring of three segments, where both neighbours are also each other's neighbours. Frames turn by
-/// up to a radian.
+/// Makes a segment of a ring of three. Its two neighbours are also neighbours of each other. Orientations rotate by up
+/// to a radian.
 CaseData ring(Random& random) {
   std::array<Vec3, 3> corner;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -156,7 +156,7 @@ CaseData ring(Random& random) {
     const Vec3 &a = corner[k], &b = corner[(k + 1) % 3];
     const Vec3 d{b.x - a.x, b.y - a.y, b.z - a.z};
     const double length = std::hypot(d.x, d.y, d.z);
-    const Vec3 half = sum(scaled(d, 1 / length), {0, 0, 1});  // twice the middle of e₃ and d, the axis of a half turn
+    const Vec3 half = sum(scaled(d, 1 / length), {0, 0, 1});  // axis of a half turn that rotates e₃ to d (their sum)
     rest[k] = unit({half.x, half.y, half.z, 0});
     now[k] = product(product(common, rest[k]), rotation(some_direction(random), random.between(0, 1)));
     start[k] = product(now[k], rotation(some_direction(random), random.between(0, 0.1)));
@@ -408,7 +408,7 @@ Four published(const OrientationCase&, const OrientationAnswer& answer) {
   double sigma = 0;
   for (std::size_t row = 0; row < 4; ++row) {
     turned[row] = inner(answer.matrix[row], b);
-    sigma += answer.matrix[0][row] * answer.matrix[0][row];  // M² = σ² I: each row has the length σ
+    sigma += answer.matrix[0][row] * answer.matrix[0][row];  // M² = σ² I, so each row has the length σ
   }
   const double multiplier = std::sqrt(sigma) + std::sqrt(inner(b, b));
   for (std::size_t k = 0; k < 4; ++k) turned[k] += multiplier * b[k];

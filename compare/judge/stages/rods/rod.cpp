@@ -91,7 +91,8 @@ CaseData at_rest(Random& random) {
                 start);
 }
 
-/// Turns a segment since the start as a rigid body, except for a rung, so that damping vanishes.
+/// Moves a segment rigidly since the start of the time step, except for a strain of a rung. Then damping nearly
+/// vanishes.
 CaseData turned_rigidly(Random& random) {
   const Four q = rod_cases::some_orientation(random), start = rod_cases::some_orientation(random);
   const double length = rod_cases::some_length(random);

@@ -24,7 +24,7 @@ using namespace volume_bodies;
 
 using Cells = std::array<int, 3>;
 
-/// Returns cells of side 1 from the origin on, each of six tetrahedra about its diagonal.
+/// Returns a block of unit cells with a corner at the origin. Each cell has six tetrahedra about its diagonal.
 VolumeBody block(const Cells& cells) {
   constexpr std::array<std::array<std::size_t, 3>, 6> ways{
       {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {1, 0, 2}, {2, 1, 0}}};
@@ -65,7 +65,7 @@ void centre(VolumeBody& body) {
   for (Vec3& p : body.x) p = scaled(minus(p, scaled(sum(low, high), 0.5)), scale);
 }
 
-/// Returns a bar bent by this many turns, with a pitch. With more than one turn its ends overlap.
+/// Returns a bar bent by this many full turns, with a pitch. With more than one turn its ends overlap.
 VolumeBody coil(Random& random, double turns, double pitch) {
   const int length = 6 + random.below(5);
   VolumeBody body = block({1, 1, length});
@@ -122,7 +122,8 @@ CaseData solid(Random& random) {
   return placed(random, std::move(body), std::move(points), radius, true, some_scale(random));
 }
 
-/// Makes cells and points of small integers and halves: points on vertices, edges and sides, with ways through them.
+/// Puts cells and points at small integers and halves. Then points are on vertices, edges and triangles, and ways lead
+/// through these.
 CaseData grid(Random& random) {
   VolumeBody body = some_block(random, 3);
   if (random.one_in(3)) body.append(some_block(random, 2), 1, on_lattice(random, 1));
@@ -178,7 +179,7 @@ CaseData sheets(Random& random) {
   return placed(random, std::move(body), std::move(points), some_radius(random), true, some_scale(random));
 }
 
-/// Moves vertices through the opposite sides of tetrahedra, or into their planes, so that some volumes are not
+/// Moves vertices through the opposite triangles of tetrahedra, or into their planes, so that some volumes are not
 /// positive. If the interior vertices of a large block move far, some sheets have no way.
 VolumeBody crushed(Random& random) {
   if (random.one_in(3)) {
@@ -222,9 +223,9 @@ CaseData inverted(Random& random) {
   return placed(random, std::move(body), std::move(points), radius, true, some_scale(random));
 }
 
-/// Makes a tetrahedron and another one behind each of its four sides. Most of these four are inside out. If all are, no
-/// point of the first tetrahedron has a way (straight path to the boundary). Otherwise its ways lead through those that
-/// are not inside out.
+/// Makes a tetrahedron with another one behind each of its four triangles. Most of these four are inside out. If all
+/// are, no point of the first tetrahedron has a way (straight path to the boundary). Otherwise ways lead through those
+/// that are not inside out.
 CaseData lost(Random& random) {
   VolumeBody body;
   body.x = {Vec3{0, 0, 0}, Vec3{2, 0, 0}, Vec3{0, 2, 0}, Vec3{0, 0, 2}};

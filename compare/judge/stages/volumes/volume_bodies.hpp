@@ -21,7 +21,7 @@ Vec3 unit(const Vec3& a);
 struct VolumeBody {
   std::vector<Vec3> x;
   std::vector<Triangle> triangles;
-  std::vector<Tetrahedron> tetrahedra{};  ///< their boundary is among the triangles
+  std::vector<Tetrahedron> tetrahedra{};  ///< tetrahedra, whose boundary is among the triangles
   std::vector<Edge> cavities{};           ///< pairs of vertices, as in VolumeDepthIn
 
   void append(const VolumeBody& other, double scale, const Vec3& shift);

@@ -143,7 +143,6 @@ VolumeBody of_vertices(int count) {
   return body;
 }
 
-/// Makes bodies of few vertices or none.
 CaseData few(Random& random) {
   constexpr std::array<int, 8> counts{0, 1, 2, 3, 5, 6, 10, 50};
   VolumeBody body = of_vertices(random.pick(std::span<const int>(counts)));
