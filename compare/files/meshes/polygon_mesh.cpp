@@ -1,5 +1,5 @@
-// Welds vertices, cuts faces, leaves out unused vertices and degenerate or repeated faces, and turns inverted
-// tetrahedra. Each change gives a sentence for the user.
+// Welds vertices, cuts faces, leaves out unused vertices and degenerate or repeated faces, and reorders the vertices of
+// inverted tetrahedra. Each change gives a sentence for the user.
 #include "compare/files/meshes/polygon_mesh.hpp"
 
 #include <algorithm>
@@ -311,8 +311,8 @@ class MeshMaker {
     note(all + " with the vertices of another " + (doubled.size() == 1 ? "was" : "were") + " left out: " + first);
   }
 
-  /// Turns all tetrahedra if all are inverted: the file has another convention for the order of vertices. If only some
-  /// are, they stay; validation of a scene refuses them.
+  /// If all tetrahedra are inverted, exchanges two vertices of each: the file orders vertices by another convention. If
+  /// only some are inverted, they stay; validation of a scene refuses them.
   void turn_inverted() {
     if (in_.tetrahedra.empty()) return;
     const std::vector<Vec3> seen = as_stages_see(in_.positions);
