@@ -49,8 +49,8 @@ struct Nearest {
   LeastSquare square;
   Index first = -1, second = -1;
 
-  /// Returns whether this pair is nearer than the pair (i, j), whose square is `other`, or equally near with smaller
-  /// numbers.
+  /// Returns whether this pair is nearer than the pair (i, j), whose squared distance is `other`, or equally near and
+  /// of smaller indices.
   bool keeps(const LeastSquare& other, Index i, Index j) const {
     if (first < 0) return false;
     const Exact difference = other.numerator * square.denominator - square.numerator * other.denominator;
