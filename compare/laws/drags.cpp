@@ -1,6 +1,6 @@
 // Tests bodies that friction holds or drags. Gravity pulls a sheet of mass M and n vertices along the gap between two
-// plates. Each plate presses on each vertex with k_c δ, so that friction can balance the weight. The sheet only creeps,
-// with the velocity v of slopes.cpp:
+// plates. Each plate presses on each vertex with k_c δ, where δ is the depth, so that friction can balance the weight.
+// The sheet only creeps, with the velocity v at which the smoothed friction f₁ balances the weight (slopes.cpp):
 //
 //     f₁(v/ε_v) = M g/(2 n μ k_c δ).
 //

@@ -67,7 +67,7 @@ std::vector<Scene> tumbling_scenes(LawSize size) {
   return {scene};
 }
 
-/// Returns Σ over the steps of h Σ m vᵗ⁺¹ × vᵗ of (1).
+/// Returns the change of L over the run by (1): the sum of h Σ m vᵗ⁺¹ × vᵗ over the steps.
 Vec3 lost_turn(const Trajectory& run) {
   const std::vector<double> m = masses(run.scene);
   Vec3 sum{};

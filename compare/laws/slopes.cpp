@@ -180,7 +180,7 @@ std::vector<Reading> read_stop(std::span<const Trajectory> runs) {
 constexpr Slope steep{degrees(20), 0.2, 0}, gentle{degrees(2), 1, 0}, smooth{degrees(20), 0, 0}, level{0, 0.2, 0.5};
 
 /// Returns the scene alone or, at the whole size, three scenes: the scene, the scene with five times the sweeps, and
-/// the scene with half of h. Each obeys the law of its own h.
+/// the scene with half of h. Each run is compared with the law for its own h.
 std::vector<Scene> at_sizes(Scene scene, LawSize size) {
   if (size == LawSize::least) return {scene};
   Scene swept = scene, fine = scene;
