@@ -16,7 +16,7 @@
 // force m g/√2. Without friction no force acts along the groove, so the cord keeps its speed. For solvers whose
 // contacts are barriers, the law tests that the cord rests, but not the force of springs.
 //
-// Tolerances are law_measures::force_left of the weight. Sums over nodes are exact for any number of nodes.
+// Each tolerance is a share of the weight, law_measures::force_left. Sums over nodes are exact for any number of nodes.
 #include <algorithm>
 #include <cmath>
 
