@@ -69,7 +69,6 @@ Hdf5Handle scalar_or_row(std::size_t count) {
   return {count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &length, nullptr), H5Sclose};
 }
 
-/// Returns HDF5's type of a text of `size` bytes.
 Hdf5Handle text_type(std::size_t size) {
   Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   if (H5Tset_size(type.id(), size) < 0 || H5Tset_strpad(type.id(), H5T_STR_NULLPAD) < 0) type.release();

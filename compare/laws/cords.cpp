@@ -40,7 +40,6 @@ Material cord(double bend) {
   return material;
 }
 
-/// Returns a rod along x with `count` segments; its first node is at `start`.
 Mesh straight(std::size_t count, const Vec3& start) {
   std::vector<Vec3> nodes;
   for (std::size_t k = 0; k <= count; ++k) nodes.push_back(plus(start, {static_cast<double>(k) * segment, 0, 0}));

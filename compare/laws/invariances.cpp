@@ -85,7 +85,6 @@ std::vector<Reading> read_apart(std::span<const Trajectory> runs) {
            .side = Side::at_most}};
 }
 
-/// Returns the scene with lengths times 2ᵏ.
 Scene scaled(Scene scene, int k) {
   const double s = std::ldexp(1., k);
   for (auto* list : {&scene.mesh.positions, &scene.rest_positions, &scene.velocities})

@@ -15,7 +15,6 @@
 namespace ogc::compare {
 namespace {
 
-/// The findings of one thread, or of all.
 struct Findings {
   std::vector<Intersection> intersections;
   std::size_t pairs_tested = 0;

@@ -152,7 +152,6 @@ void check_stage(const std::filesystem::path& file, const Obj& stage, const Dres
   }
 }
 
-/// Reads garment and body at the start.
 void take_start(DressData& data, const std::filesystem::path& file, const Obj& stage, const DressCounts& counts) {
   const Obj drape = ObjReader(file).read();
   check_count(file, "vertices", drape.positions.size(), counts.vertices + counts.body_vertices);

@@ -149,7 +149,6 @@ void of_ply(std::string_view text, Digits& digits) {
   }
 }
 
-/// Reads an OFF file: the counts after the keyword, then the vertices.
 void of_off(std::string_view text, Digits& digits) {
   std::size_t vertices = 0;
   bool counted = false;

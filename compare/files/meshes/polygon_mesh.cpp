@@ -52,14 +52,12 @@ bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   return has_zero_area(a, b, c);
 }
 
-/// Returns whether a mesh has no elements.
 bool is_empty(const Mesh& mesh) {
   bool empty = true;
   for_each_of<MeshLists>([&]<class List, std::size_t>() { empty = empty && (mesh.*List::list).empty(); });
   return empty;
 }
 
-/// Visits all elements of a mesh.
 template <class AnyMesh, class Visit>
 void each_element(AnyMesh& mesh, const Visit& visit) {
   for_each_of<MeshLists>([&]<class List, std::size_t>() { std::ranges::for_each(mesh.*List::list, visit); });

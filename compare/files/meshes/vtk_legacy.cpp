@@ -98,7 +98,6 @@ class VtkBlocks {
     return values;
   }
 
-  /// Throws InputError that names the line or the byte.
   [[noreturn]] void fail(const std::string& what) const {
     if (cursor_) cursor_->fail(what);
     lines_.fail(what);

@@ -123,7 +123,6 @@ void read_material(const JsonNode& node, Material& material) {
   object.finish();
 }
 
-/// Refuses keys that format 2 reserves for what is not simulated yet.
 void refuse_reserved(const JsonNode& node, const std::string& what) {
   node.fail("asks for " + what + ", which this ogc does not simulate yet", "leave it out, or use a newer ogc");
 }

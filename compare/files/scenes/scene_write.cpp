@@ -71,7 +71,6 @@ Mesh body_mesh(const Scene& scene, const Body& body, const std::vector<Vec3>& va
   return mesh;
 }
 
-/// Returns the orientations that the scene gives for the body's segments.
 std::vector<Quaternion> orientations_of(const Scene& scene, const Body& body) {
   std::vector<Quaternion> own;
   if (scene.orientations.empty()) return own;
