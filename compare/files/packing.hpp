@@ -25,7 +25,7 @@ constexpr std::size_t divide_up(std::size_t a, std::size_t b) { return (a + b - 
 /// Returns the number of rows of each chunk if `rows` rows are cut evenly; at least 1.
 std::size_t even_chunk_rows(std::size_t rows);
 
-/// A part of an array as a file stores it.
+/// A range of rows of an array, as a file stores it.
 struct PackedChunk {
   bool packed = false;  ///< true: shuffled and deflated; false: plain values
   std::string bytes;    ///< bytes in the file

@@ -1,5 +1,5 @@
 // Holds a mesh as its file gives it: faces of any number of corners, unused vertices, and one vertex for each corner if
-// faces share none. make_mesh turns it into a mesh of triangles, with a sentence for each change; options may forbid
+// faces share none. make_mesh makes a mesh of triangles from it, with a sentence for each change; options may forbid
 // changes.
 #pragma once
 
@@ -17,7 +17,7 @@ namespace ogc::compare {
 /// them.
 struct PolygonMesh : Mesh {
   std::vector<Index> corners;        ///< of all faces, one after the other, each face in its own order
-  std::vector<Index> face_ends{};    ///< end of each face's corners
+  std::vector<Index> face_ends{};    ///< by face: index in `corners` after its last corner
   MeshSource source;                 ///< places of its elements in the file
   std::vector<std::string> notes{};  ///< contents of the file that the mesh lacks
 

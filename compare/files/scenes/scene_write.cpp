@@ -53,7 +53,7 @@ Json material_json(const Material& material) {
   return json;
 }
 
-// Returns the body's mesh with the body's part of `values`, a vertex array of the scene, as positions.
+// Returns the body's mesh. Its positions are the body's entries of `values`, an array over the vertices of the scene.
 Mesh body_mesh(const Scene& scene, const Body& body, const std::vector<Vec3>& values) {
   Mesh mesh;
   const Index first = body.first_vertex, end = first + body.vertex_count;
