@@ -73,7 +73,7 @@ std::vector<Reading> read_conveyor(std::span<const Trajectory> runs) {
     way += h * (relative + belt);
   }
   // Both terms of `share` are derived in slopes.cpp: friction lags, and sweeps leave an error of its normal force λ.
-  // The share applies to the distance by which the belt is ahead of the body.
+  // The share applies to the distance `ahead` by which the belt leads the body.
   const double ahead = belt * h * static_cast<double>(run.rows.size()) - way;
   const double dragged = belt / (mu * standard_gravity), share = 2 * lagged_steps(run) * h / dragged + force_left(run);
   return {{.what = "way",

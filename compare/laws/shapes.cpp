@@ -101,7 +101,7 @@ Scene stacked_sheets(const char* name, int sheets, std::int64_t steps) {
   for (int k = 0; k < sheets; ++k) {
     height += scene.settings.contact_radius - (sheets - k) * each;
     Mesh mesh = sheet(5, 5, spacing, height);
-    // Each sheet is shifted by a part of a cell, so that no vertex lies above another one.
+    // Each sheet is shifted by a fraction of a cell, so that no vertex lies above another one.
     for (Vec3& x : mesh.positions) x = {x.x + 0.3 * k * spacing, x.y, x.z + 0.2 * k * spacing};
     append_body(scene, {.name = "sheet", .material = material}, mesh);
   }

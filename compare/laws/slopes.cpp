@@ -1,7 +1,7 @@
 // Tests slopes: gravity is tilted by α over a level floor, so that x points down the slope. A body at rest in contact
 // has the normal force m g cos α. A body that moves along the floor has the same normal force in the mean over time,
 // since its momentum along the normal is bounded. So along the slope its centre obeys Coulomb's law, smoothed as in
-// method.md §4.4. Implicit Euler turns this law into one equation for each step (law_measures::slid):
+// method.md §4.4. Implicit Euler makes this one equation for each step (law_measures::slid):
 //
 //     v' = v + h (g sin α − μ g cos α f₁(v'/ε_v)),   x' = x + h v',   f₁(y) = 2 y − y² for y < 1, else 1.
 //
