@@ -79,7 +79,7 @@ class Search {
   }
 
   /// Returns `box` grown by at least the nearest distance. The root and the sums are each wrong by at most half a unit
-  /// in the last place; one step outwards after each covers more than that.
+  /// in the last place; moving each outwards to the next double covers more than that.
   Box search_box(Box box) const {
     const double reach = std::nextafter(std::sqrt(limit_.load(std::memory_order_relaxed)), infinity);
     for (std::size_t k = 0; k < 3; ++k) {
