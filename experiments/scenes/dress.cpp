@@ -194,7 +194,7 @@ void append_strap(Scene& scene, const Band& bodice, Index cells, int side) {
 }
 
 /// Sets lengths below 2⁻²⁰ m, which scenes may not have (method.md §2.4), to 0. Other lengths keep their published
-/// values, so that different places remain different.
+/// values, so that different positions remain different.
 Vec3 without_dust(const Vec3& v) {
   const auto swept = [](double x) { return std::abs(x) < 0x1p-20 ? 0 : x; };
   return {swept(v.x), swept(v.y), swept(v.z)};

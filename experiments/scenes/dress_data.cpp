@@ -100,7 +100,7 @@ class ObjReader {
   Obj obj_;
 };
 
-/// Returns the first of the possible places that exists. The error names the most usual place.
+/// Returns the first of the possible paths that exists. The error names the most usual path.
 std::filesystem::path found(const std::filesystem::path& folder, const std::string& subfolder,
                             const std::string& name) {
   for (const std::filesystem::path& place : {folder / subfolder / name, folder / name}) {

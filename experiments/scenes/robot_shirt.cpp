@@ -88,7 +88,7 @@ class Pattern {
   Index side_;
   double spacing_, radius_;
   compare::Mesh mesh_;
-  /// by layer; shared vertices belong to the first layer
+  /// by layer: vertex of each grid point; vertices that both layers share are in the first map
   std::array<std::map<std::array<Index, 2>, Index>, 2> vertices_;
 };
 
