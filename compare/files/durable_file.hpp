@@ -45,7 +45,8 @@ void sync_to_disk(const std::filesystem::path& path);
 /// Throws InputError if another process holds the file with a LineAppender.
 void expect_no_appender(const std::filesystem::path& path);
 
-/// Appends whole lines to a file and holds a lock on it. The lock ends with the process, however that ends.
+/// Appends whole lines to a file and holds a lock on it. The system releases the lock when the process ends or is
+/// killed.
 class LineAppender {
  public:
   /// Creates the file. Throws ResourceError if that fails.

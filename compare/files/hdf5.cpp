@@ -69,7 +69,6 @@ Hdf5Handle scalar_or_row(std::size_t count) {
   return {count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &length, nullptr), H5Sclose};
 }
 
-/// Returns HDF5's type of a text of `size` bytes.
 Hdf5Handle text_type(std::size_t size) {
   Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   if (H5Tset_size(type.id(), size) < 0 || H5Tset_strpad(type.id(), H5T_STR_NULLPAD) < 0) type.release();
@@ -158,9 +157,11 @@ void Hdf5File::create_dataset(const std::string& name, std::size_t rows, std::si
   if (!dataset.valid()) refuse_write(name);
 }
 
-// A chunk that does not shrink is stored as it is, and the last chunk is stored whole. A node of the chunks' index
-// holds 64 chunks, has at most 4 KiB (keys of 3 extents) and is at least half full: 128 B a chunk. As much again covers
-// the upper levels of the index. Object header, group entry and attributes take 4 KiB.
+// Adds these upper limits:
+// - each chunk: its rows, uncompressed; the last chunk is stored whole
+// - each chunk: 128 B in a leaf of the index (a leaf has 32 to 64 chunks and at most 4 KiB, with keys of 3 extents)
+// - each chunk: 128 B for the upper levels of the index
+// - 4 KiB for object header, group entry and attributes, and 4 KiB for the root of the index, nearly empty or not
 std::size_t Hdf5File::largest_size(std::size_t rows, std::size_t row_bytes, std::size_t part) {
   const std::size_t in_chunk = rows_in_chunk(part), chunks = divide_up(rows, in_chunk);
   return chunks * (in_chunk * row_bytes + 256) + 8192;

@@ -71,7 +71,7 @@ class Hdf5File {
   /// Makes a dataset without rows, for append_packed.
   void create_growing(const std::string& name, std::size_t columns, std::size_t chunk_rows);
   /// Appends the chunks of an array that has the dataset's columns and chunk_rows. The zeros that fill the array's last
-  /// chunk become rows. Reserve growth() first.
+  /// chunk become rows. The caller must reserve growth() bytes first.
   void append_packed(const std::string& name, const PackedArray& array);
   /// Returns the largest number of bytes by which append_packed makes the file longer.
   static std::size_t growth(const PackedArray& array);

@@ -20,7 +20,7 @@ std::string shuffled(std::string_view bytes) {
   return result;
 }
 
-/// Returns the bytes in zlib's format, as HDF5's filter writes them; empty if that is no shorter.
+/// Returns the bytes in zlib's format, as HDF5's filter writes them; an empty string if compression saves nothing.
 std::string deflated(const std::string& bytes) {
   std::string result(bytes.size(), '\0');
   uLongf size = result.size();

@@ -10,8 +10,8 @@
 
 namespace ogc::compare {
 
-/// Returns the CRC-32 (ISO 3309, as in zlib and PNG) of `bytes`, appended to bytes with the CRC `before`. It detects
-/// damage, but no forgery.
+/// Returns the CRC-32 (ISO 3309, as in zlib and PNG) of `bytes`, or of preceding bytes and `bytes` if `before` is the
+/// CRC of the preceding ones. It detects damage, but no forgery.
 std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0);
 
 /// Largest and smallest number of rows of a chunk. With 3 floats a row, the largest chunk has 768 KiB, which fits
@@ -22,10 +22,10 @@ inline constexpr std::size_t largest_chunk_rows = 1 << 16, smallest_chunk_rows =
 /// Returns a / b, rounded up.
 constexpr std::size_t divide_up(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
 
-/// Returns the rows of each chunk if `rows` rows are cut evenly; at least 1.
+/// Returns the number of rows of each chunk if `rows` rows are cut evenly; at least 1.
 std::size_t even_chunk_rows(std::size_t rows);
 
-/// A part of an array as a file stores it.
+/// A range of rows of an array, as a file stores it.
 struct PackedChunk {
   bool packed = false;  ///< true: shuffled and deflated; false: plain values
   std::string bytes;    ///< bytes in the file

@@ -15,8 +15,8 @@ namespace {
 bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 bool is_end(char c) { return c == '\n' || c == '\r'; }
 
-/// Returns the number of characters before the first that satisfies `is`, or of all characters. std::string_view's
-/// search for one of several characters is slower on large files.
+/// Returns the number of characters before the first that satisfies `is`, or of all characters if none does.
+/// std::string_view's search for one of several characters is slower on large files.
 template <class Is>
 std::size_t before(std::string_view text, Is is) {
   return static_cast<std::size_t>(std::ranges::find_if(text, is) - text.begin());

@@ -1,8 +1,8 @@
 // Tests clamped beams, a pendulum, and the energy of a swinging sheet.
 //
-// Hinge. Two triangles share an edge of length e. One is held level. The other turns about the edge under the weight m
-// g of its free corner, which is at the distance b from the edge and has a third of the triangle's mass. The edge is a
-// torsion spring,
+// Hinge. Two triangles share an edge of length e. One is held level. The other rotates about the edge under the weight
+// m g of its free corner, which is at the distance b from the edge and has a third of the triangle's mass. The edge is
+// a torsion spring,
 //
 //     c θ = m g b cos θ,   c = 3 k_b e²/(A₀ + A₁),                                                            (1)
 //
@@ -22,8 +22,7 @@
 //     w = q L⁴/(20 E I) + q L²/(3 (5/6) G A) = ρ g L⁴ 12/(20 E t²) + ρ g L²/(2.5 G).                          (3)
 //
 // The deflection minimises energy minus work, and linear tetrahedra allow only some of all displacements. So their mean
-// deflection is less. If the cells are halved, it grows, since the small cells allow all displacements of the large
-// ones.
+// deflection is less than w. It grows if the cells are halved, since small cells allow all displacements of large ones.
 //
 // Pendulum. A triangle that hangs from a corner moves as a rigid body, except for a small strain. Implicit Euler takes
 // the rotation nearest, in the norm of masses, to y = 2 x_n − x_{n−1} + h² g. In the plane, with x = r e^{iθ},
@@ -33,22 +32,23 @@
 // for any swing. The strain ε that the weight causes makes the pendulum longer, so its phase ω t lags by a share of
 // ε/2.
 //
-// Energy. Let f be the force that a step leaves, inertia's included, Δ = x' − x, and E the sum of kinetic energy,
-// elastic energy U and gravity's energy (method.md §7.8):
+// Energy. Let f be the remaining force of a step, including inertia. Let Δ = x' − x, and let E be the sum of kinetic
+// energy, elastic energy U and gravity's energy (method.md §7.8):
 //
 //     E' − E = −f·Δ − ‖v' − v‖²_M/2 − c,   c = U(x) − U(x') + ∇U(x')·Δ,   −f·Δ = (M (v' − v)/h − M a + ∇U(x'))·Δ. (5)
 //
-// c ≥ 0 where U is convex. Turning hinges and shrinking triangles make U non-convex, so c may be negative. The law
+// c ≥ 0 where U is convex. Rotating hinges and shrinking triangles make U non-convex, so c may be negative. The law
 // claims that E rises by at most (5) without c. It computes this limit from the states, so a wrong U, or a wrong energy
-// in a row, breaks the law.
+// in the metrics of a step, breaks the law.
 //
 // A solved step has f = 0, and its energy does not rise. With few sweeps a force f remains, and the energy may rise up
-// to the limit. N = D ln(101)/2 sweeps leave a hundredth of a stretch (method.md §7.7), so f is a hundredth of the
-// elastic force. The work of f during the motion is then below a hundredth of U, and U stays below the largest kinetic
-// energy. So N sweeps need no limit, and neither does Newton. D = 1 + h² q, where q is a third of the trace of a
-// vertex's stiffness over its mass. The trace of a membrane's corner is A (λ + 3μ) ‖∇N‖², which adds up to 4 (λ + 3μ)
-// for a vertex of a lattice of spacing a. The trace of a hinge's corner is c ‖∇θ‖²: up to 18 k_b/a² for each of two
-// sides and 48 k_b/a² for a diagonal.
+// to the limit. N sweeps need no limit, and neither does Newton. Let D = 1 + h² q, where q is a third of the trace of a
+// vertex's stiffness over its mass. N = D ln(101)/2 sweeps leave a hundredth of a stretch (method.md §7.7), so f is a
+// hundredth of the elastic force. The work of f during the motion is then below a hundredth of U, and U stays below the
+// largest kinetic energy. The trace of a vertex's stiffness is a sum, on a lattice of spacing a:
+//
+// - the membrane: A (λ + 3μ) ‖∇N‖² for each corner, together 4 (λ + 3μ)
+// - hinges: c ‖∇θ‖² for each corner, up to 18 k_b/a² for each of two cell sides and 48 k_b/a² for a diagonal
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -216,7 +216,7 @@ double swing_angle(const LawState& state) {
   return std::atan2(x.x, -x.y);
 }
 
-/// Returns the angles of (4), from the start angle and the rest shape. Points are complex numbers x + i y, turned so
+/// Returns the angles of (4), from the start angle and the rest shape. Points are complex numbers x + i y, rotated so
 /// that straight down has the angle 0.
 std::vector<double> swings(const Trajectory& run) {
   using Complex = std::complex<double>;
@@ -260,7 +260,7 @@ std::vector<Reading> read_swing(std::span<const Trajectory> runs) {
 
 constexpr double arc_cell = 0.03, arc_density = 0.3, arc_lame = 500, arc_bending = 0.005;
 
-/// Returns N, the number of sweeps derived at the end of this file's head.
+/// Returns N, the number of sweeps that this file's head derives.
 double solving_sweeps(double time_step) {
   const double trace = 16 * arc_lame + 84 * arc_bending / (arc_cell * arc_cell);
   const double mass = arc_density * arc_cell * arc_cell;

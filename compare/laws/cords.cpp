@@ -16,7 +16,7 @@
 // force m g/√2. Without friction no force acts along the groove, so the cord keeps its speed. For solvers whose
 // contacts are barriers, the law tests that the cord rests, but not the force of springs.
 //
-// Tolerances are law_measures::force_left of the weight. Sums over nodes are exact for any number of nodes.
+// Each tolerance is a share of the weight, law_measures::force_left. Sums over nodes are exact for any number of nodes.
 #include <algorithm>
 #include <cmath>
 
@@ -40,7 +40,6 @@ Material cord(double bend) {
   return material;
 }
 
-/// Returns a rod along x with `count` segments; its first node is at `start`.
 Mesh straight(std::size_t count, const Vec3& start) {
   std::vector<Vec3> nodes;
   for (std::size_t k = 0; k <= count; ++k) nodes.push_back(plus(start, {static_cast<double>(k) * segment, 0, 0}));

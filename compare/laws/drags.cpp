@@ -1,6 +1,6 @@
 // Tests bodies that friction holds or drags. Gravity pulls a sheet of mass M and n vertices along the gap between two
-// plates. Each plate presses on each vertex with k_c δ, so that friction can balance the weight. The sheet only creeps,
-// with the velocity v of slopes.cpp:
+// plates. Each plate presses on each vertex with k_c δ, where δ is the depth, so that friction can balance the weight.
+// The sheet only creeps, with the velocity v at which the smoothed friction f₁ balances the weight (slopes.cpp):
 //
 //     f₁(v/ε_v) = M g/(2 n μ k_c δ).
 //
@@ -73,7 +73,7 @@ std::vector<Reading> read_conveyor(std::span<const Trajectory> runs) {
     way += h * (relative + belt);
   }
   // Both terms of `share` are derived in slopes.cpp: friction lags, and sweeps leave an error of its normal force λ.
-  // The share applies to the distance by which the belt is ahead of the body.
+  // The share applies to the distance `ahead` by which the belt leads the body.
   const double ahead = belt * h * static_cast<double>(run.rows.size()) - way;
   const double dragged = belt / (mu * standard_gravity), share = 2 * lagged_steps(run) * h / dragged + force_left(run);
   return {{.what = "way",

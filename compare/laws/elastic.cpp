@@ -1,6 +1,7 @@
-// Differentiates by the rules of sums and products: a `Moving` number contains its rate of change along d. The
-// membrane's energy needs tr G and ‖G‖² of the Green strain G. Let g be the 2×2 matrix of the scalar products of a
-// triangle's two edges, and ḡ the same matrix at rest. Then C = ḡ⁻¹ (g − ḡ)/2 has tr C = tr G and tr C² = ‖G‖².
+// Differentiates by the rules of sums and products: a `Moving` number contains its rate of change along the
+// displacement d. The membrane's energy needs tr G and ‖G‖² of the Green strain G. Let g be the 2×2 matrix of the
+// scalar products of a triangle's two edges, and ḡ the same matrix at rest. Then C = ḡ⁻¹ (g − ḡ)/2 has tr C = tr G and
+// tr C² = ‖G‖².
 #include "compare/laws/elastic.hpp"
 
 #include <array>

@@ -1,5 +1,5 @@
-// Computes the elastic energy of cloth from method.md. The laws judge the energy of a solver, so they use this one
-// instead.
+// Computes the elastic energy of cloth from method.md. The laws judge the energy that a solver reports, so they do not
+// use the solver's code.
 #pragma once
 
 #include <vector>

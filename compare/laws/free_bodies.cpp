@@ -3,7 +3,7 @@
 //
 //     Σ m vᵗ⁺¹ = Σ m vᵗ,      Lᵗ⁺¹ = Σ m xᵗ⁺¹ × vᵗ = Lᵗ + h Σ m vᵗ⁺¹ × vᵗ                                   (1)
 //
-// for any motion. Let a rigid body turn by φ_n in step n about an axis through its centre. At radius R it has v_n =
+// for any motion. Let a rigid body rotate by φ_n in step n about an axis through its centre. At radius R it has v_n =
 // (x_n − x_{n−1})/h, and y = 2 x_n − x_{n−1} lies at the angle atan(sin φ_n/(2 − cos φ_n)) ahead of x_n. The rotation
 // nearest to y in the norm of the masses has this angle:
 //
@@ -67,7 +67,7 @@ std::vector<Scene> tumbling_scenes(LawSize size) {
   return {scene};
 }
 
-/// Returns Σ over the steps of h Σ m vᵗ⁺¹ × vᵗ of (1).
+/// Returns the change of L over the run by (1): the sum of h Σ m vᵗ⁺¹ × vᵗ over the steps.
 Vec3 lost_turn(const Trajectory& run) {
   const std::vector<double> m = masses(run.scene);
   Vec3 sum{};

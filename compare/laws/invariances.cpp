@@ -2,8 +2,8 @@
 //
 // A second body farther away than any contact exerts no force on the first. But its speed sets the query radius of all
 // vertices, and its values enter the means that decide when a solve ends. (The stiffness of IPC's barriers depends on
-// the whole scene, unless κ is given.) So a resting sheet stays in place, except for rounding (flight_rounding) and the
-// remaining force of a step, law_measures::force_left of h² g.
+// the whole scene, unless a setting gives it.) So a resting sheet stays in place, except for rounding (flight_rounding)
+// and the remaining force of a step, which moves the sheet by at most law_measures::force_left times h² g.
 //
 // Lengths are scaled by 2ᵏ, masses and times are not. Lengths, velocities, gravity, radii and ε_v are multiplied by 2ᵏ,
 // densities per square metre by 4⁻ᵏ, energies of bending by 4ᵏ; stiffnesses [N/m] stay. So every number of a step is
@@ -85,7 +85,6 @@ std::vector<Reading> read_apart(std::span<const Trajectory> runs) {
            .side = Side::at_most}};
 }
 
-/// Returns the scene with lengths times 2ᵏ.
 Scene scaled(Scene scene, int k) {
   const double s = std::ldexp(1., k);
   for (auto* list : {&scene.mesh.positions, &scene.rest_positions, &scene.velocities})

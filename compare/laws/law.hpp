@@ -45,12 +45,12 @@ struct Reading {
   double answer = 0;       ///< in closed form
   double tolerance = 0;    ///< in the same unit; the law's file derives it
   Side side = Side::both;  ///< whether a reading below the answer is right as well
-  /// Largest error that the method can cause by a derived limit; 0: no limit is derived.
+  /// Derived upper limit of the error that the method itself may cause; 0: no limit is derived.
   double limit = 0;
   std::string why{};  ///< reason of the limit, and the setting that changes it
 };
 
-/// Verdict about a reading, or about a whole row.
+/// Verdict about a reading, or about all readings of a law.
 enum class Verdict {
   holds,   ///< within the tolerance
   limit,   ///< beyond the tolerance, within the derived limit
@@ -72,8 +72,8 @@ struct Law {
   std::string_view name, group;  ///< "slope_slides", "slopes"
   std::string_view meaning;      ///< a clause: what the law tests
   std::string_view answer;       ///< a line: the closed answer
-  /// Whether the law needs a solver with contact energy (Answerer). For other solvers the row states that it is left
-  /// out.
+  /// Whether the law needs a solver with contact energy (Answerer). Other solvers are not tested by the law, and the
+  /// report states so.
   bool needs_springs = false;
   /// Returns the scenes to run; settings.steps gives the length.
   std::vector<Scene> (*scenes)(LawSize size) = nullptr;

@@ -17,7 +17,7 @@ Vec3 cross(const Vec3& a, const Vec3& b);
 double length(const Vec3& a);
 
 /// Returns the share of a body's weight that a step may leave unbalanced. Newton ends at 10⁻⁴ (newton_tolerance) of the
-/// force after the guess, which is the weight of a body at rest. The sweeps of a scene must reach 1/40.
+/// force after the guess loop, which is the weight of a body at rest. The sweeps of a scene must reach 1/40.
 double force_left(const Trajectory& run);
 
 /// Returns the number of steps by which friction's normal force may lag: 1, because a solve uses the force of the

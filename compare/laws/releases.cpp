@@ -10,10 +10,9 @@
 //
 // With a convex potential U implicit Euler loses at least m (v' − v)²/2 in each step, so m v²/2 + m g x + U never
 // rises. That requires that a contact is listed in the step in which its distance falls below r. But a detection lists
-// only contacts that are below r at the start of the step. So in the step of the impact the triangle enters by up to h
-// v without the work k_c (h v)²/2, and the bounce gains up to that energy. With v² = 2 g H after a fall of H the gain
-// is a share κ of the fall's energy.
-// This limit is derived, and `contact_margin` changes it.
+// only contacts that are below r at the start of the step. So in the step of the impact the triangle moves up to h v
+// below r, and the contact does not yet do the work k_c (h v)²/2. The bounce gains up to that energy. With v² = 2 g H
+// after a fall of H the gain is a share κ of the fall's energy. This limit is derived, and `contact_margin` changes it.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -168,7 +167,7 @@ double energy_of_bounce(const Trajectory& run, const LawState& state) {
   return energy;
 }
 
-/// Returns the largest rise of energy over the energy of the fall.
+/// Returns the largest rise of energy, divided by the energy of the fall.
 double energy_gained(const Trajectory& run) {
   double least = std::numeric_limits<double>::infinity(), rise = 0;
   for (const LawState& state : run.states) {

@@ -8,8 +8,8 @@
 // (slopes.cpp). A sheet that is dropped by a fifth of r also comes to rest, because implicit Euler loses at least m (v'
 // − v)²/2 in each step.
 //
-// Tolerances are law_measures::force_left of the weight. This remaining force changes a vertex's velocity by that share
-// of g h in a step, and its energy by the square of the share.
+// Each tolerance is a share of the weight, law_measures::force_left. This remaining force changes a vertex's velocity
+// by that share of g h in a step, and its energy by the square of the share.
 #include <algorithm>
 #include <cmath>
 

@@ -24,8 +24,8 @@ Mesh sheet(Index rows, Index columns, double spacing, double height) {
 }
 
 Mesh floor_triangle(double reach, double height) {
-  // The corners of an equilateral triangle are twice as far from its centre as its sides. The factor 3/2 beyond that
-  // keeps the sides away from bodies.
+  // The distance of an equilateral triangle's corners from its centre is twice that of its edges. The further factor
+  // 3/2 keeps the edges away from bodies.
   const double corner = 3 * reach;
   return {.positions = {{corner, height, 0},
                         {-corner / 2, height, -corner * std::numbers::sqrt3 / 2},
@@ -35,8 +35,8 @@ Mesh floor_triangle(double reach, double height) {
 }
 
 Mesh box(const std::array<Index, 3>& cells, double spacing, const Vec3& low) {
-  // The six orders of axes along which a path leads from a cube's lowest to its highest corner; odd orders are
-  // mirrored.
+  // The six orders of axes along which a path leads from a cube's lowest to its highest corner. Odd permutations come
+  // last; two corners of their tetrahedra are exchanged below.
   constexpr std::array<std::array<std::size_t, 3>, 6> orders{
       {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
   const std::array<Index, 3> count{cells[0] + 1, cells[1] + 1, cells[2] + 1};
@@ -101,7 +101,7 @@ Scene stacked_sheets(const char* name, int sheets, std::int64_t steps) {
   for (int k = 0; k < sheets; ++k) {
     height += scene.settings.contact_radius - (sheets - k) * each;
     Mesh mesh = sheet(5, 5, spacing, height);
-    // Each sheet is shifted by a part of a cell, so that no vertex lies above another one.
+    // Each sheet is shifted by a fraction of a cell, so that no vertex lies above another one.
     for (Vec3& x : mesh.positions) x = {x.x + 0.3 * k * spacing, x.y, x.z + 0.2 * k * spacing};
     append_body(scene, {.name = "sheet", .material = material}, mesh);
   }

@@ -1,7 +1,7 @@
 // Tests slopes: gravity is tilted by α over a level floor, so that x points down the slope. A body at rest in contact
 // has the normal force m g cos α. A body that moves along the floor has the same normal force in the mean over time,
 // since its momentum along the normal is bounded. So along the slope its centre obeys Coulomb's law, smoothed as in
-// method.md §4.4. Implicit Euler turns this law into one equation for each step (law_measures::slid):
+// method.md §4.4. Implicit Euler makes this one equation for each step (law_measures::slid):
 //
 //     v' = v + h (g sin α − μ g cos α f₁(v'/ε_v)),   x' = x + h v',   f₁(y) = 2 y − y² for y < 1, else 1.
 //
@@ -180,7 +180,7 @@ std::vector<Reading> read_stop(std::span<const Trajectory> runs) {
 constexpr Slope steep{degrees(20), 0.2, 0}, gentle{degrees(2), 1, 0}, smooth{degrees(20), 0, 0}, level{0, 0.2, 0.5};
 
 /// Returns the scene alone or, at the whole size, three scenes: the scene, the scene with five times the sweeps, and
-/// the scene with half of h. Each obeys the law of its own h.
+/// the scene with half of h. Each run is compared with the law for its own h.
 std::vector<Scene> at_sizes(Scene scene, LawSize size) {
   if (size == LawSize::least) return {scene};
   Scene swept = scene, fine = scene;

@@ -15,7 +15,6 @@
 namespace ogc::compare {
 namespace {
 
-/// The findings of one thread, or of all.
 struct Findings {
   std::vector<Intersection> intersections;
   std::size_t pairs_tested = 0;
@@ -43,7 +42,7 @@ class Auditor {
       all.pairs_tested += share.pairs_tested;
     }
     std::sort(all.intersections.begin(), all.intersections.end());
-    // An edge pair is found once for each triangle that contains one of both edges.
+    // Removes copies: an edge pair is found once for each triangle that contains one of the two edges.
     const auto [first, last] = std::ranges::unique(all.intersections);
     all.intersections.erase(first, last);
     return all;
@@ -110,8 +109,8 @@ class Auditor {
 
   std::array<Vec3, 2> segment(const Edge& e) const { return {positions_[at(e[0])], positions_[at(e[1])]}; }
 
-  /// Tests an edge against a triangle with which it has one common vertex, by the side of the triangle opposite to that
-  /// vertex. If edge and side cross in a common plane, no vertex lies on a triangle, so no other test finds them.
+  /// Tests an edge that shares one vertex with a triangle. `side` is the triangle's edge opposite to that vertex. If
+  /// both edges cross in a common plane, no vertex lies on a triangle, so no other test finds this intersection.
   void test_opposite(Index edge, const Box& box, const Edge& side, Findings& found) const {
     const std::array<Vec3, 2> others = segment(side);
     if (!box.meets(box_of({others[0], others[1]}))) return;
@@ -123,8 +122,8 @@ class Auditor {
     found.intersections.push_back({IntersectionKind::edge_edge, std::min(edge, other), std::max(edge, other)});
   }
 
-  /// Returns whether two edges meet. If they share a vertex, only other common points count: then an end of one edge
-  /// lies on the other.
+  /// Returns whether two edges meet. If they share a vertex, they meet only if the other end of one edge lies on the
+  /// other edge.
   bool meet(const Edge& first, const Edge& second) const {
     const auto lies_on = [&](Index v, const Edge& other) {
       return v != other[0] && v != other[1] && segments_meet(segment({v, v}), segment(other));

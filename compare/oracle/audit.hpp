@@ -19,11 +19,11 @@ enum class IntersectionKind : std::uint8_t { edge_triangle, vertex_triangle, edg
 /// - Edge `first` meets triangle `second` without sharing a vertex; touching counts.
 /// - Vertex `first` lies on triangle `second`, which does not contain it.
 /// - Edges `first` < `second` meet, and neither meets a triangle of the other as above. Either both belong to no
-///   triangle, or one meets the side of a triangle opposite to their common vertex. Two edges with a common vertex meet
-///   if the other end of one lies on the other.
+///   triangle; edges with a common vertex then meet if the other end of one lies on the other. Or one is the edge of a
+///   triangle opposite to a vertex of the other.
 struct Intersection {
   IntersectionKind kind = IntersectionKind::edge_triangle;  ///< kind of the faces
-  Index first = -1, second = -1;                            ///< edge or vertex, triangle or edge
+  Index first = -1, second = -1;                            ///< an edge or a vertex; a triangle or an edge
   friend auto operator<=>(const Intersection&, const Intersection&) = default;
 };
 
@@ -50,8 +50,8 @@ AuditResult audit(const Topology& topology, std::span<const Vec3> positions, con
                   const AuditOptions& options = {});
 
 /// Returns, for each listed intersection, all pairs of a vertex of one face and a vertex of the other, the smaller
-/// vertex first, in ascending order. If a scene excludes these pairs (Scene::excluded_pairs), audits also leave out all
-/// other faces that contain the two vertices of a pair.
+/// vertex first, in ascending order. If a scene excludes these pairs (Scene::excluded_pairs), audits leave out all
+/// faces of which one contains the first and the other the second vertex of a pair.
 std::vector<Edge> vertex_pairs(const AuditResult& result, const Topology& topology);
 
 /// Returns "edge of body 'cloth' (vertices 3, 7) meets face 40 of body 'floor' (…)".

@@ -18,7 +18,7 @@ struct Box {
   std::array<double, 3> low{1e308, 1e308, 1e308}, high{-1e308, -1e308, -1e308};  ///< corners [m]
   void add(const Vec3& point);                                                   ///< grows to contain the point
   void add(const Box& box);                                                      ///< grows to contain the box
-  /// Returns whether the closed boxes share a point. Inline, because most of the calls go here.
+  /// Returns whether the closed boxes share a point. Inline, because it is called most often.
   bool meets(const Box& other) const {
     return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] && other.low[1] <= high[1] &&
            low[2] <= other.high[2] && other.low[2] <= high[2];

@@ -1,5 +1,5 @@
 // Checks the motion certificate (method.md §5.5). Two states without intersections do not prove that the motion between
-// them was free of intersections. It was if all vertices stayed within their bounds.
+// them had none. The motion had none if all vertices stayed within their bounds.
 #pragma once
 
 #include <cstddef>

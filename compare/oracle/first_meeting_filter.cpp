@@ -1,15 +1,19 @@
 // Proves that two faces do not meet, by one direction: along it every vertex of one face is above every vertex of the
 // other, at the beginning and at the end of a span of time. Heights are linear in time, so this also holds in between,
 // and the hulls never meet. The proof holds for any direction, so rounded guesses suffice. Only the error of the
-// heights matters; its bound follows.
+// heights matters.
 //
-// Let h = d·(p − q) be the height of vertex p over vertex q along d, u = 2⁻⁵³, M = Σ|d_k||p_k − q_k| as computed.
-// Rounding errors of h: one of the difference, one of its product, two of two sums, together less than 4.001 u M. At
-// time s, the beginning or end of a span, the height is (1 − s) h₀ + s h₁, where s is dyadic with few bits. This adds
-// two products and a sum, less than 2.001 u max(|h₀|, |h₁|), and |h| ≤ M(1 + 4u). 8 u max(M₀, M₁) is more than the sum
-// of these errors and the rounding of M. A product that underflows loses at most 2⁻¹⁰⁷⁴; 2⁻¹⁰⁰⁰ is more than five times
-// that. Contraction to fused operations only reduces rounding errors. Infinity and NaN prove nothing, since each
-// comparison with them fails.
+// Let h = d·(p − q) be the height of vertex p over vertex q along d, M = Σ|d_k||p_k − q_k| as computed, and u = 2⁻⁵³. A
+// computed height must exceed 8 u max(M₀, M₁) + 2⁻¹⁰⁰⁰, which is more than the sum of these errors:
+//
+// - h at time 0 or 1 (one rounding of the difference, one of the product, two of the sums): less than 4.001 u M
+// - the height (1 − s) h₀ + s h₁ at time s, which is dyadic with few bits (two products and a sum): less than
+//   2.001 u max(|h₀|, |h₁|), where |h| ≤ M (1 + 4u)
+// - the rounding of M
+// - underflow of products: at most five times 2⁻¹⁰⁷⁴
+//
+// Contraction to fused operations only reduces rounding errors. Infinity and NaN prove nothing, since each comparison
+// with them fails.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Separates roots by Descartes' rule in Bernstein form: the coefficients on an open interval have as many changes of
-// sign as the polynomial has roots there, or an even number more. So no change and one change give the exact number of
-// roots. Halving an interval ends if no root is multiple (Obreshkoff; Mourrain, Rouillier, Roy 2005). The greatest
+// sign as the polynomial has roots there, or an even number more. So 0 or 1 changes of sign mean exactly 0 or 1 roots.
+// Repeated halving of an interval ends if no root is multiple (Obreshkoff; Mourrain, Rouillier, Roy 2005). The greatest
 // common divisor of two polynomials decides whether they share a root, so a sign of 0 is found exactly. Coefficients
 // are dyadic numbers, and only ring operations are used.
 #include "compare/oracle/moments.hpp"

@@ -7,8 +7,8 @@
 
 namespace ogc::compare {
 
-/// Returns whether a pair of primitives, given by their vertices, is excluded (method.md §2.3): all vertices have one
-/// group ≥ 0, or a vertex of one primitive is an excluded partner of a vertex of the other.
+/// Returns whether a pair of primitives, given by their vertices, is excluded (method.md §2.3): all vertices have the
+/// same group ≥ 0, or a vertex of one primitive is an excluded partner of a vertex of the other.
 bool is_excluded(std::span<const Index> first, std::span<const Index> second, const ExclusionView& exclusions);
 /// Returns whether the pair is excluded or shares a vertex.
 bool left_out(std::span<const Index> first, std::span<const Index> second, const ExclusionView& exclusions);

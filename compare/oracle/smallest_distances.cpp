@@ -49,8 +49,8 @@ struct Nearest {
   LeastSquare square;
   Index first = -1, second = -1;
 
-  /// Returns whether this pair is nearer than the pair (i, j), whose square is `other`, or equally near with smaller
-  /// numbers.
+  /// Returns whether this pair is nearer than the pair (i, j), whose squared distance is `other`, or equally near and
+  /// of smaller indices.
   bool keeps(const LeastSquare& other, Index i, Index j) const {
     if (first < 0) return false;
     const Exact difference = other.numerator * square.denominator - square.numerator * other.denominator;
@@ -79,7 +79,7 @@ class Search {
   }
 
   /// Returns `box` grown by at least the nearest distance. The root and the sums are each wrong by at most half a unit
-  /// in the last place; one step outwards after each covers more than that.
+  /// in the last place; moving each outwards to the next double covers more than that.
   Box search_box(Box box) const {
     const double reach = std::nextafter(std::sqrt(limit_.load(std::memory_order_relaxed)), infinity);
     for (std::size_t k = 0; k < 3; ++k) {

@@ -8,8 +8,8 @@
 
 namespace ogc::compare {
 
-/// Holds the smallest distances over pairs that share no vertex and are not excluded [m]; infinite, with −1, if there
-/// is no pair. Isolated vertices are left out.
+/// Holds the smallest distances [m] over pairs that share no vertex and are not excluded. If there is no pair, the
+/// distance is infinite and the indices are −1. Isolated vertices are left out.
 struct SmallestDistances {
   double vertex_triangle = std::numeric_limits<double>::infinity();  ///< [m]
   Index vertex = -1, triangle = -1;                                  ///< the pair; −1 if there is none

@@ -36,7 +36,8 @@ int crossing(const Corners& t, const Vec3& x) {
   const int seen = side_seen(t[0], t[1], x);
   if (seen == 0 || side_seen(t[1], t[2], x) != seen || side_seen(t[2], t[0], x) != seen) return 0;
   const auto point = [](const Vec3& v) { return Kernel::Point_3(v.x, v.y, v.z); };
-  // the normal's x component has the sign `seen`; the plane lies ahead if x is on the side opposite to it
+  // `seen` is the sign of the normal's x component. The plane lies ahead if x is on that side of the plane which faces
+  // −x.
   const int above = CGAL::orientation(point(t[0]), point(t[1]), point(t[2]), point(x));
   return above == -seen ? seen : 0;
 }
@@ -56,7 +57,7 @@ double to_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
 }
 
 /// Returns the rounded distance to a triangle. If rounding leaves open whether the closest point of the plane is inside
-/// the triangle, the distance to the triangle's sides is returned, which then differs only by rounding.
+/// the triangle, returns the distance to the triangle's edges, which then differs only by rounding.
 double to_triangle(const Vec3& x, const Corners& t) {
   const Vec3 n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
   const double square = dot(n, n);
@@ -67,7 +68,8 @@ double to_triangle(const Vec3& x, const Corners& t) {
   return std::min({to_segment(x, t[0], t[1]), to_segment(x, t[1], t[2]), to_segment(x, t[2], t[0])});
 }
 
-/// Sorts edges that have one triangle into closed rims. Each edge is directed against its triangle.
+/// Sorts the edges that have one triangle into closed rims. Reverses each edge, so that a triangle added at the edge
+/// has the orientation of the part.
 std::vector<std::vector<Edge>> closed_rims(const std::vector<Edge>& rims) {
   std::map<Index, Index> root;
   const auto find = [&](Index v) {
@@ -82,7 +84,7 @@ std::vector<std::vector<Edge>> closed_rims(const std::vector<Edge>& rims) {
   return closed;
 }
 
-/// The triangles of a part and of the fans that close it, and its tetrahedra, at the given positions.
+/// Holds the triangles of a part and of the fans that close its rims, and its tetrahedra, at the given positions.
 class PlacedPart {
  public:
   PlacedPart(std::span<const Triangle> triangles, std::span<const std::vector<Edge>> rims,

@@ -34,7 +34,8 @@ class VolumeAuditor {
   bool has_volumes() const { return !parts_.empty(); }
   /// Audits vertices that are not fixed, and edges with an end that is not fixed. Winding numbers and meetings are
   /// decided exactly, for each part separately: a connected component of triangles with its cavities, or the boundary
-  /// of a body of tetrahedra. A fan about the mean of its vertices closes each rim. A vertex on the surface is outside.
+  /// of a body of tetrahedra. Each rim is closed by a fan of triangles about the mean of the rim's vertices. A vertex
+  /// on the surface is outside.
   ///
   /// A vertex of a body of tetrahedra lies on the body's own surface. It is inside the body if it lies in a closed
   /// tetrahedron of positive volume of which it is no corner. Its depth is then its distance from the triangles that
@@ -48,10 +49,10 @@ class VolumeAuditor {
   /// A part with closed rims.
   struct Part {
     std::vector<Triangle> triangles;      ///< vertex numbers of the scene
-    std::vector<std::vector<Edge>> rims;  ///< the edges of each closed rim, in the direction of the missing triangles
+    std::vector<std::vector<Edge>> rims;  ///< edges of each closed rim, each reversed against its triangle
     std::vector<Tetrahedron> tetrahedra;  ///< of a body of tetrahedra
   };
-  /// A vertex that may be inside a volume, and its own part; −1 for vertices of surfaces.
+  /// A vertex that may be inside a volume. `part` is the vertex's own part; −1 for vertices of surfaces.
   struct Asker {
     Index vertex, part;
   };

@@ -1,5 +1,5 @@
-// Computes floors. A floor is the least time in which a machine can do counted work, in any order of the work. Only
-// machines with measured limits have floors.
+// Computes floors. A floor is the least time in which a machine can do counted work, if it may do the work in any
+// order. Only machines with measured limits have floors.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace ogc::experiments {
 /// Holds the limits of a device, from which the floors of a step are computed.
 struct MachineLimits {
   double flop_per_second = 0;  ///< in single precision
-  /// `cache_bytes`: largest amount of data that stays in the device's cache
+  /// `cache_bytes`: largest amount of data that the device's cache can hold
   double cache_bytes = 0, cache_bytes_per_second = 0, memory_bytes_per_second = 0;
   double seconds_between_colours = 0;  ///< from the end of one kernel of a CUDA graph to the start of the next
 };

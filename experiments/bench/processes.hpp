@@ -1,6 +1,7 @@
 // Repeats a measurement in several processes, because only processes are independent samples of the noise. All
-// repetitions inside one process share its memory layout and whatever else its start decides. Measured on 2 cores: a
-// part of 16 us differed by 16 % between two starts of one program, while repetitions within each start agreed to 5 %.
+// repetitions inside one process share its memory layout and everything else that is fixed when a process starts.
+// Measured on 2 cores: a part of 16 us differed by 16 % between two processes, while repetitions within each process
+// agreed to 5 %.
 #pragma once
 
 #include <filesystem>

@@ -39,7 +39,7 @@ struct BenchComparison {
   std::vector<BenchChange> changes;                  ///< by name
   std::vector<std::string> only_before, only_after;  ///< benchmarks that only one file has
   std::vector<std::string> differing_context;        ///< "device_cpu: 2 threads, then 16 threads"
-  /// false: a file has only one process, so that p does not cover differences between starts
+  /// false: a file has only one process, so that p does not cover differences between processes
   bool is_of_processes = true;
   /// Returns whether any benchmark has become slower.
   bool has_slower() const;

@@ -138,7 +138,7 @@ void count_steps(benchmark::State& state, const Rows& rows) {
   state.counters["repeats"] = mean(rows, [](const StepMetrics& row) { return static_cast<double>(row.repeats); });
 }
 
-/// Reports the times of one repetition. `stage`: index of a part among the times of a row; empty for the whole step.
+/// Reports the times of one repetition. `stage`: index of a part in StepMetrics::stage_ms; empty for the whole step.
 void measure(benchmark::State& state, Windows& windows, std::size_t repetition, std::optional<std::size_t> stage,
              Counted counted) {
   const Rows& rows = windows.repetition(repetition);
@@ -166,7 +166,8 @@ class Registrar {
   }
 
  private:
-  /// Names of the fast path's parts, in its order; checked when they are measured.
+  /// Names of the parts of a step on the fast path, in the order of StepMetrics::stage_ms; a measurement checks its
+  /// name.
   static constexpr std::array<std::string_view, 5> stages{"begin", "detection", "initial_guess", "sweep", "metrics"};
 
   void add_one(const std::string& name, const std::function<BenchScene()>& make, fast::Backend backend,

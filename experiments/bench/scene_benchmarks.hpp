@@ -1,5 +1,5 @@
 // Measures steps of whole scenes and their parts on the resident simulation, so that times include no transfer and no
-// start. One repetition is a window of steps from a fixed state. Times are those of steps.csv (CPU: steady clock, CUDA:
+// setup. One repetition is a window of steps from a fixed state. Times are those of steps.csv (CPU: steady clock, CUDA:
 // device events). Parts are measured with a synchronisation around each (`--profile`). On a device these times are
 // therefore upper bounds, and their sum exceeds the time of a step.
 //

@@ -10,7 +10,7 @@ struct ActivationDropSizes {
   compare::Index vertices_a_side = 70;  ///< of the cloth
   int sphere_subdivisions = 3;          ///< of the sphere, from an icosahedron
   std::int64_t steps = 40;              ///< steps of the run
-  std::int64_t iterations = 500;        ///< of vbd
+  std::int64_t iterations = 500;        ///< largest number of iterations of a step (solver vbd)
 };
 
 /// Returns cloth_on_sphere with a ground. The ground is a fixed mesh of 4 m × 4 m at y = −0.272 m; its triangles are at

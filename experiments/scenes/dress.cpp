@@ -70,15 +70,15 @@ Vec3 laid_flat(double upper, double lower, double slant, double down, double tur
   return {from_apex * std::sin(angle), from_apex * std::cos(angle), 0};
 }
 
-/// Holds the place where a vertex of a band's upper edge is stitched: between slots `second` and `second` + 1 of the
-/// band above.
+/// Holds the point of the band above to which a vertex of the upper edge is stitched. It divides the line between slots
+/// `second` and `second` + 1 (positions around the body, see Band) at `ratio`.
 struct StitchPoint {
   Index second;
   double ratio;
 };
 
-/// Builds four panels around the body, from one height down to another. A slot is a place around the body, counted from
-/// +z to +x over all panels. Where two panels meet, a slot has two vertices.
+/// Builds four panels around the body, from one height down to another. A slot is a position around the body, counted
+/// from +z to +x over all panels. Where two panels meet, a slot has two vertices.
 class Band {
  public:
   Band(const char* name, std::array<Index, 2> cells, std::array<double, 2> heights, std::array<double, 2> radii)
@@ -160,7 +160,7 @@ class Band {
 };
 
 /// Appends a strap: half a cone about an axis along x. The strap leads over the shoulder from the front of the bodice's
-/// upper edge to its back. `side`: −1 or 1. The columns end at slots.
+/// upper edge to its back. Each of its columns of vertices begins and ends at a slot of the bodice. `side`: −1 or 1.
 void append_strap(Scene& scene, const Band& bodice, Index cells, int side) {
   const Index around = bodice.slots();
   const auto slot_at = [&](double radians) {
@@ -194,7 +194,7 @@ void append_strap(Scene& scene, const Band& bodice, Index cells, int side) {
 }
 
 /// Sets lengths below 2⁻²⁰ m, which scenes may not have (method.md §2.4), to 0. Other lengths keep their published
-/// values, so that different places remain different.
+/// values, so that different positions remain different.
 Vec3 without_dust(const Vec3& v) {
   const auto swept = [](double x) { return std::abs(x) < 0x1p-20 ? 0 : x; };
   return {swept(v.x), swept(v.y), swept(v.z)};

@@ -100,7 +100,7 @@ class ObjReader {
   Obj obj_;
 };
 
-/// Returns the first of the possible places that exists. The error names the most usual place.
+/// Returns the first of the possible paths that exists. The error names the most usual path.
 std::filesystem::path found(const std::filesystem::path& folder, const std::string& subfolder,
                             const std::string& name) {
   for (const std::filesystem::path& place : {folder / subfolder / name, folder / name}) {
@@ -152,7 +152,6 @@ void check_stage(const std::filesystem::path& file, const Obj& stage, const Dres
   }
 }
 
-/// Reads garment and body at the start.
 void take_start(DressData& data, const std::filesystem::path& file, const Obj& stage, const DressCounts& counts) {
   const Obj drape = ObjReader(file).read();
   check_count(file, "vertices", drape.positions.size(), counts.vertices + counts.body_vertices);

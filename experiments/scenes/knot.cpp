@@ -26,7 +26,8 @@ Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Returns a point of a coil about an axis along x, with radius 0.09 m and pitch 0.12 m. `turn` is in turns.
+/// Returns a point of a coil about an axis along x, with radius 0.09 m and pitch 0.12 m. `turn`: number of turns from
+/// its top.
 Vec3 coil(const Vec3& axis, double turn) {
   const double angle = 2 * std::numbers::pi * turn;
   return axis + Vec3{0.12 * turn, 0.09 * std::cos(angle), 0.09 * std::sin(angle)};
@@ -50,8 +51,8 @@ std::vector<Vec3> control_points() {
   return points;
 }
 
-/// A centripetal Catmull–Rom curve: consecutive knots differ by the square root of the chord. Each end gets one more
-/// point, the reflection of its neighbour.
+/// A centripetal Catmull–Rom curve: consecutive knots differ by the square root of the chord. One more point is added
+/// at both ends: the neighbour of the end point, reflected in the end point.
 class Curve {
  public:
   explicit Curve(const std::vector<Vec3>& through) {

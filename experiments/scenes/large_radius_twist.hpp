@@ -9,10 +9,10 @@ namespace ogc::experiments {
 /// regime is always that of r = 5 mm on 200 × 200.
 struct LargeRadiusTwistSizes {
   compare::Index vertices_a_side = 200;  ///< of the cloth
-  std::int64_t steps = 1200;             ///< 4 s, half a relative turn
+  std::int64_t steps = 1200;             ///< 4 s: half a turn of one end relative to the other
 };
 
-/// Returns the scene: cloth and handles of twist, which turn at ±π/8 rad/s. IPC's barrier distance is r.
+/// Returns the scene: cloth and handles of twist, which rotate at ±π/8 rad/s. IPC's barrier distance is r.
 compare::Scene large_radius_twist(const LargeRadiusTwistSizes& sizes = {});
 
 }  // namespace ogc::experiments

@@ -1,5 +1,5 @@
-// Each grid point of the shirt is a point of the table. The shirt is open where front and back have separate vertices
-// at a grid point.
+// Grid point (p, q) of the shirt lies above the table at (x, z) = (p, −q) times the spacing. The shirt is open where
+// front and back have separate vertices at a grid point.
 #include "experiments/scenes/robot_shirt.hpp"
 
 #include <algorithm>
@@ -25,7 +25,8 @@ constexpr double table_edge = -0.06;      // z [m]
 
 enum class Layer { back, front };
 
-/// Maps the shirt's cells. Columns i count from −across/2 − sleeve; rows j count from the shoulders down.
+/// Builds the shirt from cells (i, j). Columns i run from −across/2 − sleeve_columns to +across/2 + sleeve_columns;
+/// rows j count from the shoulders down.
 class Pattern {
  public:
   Pattern(const RobotShirtSizes& sizes, double spacing, double radius)
@@ -72,8 +73,8 @@ class Pattern {
     return entry->second;
   }
 
-  /// Adds a cell. Both layers are cut along the same diagonals. Different diagonals would intersect beside the joints,
-  /// where the gap is halved.
+  /// Adds a cell. Both layers are cut along the same diagonals. Different diagonals would intersect near shared
+  /// vertices, where the gap is halved.
   void add_cell(Layer layer, Index i, Index j) {
     const Index a = vertex(layer, i, j), b = vertex(layer, i, j + 1), c = vertex(layer, i + 1, j + 1),
                 d = vertex(layer, i + 1, j);
@@ -87,7 +88,7 @@ class Pattern {
   Index side_;
   double spacing_, radius_;
   compare::Mesh mesh_;
-  /// by layer; shared vertices belong to the first layer
+  /// by layer: vertex of each grid point; vertices that both layers share are in the first map
   std::array<std::map<std::array<Index, 2>, Index>, 2> vertices_;
 };
 

@@ -29,10 +29,10 @@ struct RobotShirtSizes {
 /// at rest each layer is r away from its neighbours. While they hold the shirt, jaws move at most at 0.35 m/s, 0.3 r a
 /// step. Jaws are volumes with the paper's γ_e = 0.01; the table is a surface.
 /// As surfaces (`--set body_contact=surface`) jaws obey bounds, up to γ_p r_q = 3.6 mm in one detection. Cloth that a
-/// jaw carries is closer than r, so that both move by less than half of that. With a lift at 1 m/s and γ_e = 0.01 the
-/// few vertices between jaws and shirt trigger no detection. Distances then fall below the spacing of single precision,
-/// and the lower jaws stay behind for good, by 0.83 m at paper scale. So one cut vertex triggers a detection (γ_e = 0,
-/// our choice), as in `dress`.
+/// jaw lifts is closer than r, so both move by less than r/2. With a lift at 1 m/s and γ_e = 0.01 the few vertices
+/// between jaws and shirt trigger no detection. Distances then fall below the spacing of single precision, and the
+/// lower jaws never catch up; they lag by 0.83 m at paper scale. So one cut vertex triggers a detection (γ_e = 0, our
+/// choice), as in `dress`.
 ///
 /// The material is that of `fifty_layers`, with Table 1's friction. Stitches have 100 N/m: where a seam bears 2.6 N/m,
 /// half of the weight on a shoulder of 0.3 m, they open by 0.2 mm, a tenth of r. This stiffness and the whole

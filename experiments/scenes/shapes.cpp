@@ -84,7 +84,7 @@ void add_fan(Mesh& mesh, Index count, Index ring, Index pole, bool up) {
   }
 }
 
-/// Adds the disc inside the ring that begins at `rim`. `up`: the disc faces +z.
+/// Adds the disc inside the ring that begins at `rim`. `up`: the disc's normal is +z, otherwise −z.
 void add_cap(Mesh& mesh, const CylinderCells& cells, double radius, const Vec3& centre, double z, Index rim, bool up) {
   Index outer = rim;
   for (Index k = 1; k <= cells.cap; ++k) {

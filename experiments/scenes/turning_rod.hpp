@@ -1,4 +1,4 @@
-// Builds a straight rod that turns freely about its middle. It shows how much angular momentum an update of the
+// Builds a straight rod that rotates freely about its middle. It shows how much angular momentum an update of the
 // segments' orientations keeps.
 #pragma once
 

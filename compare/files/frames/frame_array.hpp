@@ -38,7 +38,7 @@ struct FramePart {
   std::function<std::unique_ptr<MeshSequence>()> open;  ///< opens its frames
 };
 
-/// Returns the frames of all parts, one after another.
+/// Returns the frames of all arrays, one array after another.
 std::unique_ptr<MeshSequence> chained(std::vector<FramePart> parts);
 
 }  // namespace ogc::compare

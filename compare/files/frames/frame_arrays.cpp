@@ -20,8 +20,8 @@ namespace {
 
 constexpr auto most_vertices = static_cast<std::uint64_t>(std::numeric_limits<Index>::max());
 
-/// Memory for the frames that one pass over an array in Fortran order gathers: the size of the array's file, within
-/// these limits [bytes].
+/// Limits [bytes] of the memory for the frames that one pass over an array in Fortran order gathers. Within them, the
+/// memory is as large as the array's file.
 constexpr std::uint64_t least_room = 1 << 26, most_room = 1 << 30;
 
 std::uint64_t room_of(const std::filesystem::path& file) {
@@ -159,7 +159,7 @@ std::vector<std::array<Index, Corners>> read_faces(const FoundArray& array) {
   return faces;
 }
 
-/// Returns triangles and edges of an archive; nothing if it has no array of either.
+/// Returns triangles and edges of an archive; nothing if it has neither.
 std::optional<Mesh> faces_of(const std::shared_ptr<ZipFile>& zip, const std::filesystem::path& file) {
   constexpr std::array<std::string_view, 1> edge_names{"edges"};
   const auto triangles = member_named(*zip, triangle_names), edges = member_named(*zip, edge_names);

@@ -19,8 +19,8 @@ class MeshSequence {
   /// Returns the name of the i-th frame: its file, or "frame 3", counted from 0 as arrays are.
   virtual std::string name(std::size_t i) const = 0;
   /// Returns the next frame, frame 0 first; at most size() calls are allowed. Indices are valid and coordinates are
-  /// finite. Frames of arrays have no source; their elements count from 0. Throws InputError that names file, frame,
-  /// and byte or element.
+  /// finite. For frames of arrays LoadedMesh::source is empty, so messages number elements from 0. Throws InputError
+  /// that names file, frame, and byte or element.
   virtual LoadedMesh next() = 0;
 };
 

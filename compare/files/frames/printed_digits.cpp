@@ -102,8 +102,8 @@ void after_keyword(std::string_view text, std::string_view keyword, Digits& digi
 }
 
 struct PlyVertices {
-  std::size_t before = 0, count = 0;  ///< number of lines of elements before the vertices, and of vertices
-  std::vector<std::size_t> places{};  ///< places of x, y and z in a line
+  std::size_t before = 0, count = 0;  ///< number of lines before the vertices, and number of vertices
+  std::vector<std::size_t> places{};  ///< which words of a line are x, y and z, from 0
 };
 
 /// Reads the header of a PLY file and moves `text` to its end. Returns nothing if vertices are not lines of scalars.
@@ -149,7 +149,6 @@ void of_ply(std::string_view text, Digits& digits) {
   }
 }
 
-/// Reads an OFF file: the counts after the keyword, then the vertices.
 void of_off(std::string_view text, Digits& digits) {
   std::size_t vertices = 0;
   bool counted = false;

@@ -16,9 +16,9 @@ struct PrintedDigits {
 };
 
 /// Returns the digits of an OBJ, ascii PLY, OFF, ascii STL, VTP, VTU, VTK, Gmsh or Medit file. Returns nothing for
-/// binary numbers and for numbers with all digits of a double. Also returns nothing for typed numbers, which have fewer
-/// than 6 significant digits or 4 decimals, and no common number of digits. Throws InputError if the file can't be
-/// opened.
+/// binary numbers and for numbers with all digits of a double. Also returns nothing if the numbers have no common
+/// number of digits, or fewer than 6 significant digits and fewer than 4 decimals, as typed numbers do. Throws
+/// InputError if the file can't be opened.
 std::optional<PrintedDigits> printed_digits(const std::filesystem::path& file);
 
 }  // namespace ogc::compare

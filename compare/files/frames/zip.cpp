@@ -14,8 +14,8 @@ namespace ogc::compare {
 
 #ifdef OGC_HAS_MINIZIP
 
-/// Deflate codes at most 258 bytes in two bits. A member that claims a larger ratio is damaged and is rejected before
-/// memory is allocated.
+/// Two bits of deflated data give at most 258 bytes. A member that claims a larger ratio is damaged and is rejected
+/// before memory is allocated.
 constexpr std::uint64_t most_deflated = 258 * 8 / 2;
 
 struct ZipFile::Handle {

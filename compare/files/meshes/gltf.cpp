@@ -166,7 +166,7 @@ class GltfReader {
   /// Fails if nodes repeat meshes too often. Without repetition a corner takes at least one byte of the file or of a
   /// buffer in another file, but nodes may name one mesh any number of times.
   void expect_few(std::size_t corners) {
-    constexpr std::size_t repeated = std::size_t{1} << 19;  // corners, of about 100 bytes each in the end
+    constexpr std::size_t repeated = std::size_t{1} << 19;  // corners; the finished mesh has about 100 bytes for each
     corners_ += corners;
     if (corners_ > most_corners_ + buffers_.bytes_beside() + repeated)
       buffers_.fail("has nodes that repeat meshes until they have " + std::to_string(corners_) +

@@ -26,7 +26,7 @@ constexpr std::array<Component, 6> components{{{5120, ScalarType::int8, 127},
                                                {5125, ScalarType::uint32, 0},
                                                {5126, ScalarType::float32, 0}}};
 
-/// Returns a part of a URI with its escapes, like %20, as characters.
+/// Returns a text from a URI with its escapes, such as %20, replaced by characters.
 std::string decoded(std::string_view uri) {
   constexpr std::string_view digits = "0123456789abcdef";
   std::string text;

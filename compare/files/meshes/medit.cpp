@@ -63,7 +63,6 @@ class MeditParser {
     return lines_.far_word();
   }
 
-  /// Goes to the next word that begins with a letter.
   std::string_view skip() {
     std::string_view word = lines_.far_word();
     while (!word.empty() && std::isalpha(static_cast<unsigned char>(word.front())) == 0) word = lines_.far_word();

@@ -1,5 +1,5 @@
-// Welds vertices, cuts faces, leaves out unused vertices and degenerate or repeated faces, and turns inverted
-// tetrahedra. Each change gives a sentence for the user.
+// Welds vertices, cuts faces, leaves out unused vertices and degenerate or repeated faces, and reorders the vertices of
+// inverted tetrahedra. Each change gives a sentence for the user.
 #include "compare/files/meshes/polygon_mesh.hpp"
 
 #include <algorithm>
@@ -52,14 +52,12 @@ bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   return has_zero_area(a, b, c);
 }
 
-/// Returns whether a mesh has no elements.
 bool is_empty(const Mesh& mesh) {
   bool empty = true;
   for_each_of<MeshLists>([&]<class List, std::size_t>() { empty = empty && (mesh.*List::list).empty(); });
   return empty;
 }
 
-/// Visits all elements of a mesh.
 template <class AnyMesh, class Visit>
 void each_element(AnyMesh& mesh, const Visit& visit) {
   for_each_of<MeshLists>([&]<class List, std::size_t>() { std::ranges::for_each(mesh.*List::list, visit); });
@@ -311,8 +309,8 @@ class MeshMaker {
     note(all + " with the vertices of another " + (doubled.size() == 1 ? "was" : "were") + " left out: " + first);
   }
 
-  /// Turns all tetrahedra if all are inverted: the file has another convention for the order of vertices. If only some
-  /// are, they stay; validation of a scene refuses them.
+  /// If all tetrahedra are inverted, exchanges two vertices of each: the file orders vertices by another convention. If
+  /// only some are inverted, they stay; validation of a scene refuses them.
   void turn_inverted() {
     if (in_.tetrahedra.empty()) return;
     const std::vector<Vec3> seen = as_stages_see(in_.positions);

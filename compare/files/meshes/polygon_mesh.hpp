@@ -1,5 +1,5 @@
 // Holds a mesh as its file gives it: faces of any number of corners, unused vertices, and one vertex for each corner if
-// faces share none. make_mesh turns it into a mesh of triangles, with a sentence for each change; options may forbid
+// faces share none. make_mesh makes a mesh of triangles from it, with a sentence for each change; options may forbid
 // changes.
 #pragma once
 
@@ -17,7 +17,7 @@ namespace ogc::compare {
 /// them.
 struct PolygonMesh : Mesh {
   std::vector<Index> corners;        ///< of all faces, one after the other, each face in its own order
-  std::vector<Index> face_ends{};    ///< end of each face's corners
+  std::vector<Index> face_ends{};    ///< by face: index in `corners` after its last corner
   MeshSource source;                 ///< places of its elements in the file
   std::vector<std::string> notes{};  ///< contents of the file that the mesh lacks
 
@@ -44,7 +44,8 @@ struct MeshOptions {
   /// also leave out triangles that have no area once dust is 0 and coordinates are rounded to single precision, as
   /// stages see them
   bool rounded = false;
-  /// make positions relative to a point near them if they are far from 0 for their size (compare::local_origin)
+  /// make positions relative to a point near them if they are far from 0 compared with their extent
+  /// (compare::local_origin)
   bool local = false;
   friend bool operator==(const MeshOptions&, const MeshOptions&) = default;
 };
@@ -58,13 +59,13 @@ struct LoadedMesh {
   Vec3 origin{};                   ///< point that positions are relative to, in the file's coordinates [m]
 };
 
-/// Leaves out faces and loose edges, with a note, if there are tetrahedra: they determine the surface of a solid.
+/// Leaves out faces and loose edges, with a note, if the mesh has tetrahedra, which determine the surface of a solid.
 void keep_solid(PolygonMesh& mesh);
 
 /// Makes a mesh of triangles. Leaves out, with a note, faces that name fewer than three different vertices or have no
 /// area (decided exactly), faces with the same vertices as an earlier face, in any order, and vertices that are then
-/// unused. If all tetrahedra are inverted, it turns them. Throws InputError that names the first face or vertex that
-/// the options do not allow, or a face that can't be cut.
+/// unused. If all tetrahedra are inverted, exchanges two vertices of each. Throws InputError that names the first face
+/// or vertex that the options do not allow, or a face that can't be cut.
 LoadedMesh make_mesh(PolygonMesh polygons, const MeshOptions& options = {});
 
 }  // namespace ogc::compare

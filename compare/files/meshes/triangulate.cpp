@@ -1,5 +1,5 @@
-// Cuts off ears: triangles of three successive corners. Rounding decides nothing important, because an ear that is
-// convex only by rounding has a shape near 0 and is cut off last.
+// Cuts off ears: triangles of three successive corners. Rounding decides nothing important: an ear that only rounding
+// makes convex has almost no area, so it is cut off last.
 #include "compare/files/meshes/triangulate.hpp"
 
 #include <algorithm>

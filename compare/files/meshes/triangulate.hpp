@@ -1,5 +1,5 @@
-// Cuts faces of more than three corners into triangles: always the same way, with every corner kept (a corner on a
-// straight side stays a vertex of both neighbours; libraries that drop it leave a gap between them).
+// Cuts faces of more than three corners into triangles: always the same way, with every corner kept. A library that
+// drops corners on straight lines leaves gaps between a face and its neighbours.
 #pragma once
 
 #include <span>

@@ -1,6 +1,6 @@
-// Base64 comes in groups of four characters, and padding ends a part. VTK encodes the header of compressed data
-// separately, other writers also the header of stored data. Decoding continues after padding, so both cases are read
-// alike.
+// Base64 comes in groups of four characters, and padding ends an encoded text. VTK encodes the header of compressed
+// data separately, other writers also the header of stored data. Decoding continues after padding, so both cases are
+// read alike.
 #include "compare/files/meshes/vtk_arrays.hpp"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ class Bytes {
       : data_(data), base64_(base64), where_(std::move(where)) {}
 
   std::string take(std::size_t count) {
-    // Three bytes take four characters.
+    // Each four characters give at most three bytes.
     const std::size_t left = base64_ ? data_.size() / 4 * 3 + 3 + ready_.size() : data_.size();
     if (count > left) ends(count);
     if (!base64_) {

@@ -37,11 +37,11 @@ inline constexpr int vtk_poly_line = 4, vtk_strip = 6, vtk_polygon = 7;
 /// Converts a number of an array to a cell's kind; returns −1 if the number cannot be one.
 int vtk_kind(double value);
 
-/// Holds the corners of all cells of a piece in one list, and where each cell's corners end. Corners count from 0 in
-/// the piece, whose vertices begin at `first` in the mesh.
+/// Holds the corners of all cells of a piece in one list, cell after cell. Corners count from 0 in the piece, whose
+/// vertices begin at `first` in the mesh.
 struct VtkCellLists {
   std::string where;            ///< begins the errors: file and section
-  std::vector<double> ends;     ///< end of each cell's corners
+  std::vector<double> ends;     ///< by cell: index in `corners` after its last corner
   std::vector<double> corners;  ///< of all cells
   std::size_t first = 0;        ///< first vertex of the piece
   std::size_t count = 0;        ///< number of vertices of the piece

@@ -34,7 +34,7 @@ constexpr std::array<std::pair<std::string_view, ScalarType>, 13> types{{{"char"
 /// Reads lines and blocks of numbers, in text or binary.
 class VtkBlocks {
  public:
-  /// Reads the header: version, title, kind.
+  /// Reads the header: version, title, and ASCII or BINARY.
   VtkBlocks(std::string_view bytes, const std::string& name) : lines_(bytes, name) {
     if (!lines_.next() || !lines_.rest().starts_with("# vtk DataFile Version "))
       throw InputError(name + ": does not begin with '# vtk DataFile Version'; it is no VTK file of the older format");
@@ -98,7 +98,6 @@ class VtkBlocks {
     return values;
   }
 
-  /// Throws InputError that names the line or the byte.
   [[noreturn]] void fail(const std::string& what) const {
     if (cursor_) cursor_->fail(what);
     lines_.fail(what);
@@ -214,7 +213,7 @@ class VtkLegacyParser {
     return blocks_.numbers(count, 1, type, keyword);
   }
 
-  /// Skips arrays of the data set as a whole.
+  /// Skips a FIELD section: arrays that describe the whole data set.
   void field() {
     blocks_.word();
     const std::size_t arrays = blocks_.count("number of arrays");

@@ -11,7 +11,7 @@ namespace ogc::compare {
 
 /// Returns points and cells of a data set of type POLYDATA or UNSTRUCTURED_GRID: tetrahedra, or faces and lines as for
 /// VTK's XML files (vtk_mesh.hpp). Data of points and cells are skipped. `name` begins the errors. Throws InputError
-/// with file and line or byte: another data set, a count that the file has no room for, a file that ends too early, a
+/// with file and line or byte: another data set, a count that exceeds the file's size, a file that ends too early, a
 /// vertex out of range, a word that is no number, kinds of cells that are not read.
 PolygonMesh parse_vtk_legacy(std::string_view bytes, const std::string& name);
 

@@ -1,4 +1,4 @@
-// Uses expat event by event: raw appended data are no XML, and the parser must stop before them.
+// Uses expat event by event, because raw appended data are no XML and the parser must stop before them.
 #include "compare/files/meshes/vtk_xml.hpp"
 
 #include <limits>

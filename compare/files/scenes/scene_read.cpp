@@ -123,7 +123,6 @@ void read_material(const JsonNode& node, Material& material) {
   object.finish();
 }
 
-/// Refuses keys that format 2 reserves for what is not simulated yet.
 void refuse_reserved(const JsonNode& node, const std::string& what) {
   node.fail("asks for " + what + ", which this ogc does not simulate yet", "leave it out, or use a newer ogc");
 }
@@ -253,7 +252,7 @@ class SceneReader {
     return found.empty();
   }
 
-  // Returns rest positions or velocities, which a second mesh file gives in place of its positions.
+  // Reads a second mesh file for the same vertices. Returns its positions, which are rest positions or velocities.
   std::vector<Vec3> read_like(const JsonNode& node, const BodyMesh& mesh) {
     std::optional<PolygonMesh> other = read_polygons(node);
     if (!other) return {};
@@ -389,7 +388,8 @@ class SceneReader {
     return false;
   }
 
-  // Returns a vertex given by body and number within the body; -1 if there is none, and notes a problem.
+  // Reads a vertex, given by a body and a number within the body. Returns −1 and notes a problem if there is no such
+  // vertex.
   Index read_end(const JsonNode& node) {
     JsonObject object(node);
     const Body* body = nullptr;

@@ -1,5 +1,5 @@
-// Takes settings and materials from their tables; the rest is written out. A test checks that the reader knows every
-// key here.
+// Builds the keys of settings and materials from their tables; the other keys are written here. A test checks that the
+// reader knows every key here.
 #include "compare/files/json_reader.hpp"
 #include "compare/files/scenes/scene_files.hpp"
 #include "compare/problem/material_table.hpp"
@@ -24,7 +24,7 @@ Json array(const Json& items, const std::string& description) {
   return {{"type", "array"}, {"items", items}, {"description", description}};
 }
 
-// Returns the schema of an object without other keys.
+// Returns the schema of an object that may have no other keys.
 Json object(const Json& properties, const std::vector<std::string>& required) {
   Json json = {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
   if (!required.empty()) json["required"] = required;

@@ -53,7 +53,7 @@ Json material_json(const Material& material) {
   return json;
 }
 
-// Returns the body's mesh with the body's part of `values`, a vertex array of the scene, as positions.
+// Returns the body's mesh. Its positions are the body's entries of `values`, an array over the vertices of the scene.
 Mesh body_mesh(const Scene& scene, const Body& body, const std::vector<Vec3>& values) {
   Mesh mesh;
   const Index first = body.first_vertex, end = first + body.vertex_count;
@@ -71,7 +71,6 @@ Mesh body_mesh(const Scene& scene, const Body& body, const std::vector<Vec3>& va
   return mesh;
 }
 
-/// Returns the orientations that the scene gives for the body's segments.
 std::vector<Quaternion> orientations_of(const Scene& scene, const Body& body) {
   std::vector<Quaternion> own;
   if (scene.orientations.empty()) return own;
