@@ -112,8 +112,8 @@ struct SignedVolume {
   double error() const { return static_cast<double>(count + 12) * 0x1p-52 * modulus; }
 };
 
-/// Returns six times the volume that a part encloses. A fan about the mean of its vertices closes each rim (connected
-/// edges of one triangle each).
+/// Returns six times the volume that a part encloses. Each rim (connected edges that have one triangle each) is closed
+/// by triangles from its edges to the mean of its vertices.
 SignedVolume six_volumes(const Scene& scene, const VolumePart& part) {
   const auto position = [&](Index v) -> const Vec3& { return scene.mesh.positions[at(v)]; };
   const Vec3& origin = position(scene.mesh.triangles[at(part.triangles[0])][0]);
