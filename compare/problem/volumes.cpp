@@ -162,7 +162,6 @@ std::vector<int> cavities_among(const Scene& scene, const std::vector<VolumePart
   return enclosing_shells(scene.mesh, asked);
 }
 
-/// Unites the shells that tetrahedra join.
 void unite_by_tetrahedra(const Scene& scene, const std::vector<VolumePart>& shells, Sets& parts) {
   const Body& body = scene.bodies[shells[0].body];
   Sets sets(scene.mesh.positions.size());
