@@ -117,7 +117,7 @@ OGC_PLUGIN_EXPORT int ogc_spring(const ogc_spring_in* in, ogc_force_out* out);
 /* A library with this function also gets scenes with solids from the judge. */
 OGC_PLUGIN_EXPORT int ogc_tetrahedron(const ogc_tetrahedron_in* in, ogc_force_out* out);
 
-/* The kinds of the faces in contact, and their vertices: first side | second side. */
+/* The kinds of the faces in contact, and indices of their vertices: first face | second face. */
 enum {
   OGC_POINT_POINT /* 0 | 1 */,
   OGC_POINT_EDGE /* 0 | 1 2 */,
@@ -130,7 +130,7 @@ typedef struct ogc_contact_force_case {
   uint8_t sides;
   int32_t own;
   ogc_vec3 vertex[4], previous[4];
-  float rest_squared[2]; /* 0 for an edge without triangles: compare/stages/contact_force.hpp */
+  float rest_squared[2]; /* 0 for an edge without triangles (compare/stages/contact_force.hpp) */
   float contact_radius, stiffness;
   int64_t activation;
   uint8_t together; /* bit k: vertex k is updated together with `own` */

@@ -242,7 +242,7 @@ typedef struct ogc_ccd_in {
 } ogc_ccd_in;
 
 typedef struct ogc_ccd_out {
-  float* time; /* [n] in [0, 1]: the faces share no point before it; 1 if no limit is needed, 0 if they touch at 0 */
+  float* time; /* [n] in [0, 1]: the faces share no point before it; 1 if they never meet, 0 if they touch at 0 */
 } ogc_ccd_out;
 
 OGC_PLUGIN_EXPORT int ogc_ccd(const ogc_ccd_in* in, ogc_ccd_out* out);

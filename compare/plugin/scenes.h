@@ -52,7 +52,7 @@ typedef struct ogc_scene {
   const uint8_t* inside_solid;     /* [vertex_count] as in ogc_detect_in */
   ogc_settings settings;
   ogc_vec3 gravity;
-  const void* reserved[8]; /* null: for rods, volumes and pairs of bodies */
+  const void* reserved[8]; /* null; later versions may use them for rods, volumes and pairs of bodies */
 } ogc_scene;
 
 /* ---- rest_state: what is computed once from the rest shape ------------------------------------------------------- */

@@ -12,11 +12,12 @@
 namespace ogc::compare {
 namespace {
 
-/// Returns the sign of the area of the triangle of a, b and a point infinitesimally beside p, seen along the x axis.
+/// Returns the sign of the area of the triangle a b p in a view along the x axis, where p is moved infinitesimally by
+/// (ε, ε²) in y and z.
 int side_seen(const Vec3& a, const Vec3& b, const Vec3& p) {
   const int side = orientation({0, a.y, a.z}, {0, b.y, b.z}, {0, p.y, p.z}, {1, p.y, p.z});
   if (side != 0) return side;
-  // with (ε, ε²) added to p, the sign of −(b.z − a.z) decides, or the sign of b.y − a.y if b.z = a.z
+  // for an area of 0 the move decides: by the sign of −(b.z − a.z), or of b.y − a.y if b.z = a.z
   if (a.z != b.z) return b.z < a.z ? 1 : -1;
   return a.y < b.y ? 1 : a.y > b.y ? -1 : 0;
 }
@@ -53,7 +54,7 @@ class PlacedShell {
   }
 
  private:
-  /// A triangle and its lower end along y.
+  /// A triangle and the smallest y of its corners.
   struct Reach {
     double bottom = 0;
     Triangle corners{};

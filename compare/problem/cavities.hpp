@@ -23,10 +23,10 @@ struct Shell {
 };
 
 /// Returns for each shell of one body the number of the shell in which it is a cavity, or −1. A shell of negative
-/// volume is a cavity in the shell of positive volume that winds around all of its vertices; of several, in the one of
-/// least volume. If another cavity of that shell winds around the vertices, too, the shell is no cavity. Positions [m]
-/// are rounded to single precision; then all is decided exactly. A vertex on a shell is treated as if it were beside
-/// the shell.
+/// volume is a cavity in the shell of positive volume that winds around all of its vertices. If several do, the one of
+/// least volume counts. If another cavity of that shell winds around the vertices, too, the shell is no cavity.
+/// Positions [m] are rounded to single precision; then all is decided exactly. A vertex on a shell is treated as if it
+/// were beside the shell.
 std::vector<int> enclosing_shells(const Mesh& mesh, std::span<const Shell> shells);
 
 }  // namespace ogc::compare

@@ -23,8 +23,8 @@ double largest_coordinate(std::span<const Vec3> positions) {
   return largest;
 }
 
-/// Sets coordinates below `limit` to 0. A coordinate is not counted if the same coordinate of the same vertex in
-/// `counted_elsewhere` is equal.
+/// Sets coordinates whose modulus is below `limit` to 0 and counts them. A coordinate is not counted again if
+/// `counted_elsewhere` has the same value for the vertex.
 void clear(std::vector<Vec3>& positions, double limit, std::span<const Vec3> counted_elsewhere, Dust& dust) {
   for (std::size_t v = 0; v < positions.size(); ++v) {
     for (const auto axis : axes) {

@@ -13,8 +13,8 @@ namespace ogc::compare {
 struct Exclusions {
   /// Group of each vertex; may be empty. A pair is excluded if all of its vertices have the same number ≥ 0.
   std::vector<Index> groups;
-  /// Partners of each vertex; each pair of partners is listed both ways. No rows if there are no partners. A pair is
-  /// excluded if a vertex of one side is a partner of a vertex of the other side.
+  /// Partners of each vertex: row a has b, and row b has a, for each pair of partners. No rows if there are no
+  /// partners. A pair of faces is excluded if a vertex of one face is a partner of a vertex of the other.
   CompressedRows partners{};
   friend bool operator==(const Exclusions& a, const Exclusions& b) {
     return a.groups == b.groups && a.partners.offsets == b.partners.offsets && a.partners.items == b.partners.items;
@@ -34,8 +34,8 @@ struct ExclusionView {
       : groups(all.groups), partners(all.partners.rows() > 0 ? &all.partners : nullptr) {}
 };
 
-/// Returns the rows of partners of `count` vertices: each pair both ways, ascending, without repetition; no rows if
-/// there are no pairs. Indices must be valid.
+/// Returns the partners of each of `count` vertices: row a has b, and row b has a, for each of `pairs`. Rows are
+/// ascending, without repetition; there are no rows if there are no pairs. Indices must be valid.
 CompressedRows partner_rows(std::size_t count, std::span<const std::array<Index, 2>> pairs);
 
 /// Returns the pairs in rows of partners, smaller vertex first, ascending.

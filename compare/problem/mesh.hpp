@@ -60,8 +60,8 @@ struct Topology {
   /// surface.
   std::vector<std::uint8_t> off_surface;
 
-  /// Returns whether a vertex is on the surface. Others take no part in detection, contact among surfaces and audit,
-  /// and no bound holds them (method.md §2).
+  /// Returns whether a vertex is on the surface. All other vertices take no part in detection, contact among surfaces
+  /// and audit, and have no bound (method.md §2).
   bool on_surface(Index v) const { return off_surface.empty() || off_surface[static_cast<std::size_t>(v)] == 0; }
   /// Returns whether an edge or a triangle is on the surface; all of its vertices are of one body.
   template <std::size_t N>

@@ -131,7 +131,7 @@ bool says_turn(const PrescribedMotion& motion) { return motion.keyframes.empty()
 
 Quaternion prescribed_turn(const PrescribedMotion& motion, double from, double to) {
   const auto elapsed = [&](double t) { return std::clamp(t, motion.start, motion.end) - motion.start; };
-  // The half angle is rounded first, so that the turn is the same if times are counted from another start.
+  // The half angle is rounded first, so that the rotation does not depend on the origin of times.
   const auto half = static_cast<float>(motion.angular_velocity * (elapsed(to) - elapsed(from)) / 2);
   const double size = std::hypot(motion.axis.x, motion.axis.y, motion.axis.z), sine = std::sin(double{half});
   return {static_cast<float>(sine * motion.axis.x / size), static_cast<float>(sine * motion.axis.y / size),

@@ -40,16 +40,19 @@ bool has_rods(const Scene& scene);
 /// prescribed motion.
 std::vector<Index> segment_groups(const Scene& scene, std::span<const Index> segments);
 
-/// Returns whether a motion determines how its segments turn. Every rigid motion does, even if it is given as
+/// Returns whether a motion determines the rotation of its segments. Every rigid motion does, even if it is given as
 /// keyframes.
 bool says_turn(const PrescribedMotion& motion);
 /// Returns the rotation of a motion from one time to another [s], computed in double and rounded once.
 Quaternion prescribed_turn(const PrescribedMotion& motion, double from, double to);
 
-/// Adds the problems of the scene's rods: constants out of range; a rod without segments; free vertices on loose edges
-/// of a body that is no rod; segments that reverse onto their neighbour at rest; orientations that are no unit
-/// quaternions; a number of orientations other than that of segments. Indices must be valid, and bodies must cover the
-/// scene.
+/// Adds the problems of the scene's rods. Indices must be valid, and bodies must cover the scene. Problems are:
+///
+/// - constants out of range
+/// - a rod without segments
+/// - free vertices on loose edges of a body that is no rod
+/// - segments that reverse onto their neighbour at rest
+/// - orientations that are no unit quaternions, or more or fewer orientations than segments
 void check_rods(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names, std::size_t limit);
 
 /// Returns the number of the first quaternion that is no unit quaternion within unit_quaternion_slack, or −1.

@@ -10,8 +10,8 @@
 namespace ogc::compare {
 namespace {
 
-// The value goes through memory, because g++ 12.2 at -O2 omits the conversions double → float → double where it
-// vectorises those of two neighbouring values (basic-block vectorisation).
+// The value goes through memory. Otherwise g++ 12.2 at -O2 omits the conversions double → float → double if it
+// vectorises two neighbouring values (basic-block vectorisation).
 double rounded(double value) {
   const volatile float single = static_cast<float>(value);
   return single;

@@ -23,10 +23,10 @@ namespace ogc::compare {
 enum class MembraneModel { none, st_venant_kirchhoff, stable_neo_hookean };  ///< method.md §4.6
 enum class BendingModel { none, discrete_hinge, isometric_quadratic };       ///< method.md §4.7
 
-/// How a body meets others: as a surface with two sides that nothing passes through, or as a volume, which others may
-/// enter and which pushes them out (§3.9).
+/// How a body meets other bodies: as a surface with two sides that nothing passes through, or as a volume, which other
+/// bodies may enter and which pushes them out (§3.9).
 enum class BodyContact { surface, volume };
-/// Returns whether others may enter the body.
+/// Returns whether other bodies may enter the body.
 constexpr bool is_volume(BodyContact contact) {
   switch (contact) {
     case BodyContact::surface: return false;
@@ -92,7 +92,7 @@ struct Problem;
 //     named           returns the name of an element in messages, with its place in the file
 //     first, count    point to a body's range; without them the elements of a body are those on its vertices
 //     boundary        returns the surface of elements with volume, which replaces a body's triangles
-//     check           checks conditions that only these elements have; check_rest checks those on their rest shapes
+//     check           reports bad elements; check_rest reports elements with bad rest shapes
 //     msh_type        is Gmsh's number for the type of elements with volume
 //     numbers, lines  point to the places of elements with volume in their file (MeshSource)
 
@@ -121,9 +121,9 @@ struct TetrahedraOfMesh {
   static constexpr int msh_type = 4;                             ///< Gmsh's number for four-node tetrahedra
   static constexpr auto numbers = &MeshSource::tetrahedra;       ///< their numbers in the file
   static constexpr auto lines = &MeshSource::tetrahedron_lines;  ///< their lines in the file
-  /// Lists faces of more than two tetrahedra, and faces of two tetrahedra that lie on the same side.
+  /// Reports faces of more than two tetrahedra, and faces whose two tetrahedra lie on the same side of the face.
   static void check(const MeshCheck& check);
-  /// Lists tetrahedra that are inverted at their rest positions, decided exactly, or flat: without volume, or with so
+  /// Reports tetrahedra that are inverted at their rest positions, decided exactly, or flat: without volume, or with so
   /// little that their rest data are beyond the limits of compare/stages/tetrahedron.hpp. Positions are numbers of
   /// single precision.
   static void check_rest(const MeshCheck& check, const std::vector<Vec3>& rest_positions);
@@ -214,12 +214,13 @@ struct Scene {
   Vec3 gravity{0, -9.81, 0};  ///< [m/s²]
   Settings settings;
   /// start orientations of all segments, in the order of rod_segments (compare/problem/rods.hpp); empty: those of the
-  /// rest shape, each turned by the smallest rotation to the start direction of its segment
+  /// rest shape, each rotated by the smallest rotation to the start direction of its segment
   std::vector<Quaternion> orientations{};
   friend bool operator==(const Scene&, const Scene&) = default;
 };
 
-/// A member of an element. nvcc writes a plain pointer to a member of a template with parentheses, of which g++ warns.
+/// Type of a pointer to a member of an element. It avoids `Value Element::*` in templates, which nvcc writes with
+/// parentheses that g++ warns of.
 template <class Element, class Value>
 using MemberOf = std::type_identity_t<Value Element::*>;
 

@@ -41,9 +41,9 @@ constexpr bool minimises(RodOrientation update) {
   }
   return true;
 }
-/// Orientations at the start of a step: those of the last step, turned along with their segments or unchanged.
+/// Orientations at the start of a step: those of the last step, rotated with their segments or unchanged.
 enum class RodStart : std::int64_t { turned, kept };
-/// Returns whether orientations turn before the first sweep.
+/// Returns whether orientations are rotated with their segments before the first sweep.
 constexpr bool turns(RodStart start) {
   switch (start) {
     case RodStart::turned: return true;
@@ -119,11 +119,12 @@ SettingKind kind_of(const SettingInfo& info);
 /// Returns the present name of a setting, given its former name; "" for any other word.
 std::string_view renamed_setting(std::string_view old);
 
-/// Returns the message that no setting has this name, with its present name or the nearest of `known`.
+/// Returns the message that no setting is called `name`. It contains the present name of a renamed setting, or else the
+/// nearest of `known`.
 std::string unknown_setting(std::string_view name, std::span<const std::string_view> known);
 
-/// Sets `name` from text. Throws InputError with the setting, its unit and its range; for an unknown name, with the
-/// nearest known one.
+/// Sets `name` from text. Throws InputError for a bad value, with the setting's unit and range, and for an unknown
+/// name, with the nearest known name.
 void set_setting(Settings& settings, std::string_view name, std::string_view value);
 
 /// Sets a number, or a choice by its index, without checking the range (validate.hpp does). Throws InputError for an

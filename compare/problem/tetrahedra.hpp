@@ -27,9 +27,9 @@ std::vector<TetrahedronFace> sorted_faces(std::span<const Tetrahedron> tetrahedr
 /// opposite corner.
 std::vector<Triangle> boundary_triangles(std::span<const Tetrahedron> tetrahedra);
 
-/// Returns the joined component of each vertex. Two components (Topology::component) are joined, under the lower
-/// number, if a tetrahedron connects them. A cavity and the surface around it (VolumeDepthIn::cavities) are joined as
-/// well.
+/// Returns the joined component of each vertex. Two components (Topology::component) are joined if a tetrahedron
+/// connects them, and a cavity is joined with the surface around it (VolumeDepthIn::cavities). The lowest number of the
+/// joined components names them.
 std::vector<Index> joined_components(const Topology& topology, std::span<const Tetrahedron> tetrahedra,
                                      std::span<const Edge> cavities = {});
 

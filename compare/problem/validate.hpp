@@ -18,8 +18,8 @@ struct Problem {
 
 /// Returns a mesh's problems: index out of range, repeated vertex in a triangle, duplicate face, NaN or infinity,
 /// coordinate beyond 2²⁰ m, edge length that is not within 2⁻²⁰ … 2²⁰ m, zero-length edge, zero-area triangle (decided
-/// exactly), isolated vertex, face of three tetrahedra, or of two on the same side. At most `limit` entries of each
-/// kind are listed, then a count. `names` names the elements.
+/// exactly), isolated vertex, face of three tetrahedra, face whose two tetrahedra lie on the same side of the face. At
+/// most `limit` entries of each kind are listed, then a count. `names` names the elements.
 std::vector<Problem> validate(const Mesh& mesh, std::size_t limit = 10, const ElementNames& names = {});
 
 /// Returns a scene's problems: those of the mesh and its rest positions, tetrahedra that are flat or inverted at rest,

@@ -112,8 +112,8 @@ struct SignedVolume {
   double error() const { return static_cast<double>(count + 12) * 0x1p-52 * modulus; }
 };
 
-/// Returns six times the volume that a part encloses. A fan about the mean of its vertices closes each rim (connected
-/// edges of one triangle each).
+/// Returns six times the volume that a part encloses. Each rim (connected edges that have one triangle each) is closed
+/// by triangles from its edges to the mean of its vertices.
 SignedVolume six_volumes(const Scene& scene, const VolumePart& part) {
   const auto position = [&](Index v) -> const Vec3& { return scene.mesh.positions[at(v)]; };
   const Vec3& origin = position(scene.mesh.triangles[at(part.triangles[0])][0]);
@@ -162,7 +162,6 @@ std::vector<int> cavities_among(const Scene& scene, const std::vector<VolumePart
   return enclosing_shells(scene.mesh, asked);
 }
 
-/// Unites the shells that tetrahedra join.
 void unite_by_tetrahedra(const Scene& scene, const std::vector<VolumePart>& shells, Sets& parts) {
   const Body& body = scene.bodies[shells[0].body];
   Sets sets(scene.mesh.positions.size());

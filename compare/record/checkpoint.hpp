@@ -14,7 +14,7 @@ namespace ogc::compare {
 /// are rods.
 inline constexpr std::int64_t checkpoint_format_version = 3;
 
-/// The state to continue from. In runs that audit states it is an audited one.
+/// The state to continue from. If the run audits states, this one has been audited.
 struct Checkpoint {
   /// step, positions, velocities, bounds, capacities; since format 2 also the exact positions and velocities of solvers
   /// that have them; since format 3 also orientations

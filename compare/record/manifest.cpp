@@ -68,7 +68,6 @@ Json material_json(const Material& material) {
   return json;
 }
 
-/// Returns how many vertices of the body follow a motion.
 std::int64_t prescribed_count(const Scene& scene, const Body& body) {
   const auto is_in = [&](Index v) { return v >= body.first_vertex && v < body.first_vertex + body.vertex_count; };
   std::int64_t count = 0;

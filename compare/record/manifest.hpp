@@ -37,7 +37,7 @@ struct Manifest {
 std::string manifest_text(const Manifest& manifest, const Scene& scene);
 
 /// Reads `folder`/run.json. Throws InputError that names the file if it is missing, not JSON, not of a run, or of a
-/// newer format, which is named.
+/// newer format; the message names the format.
 Manifest read_manifest(const std::filesystem::path& folder);
 
 /// Returns the current date and time, ISO 8601, UTC, whole seconds.

@@ -27,7 +27,6 @@ fs::path frame_path(const fs::path& folder, std::int64_t step) {
   return folder / "frames" / (frame_name(step) + ".h5");
 }
 
-/// Returns the step in the name of a frame's file; none for other files.
 std::optional<std::int64_t> frame_step_of(const std::string& name) {
   constexpr std::string_view prefix = "frame_", suffix = ".h5";
   if (!name.starts_with(prefix) || !name.ends_with(suffix)) return std::nullopt;

@@ -114,7 +114,7 @@ class RunWriter {
   WritingQueue queue_;  ///< last, so that its threads end before the members that they use are destroyed
 };
 
-/// Reads the finished part of a run. Throws InputError that names the file.
+/// Reads what is finished of a run, which another process may still write. Throws InputError that names the file.
 class RunReader {
  public:
   explicit RunReader(std::filesystem::path folder);
@@ -124,7 +124,7 @@ class RunReader {
   std::size_t frame_count() const { return frames_.size(); }                             ///< number of finished frames
   /// Returns the step of the i-th frame, ascending.
   std::int64_t frame_step(std::size_t i) const { return frames_.at(i).first; }
-  /// Returns a frame. Throws InputError also if it does not fit the scene.
+  /// Returns a frame. Throws InputError as read_frame does, and if the frame does not fit the scene.
   Frame frame(std::size_t i) const;
   /// Returns a frame as it is stored, with the checks of `frame`.
   PackedFrame packed_frame(std::size_t i) const;

@@ -47,8 +47,8 @@ void write_static_part(Hdf5File& file, const Scene& scene) {
 
 std::size_t at_once(std::size_t count, std::size_t bytes) { return Hdf5File::largest_size(count, bytes, count); }
 
-/// Returns the largest disk space of the fixed data: bodies, two kinds of cells with connectivity and offsets, and
-/// small datasets. A small dataset has at most one number and takes less space than HDF5's data about it.
+/// Returns an upper limit of the disk space of the fixed data: bodies, two kinds of cells with connectivity and
+/// offsets, and small datasets. A small dataset has at most one number and takes less space than HDF5's data about it.
 std::size_t static_size(const Mesh& mesh) {
   constexpr std::size_t small_datasets = 16, groups = 1 << 16;
   const std::size_t cells = mesh.triangles.size() + mesh.loose_edges.size();
@@ -57,7 +57,8 @@ std::size_t static_size(const Mesh& mesh) {
          small_datasets * Hdf5File::largest_size(0, 1, 1) + groups;
 }
 
-/// Returns the largest disk space of the offsets of this many steps: ten datasets of at most four numbers each.
+/// Returns an upper limit of the disk space of the offsets of this many steps: ten datasets of at most four numbers
+/// each.
 std::size_t steps_size(std::size_t count) {
   return 10 * at_once(std::max<std::size_t>(count, 1), 4 * sizeof(std::int64_t));
 }

@@ -26,8 +26,8 @@ WritingQueue::~WritingQueue() {
   for (std::thread& thread : threads_) thread.join();
 }
 
-/// Waits until a condition holds, then throws the queue's failure if there is one. The condition must become true after
-/// a failure, too, or the wait would not end.
+/// Waits until a condition holds, then throws the queue's failure if there is one. After a failure the condition must
+/// become true, too; otherwise the wait would not end.
 template <class Condition>
 void WritingQueue::wait(std::unique_lock<std::mutex>& lock, Condition condition) {
   const Clock::time_point begin = Clock::now();

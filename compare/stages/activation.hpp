@@ -9,8 +9,7 @@
 
 namespace ogc::compare {
 
-/// n cases. r [m] and k_c [N/m] are within 2⁻²⁰ … 2²⁰; the distance d [m] is at most 2²⁰ and at least the smaller of
-/// 2⁻²⁰ and 2⁻⁴⁰ r.
+/// n cases. r [m] and k_c [N/m] are within 2⁻²⁰ … 2²⁰. The distance d [m] is within min(2⁻²⁰, 2⁻⁴⁰ r) … 2²⁰.
 struct ActivationIn {
   std::vector<float> distance, contact_radius, stiffness;  ///< by case: d [m], r [m], k_c [N/m]
   std::vector<ContactActivation> activation;               ///< by case
@@ -28,7 +27,7 @@ struct ActivationOut {
 };
 
 /// Values computed with multiprecision and rounded to double, and the units of their errors. A unit is the sum of the
-/// moduli of the terms of the value, but at least 2⁻¹⁰² for d < r: underflow near r, of 2⁻¹²⁶, then counts as one
+/// moduli of the terms of the value. It is at least 2⁻¹⁰² for d < r, so that an underflow near r (2⁻¹²⁶) counts as one
 /// rounding.
 struct ActivationTruth {
   std::vector<double> energy, slope, curvature;                    ///< by case: g [J], g' [N], g'' [N/m]

@@ -14,8 +14,8 @@ namespace ogc::compare {
 /// (bending_needle) is mostly rounding error, so the triangle may count as collapsed, now and at the start.
 ///
 /// Isometric quadratic: E = c/2 ‖ℓ‖² + k c/2 (θ − θᵗ)², ℓ = Σ w_i x_i; ‖ℓ‖ is 2 sin(θ/2) if the triangles keep their
-/// shapes. The damping uses the hinge's angle, since ‖ℓ‖ does not tell one side from the other. Block: c w_own² I + k c
-/// ∇θ ∇θᵀ. Model `none`: force and block are 0.
+/// shapes. The damping uses the hinge's angle, since ‖ℓ‖ is the same for θ and −θ. Block: c w_own² I + k c ∇θ ∇θᵀ.
+/// Model `none`: force and block are 0.
 ///
 /// With `per_vertex` damping the energy is the elastic term alone. Let B be its block and moved = x − xᵗ of the vertex:
 /// k B moved is subtracted from the force, and the block is (1 + k) B.
@@ -62,8 +62,10 @@ inline constexpr double bending_grey = 16;
 inline constexpr double bending_needle = 64;
 /// Largest errors of the isometric quadratic model without damping, in units of u · scale. (The judge applies
 /// bending_force_tolerance and bending_block_tolerance, so the scales of this model are multiplied by the ratio of its
-/// tolerances to those two.) Rounding errors of the force: a difference (1), a product (1), two sums (2), the weight of
-/// x0 (2), c w (1), the product (1). Of the block: the weight of x0 twice (4), a square (1), c (1).
+/// tolerances to those two.) Rounding errors:
+///
+/// - force: a difference (1), a product (1), two sums (2), the weight of x0 (2), c w (1), the product of c w and ℓ (1)
+/// - block: the weight of x0 twice (4), a square (1), c (1)
 inline constexpr double isometric_force_tolerance = 8;
 inline constexpr double isometric_block_tolerance = 6;
 

@@ -36,8 +36,9 @@ struct CcdTruth {
   /// the largest double that is not above the exact first time at which the faces share a point; infinite if they never
   /// do
   std::vector<double> impact;
-  /// a time until which the faces stay farther apart than ccd_gap_left of their first distance plus ccd_resolution · u
-  /// S (S: see ccd_resolution); conservative advancement of at most ccd_fewest_steps steps finds it
+  /// a time until which the distance of the faces stays above ccd_gap_left times their distance at the start, plus
+  /// ccd_resolution · u S (S: see ccd_resolution). Conservative advancement of at most ccd_fewest_steps steps reaches
+  /// it
   std::vector<double> early;
 };
 
@@ -48,10 +49,10 @@ struct CcdTruth {
 /// beyond `early`. Since d(t) ≤ d₀ + ℓ t and d₀/ℓ ≤ t/0.65, early ≤ t + 0.9 (t + t/0.65) < 3.3 t, so (early − t)/early
 /// < 0.7.
 inline constexpr double ccd_early_share = 0.75;
-/// Share of the first distance below which advancement may stop.
+/// Share of the distance at the start. A contestant may stop its advancement if the distance is below this share.
 inline constexpr double ccd_gap_left = 0.1;
-/// A contestant may stop after this many steps. Only turning faces that are a million times as large as their gap need
-/// more.
+/// A contestant may stop after this many steps of its advancement. More are needed only by rotating faces that are a
+/// million times as large as their gap.
 inline constexpr int ccd_fewest_steps = 1000;
 /// A contestant may treat distances below this times u S as 0, u = 2⁻²⁴. S is the largest coordinate relative to vertex
 /// 0 at the start plus the largest displacement relative to the mean displacement. The grey zone has the same factor

@@ -29,9 +29,9 @@ struct ClosestFaceOut {
   std::vector<float> distance_below;          ///< [m], never above the exact distance
 };
 
-/// The exact answer. `accepted[i]` has bit k set if feature k is accepted: the exact feature and, in a grey case, those
-/// on the other side of a boundary. `distance_below` is the largest single-precision number that is not above the exact
-/// distance.
+/// The exact answer. `accepted[i]` has bit k set if feature k is accepted: the exact feature and, in a grey case, every
+/// feature that another sign of a grey margin would give. `distance_below` is the largest single-precision number that
+/// is not above the exact distance.
 struct ClosestFaceTruth {
   ClosestFaceOut exact;                        ///< rounded
   std::vector<std::uint8_t> accepted;          ///< bit f: feature f is accepted
@@ -47,18 +47,21 @@ struct ClosestFaceTruth {
 /// Otherwise errors are amplified by Σ|δ|/distance, where δ are the coordinates relative to the first corner, so the
 /// judge multiplies by max(1, Σ|δ|/distance).
 inline constexpr double closest_face_distance_tolerance = 12;
-/// Largest error accepted in a weight, in units of u · weight_condition; the count is that of
+/// Largest error accepted in a weight, in units of u · weight_condition. It counts the same rounding errors as
 /// closest_face_distance_tolerance.
 inline constexpr double closest_face_weight_tolerance = 12;
 /// Largest amount by which `distance_below` may be below the exact distance, in units of u · max(distance, Σ|δ|), u =
 /// 2⁻²⁴. A smaller bound is valid, but too loose to be useful.
 ///
 /// In a needle (a triangle of small height) rounding moves the plane. Let ρ be the relative rounding error, n the
-/// normal, L the length of the sides, S = ‖p − a‖ + ‖b − a‖ + ‖c − a‖ ≤ 3 Σ|δ|. The normal's error changes the distance
-/// by ρ S L²/‖n‖. If a kernel uses the needle's edges instead of its plane, the distance changes by the height ‖n‖/L. A
-/// kernel that uses edges below ‖n‖ = √ρ L² errs by √ρ S either way. With 2⁷ rounding errors in double √ρ = 2⁻²³ = 2 u.
-/// If the kernel subtracts this error, its bound is up to 2 √ρ S = 12 u Σ|δ| below the distance. The tolerance is twice
-/// that.
+/// normal, L the length of the sides, S = ‖p − a‖ + ‖b − a‖ + ‖c − a‖ ≤ 3 Σ|δ|.
+///
+/// - The normal's error changes the distance by ρ S L²/‖n‖.
+/// - A kernel that uses the needle's edges instead of its plane changes the distance by the height ‖n‖/L.
+/// - If the kernel uses edges for ‖n‖ < √ρ L², either error is at most √ρ S.
+///
+/// With 2⁷ rounding errors in double √ρ = 2⁻²³ = 2 u. If the kernel subtracts its error, its bound is up to 2 √ρ S = 12
+/// u Σ|δ| below the distance. The tolerance is twice that.
 inline constexpr double closest_face_below_tolerance = 24;
 
 }  // namespace ogc::compare

@@ -7,8 +7,8 @@
 
 namespace ogc::compare {
 
-/// The kinds of the closed faces in contact. Values name their vertices in ContactForceCase::vertex: first side |
-/// second side.
+/// The kinds of the closed faces in contact. Comments give indices into ContactForceCase::vertex: vertices of the first
+/// face | vertices of the second face.
 enum class ContactSides : std::uint8_t {
   point_point,     ///< 0 | 1
   point_edge,      ///< 0 | 1 2
@@ -16,7 +16,7 @@ enum class ContactSides : std::uint8_t {
   point_triangle,  ///< 0 | 1 2 3
 };
 
-/// Returns the number of vertices of a contact between these sides.
+/// Returns the number of vertices of a contact between these faces.
 constexpr std::int32_t vertex_count(ContactSides sides) {
   return sides == ContactSides::point_point ? 2 : sides == ContactSides::point_edge ? 3 : 4;
 }
@@ -59,11 +59,11 @@ struct ContactForceIn {
 /// Largest error of the force in units of u · scale, u = 2⁻²⁴. Rounding errors on the longest way from an input to the
 /// force; the largest sum decides:
 ///
-/// - Force: a difference (1); the first edge's parameter: two cross products (4), their scalar product (3), the square
-///   in its denominator (2 + 3), a quotient (1); the second edge's parameter: two scalar products (6), a product, a
-///   difference, a quotient (3), the square in its denominator (3); one minus a parameter (1); the vector between the
-///   contact points: a product, two sums (3); its length (3 + 1); n (2): 36 up to here. g' (4; of ipc_log 9); its
-///   products with w and n (2): 47.
+/// - Force, up to n: a difference (1); the first edge's parameter: two cross products (4), their scalar product (3),
+///   the square in its denominator (2 + 3), a quotient (1); the second edge's parameter: two scalar products (6), a
+///   product, a difference, a quotient (3), the square in its denominator (3); one minus a parameter (1); the vector
+///   between the contact points: a product, two sums (3); its length (3 + 1); n (2): 36.
+/// - Force, in all: 36 up to n; g' (4; 9 for ipc_log); its products with w and n (2): 47.
 /// - e_k: a difference, a cross product, twice (4), squares (3), ε (3), a quotient, q(2 − q), its product with k_c: 15.
 /// - e_k as a share of the overlap: a difference, two scalar products (6), a quotient for each end, their difference,
 ///   the root of a quotient of squares (6 / 2 + 2), two products: 16.
@@ -72,9 +72,9 @@ inline constexpr double contact_force_tolerance = 47;
 /// ipc_log 8), Σ |w_u| of four vertices (3), its products with |w| and g'' (2), an outer product (2).
 inline constexpr double contact_block_tolerance = 51;
 /// Largest error of a distance in units of u · scale. Rounding errors: a difference (1), a product and two sums (3),
-/// squares (3), a root (1); twice that, since the weights are not quite those of the closest points. A contact is grey
-/// if this error could change the closest feature, make d = 0 or, with ogc_as_printed, move d across the jump at τ. If
-/// d may be 0, n is unknown as well, and any answer up to the one at d = 2⁻²³ r is accepted.
+/// squares (3), a root (1): 8. The limit is 16, since rounded weights are not quite those of the closest points. A
+/// contact is grey if this error could change the closest feature, make d = 0 or, with ogc_as_printed, move d across
+/// the jump at τ. If d may be 0, n is unknown as well, and any answer up to the one at d = 2⁻²³ r is accepted.
 inline constexpr double contact_grey = 16;
 
 }  // namespace ogc::compare

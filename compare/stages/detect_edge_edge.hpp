@@ -14,8 +14,8 @@ namespace ogc::compare {
 /// the blocks.
 ///
 /// A contact is an unordered pair {p, q}, each a vertex or the interior of an edge, first < second as faces.
-/// `first_edge` contains `first`, and `second_edge` contains `second`. Among the edges that generate the pair, these
-/// have the lexicographically smallest (min, max) of both numbers.
+/// `first_edge` contains `first`, and `second_edge` contains `second`. If several pairs of edges generate the contact,
+/// the pair with the lexicographically smallest (lower number, higher number) is stored.
 struct EdgeEdgeContact {
   Face first, second;                       ///< each a vertex or an edge, the lower face first
   Index first_edge = -1, second_edge = -1;  ///< edges that generate the pair, in the order of the faces
@@ -25,7 +25,8 @@ struct EdgeEdgeContact {
 /// The answer. The canonical order of contacts is by (first, second).
 struct DetectEdgeEdgeOut {
   std::vector<EdgeEdgeContact> contacts;  ///< in any order
-  /// min over edges that share no vertex with the edge, at most r_q [m], never above the exact value
+  /// By edge: smallest distance from an edge that shares no vertex with it, at most r_q [m], never above the exact
+  /// value
   std::vector<float> d_min_edge;
 };
 
@@ -33,7 +34,7 @@ struct DetectEdgeEdgeOut {
 struct DetectEdgeEdgeTruth {
   DetectEdgeEdgeOut exact;                          ///< in canonical order, distances rounded down
   std::vector<GreyDecision<EdgeEdgeContact>> grey;  ///< all grey decisions
-  std::size_t pairs = 0;                            ///< decided pairs
+  std::size_t pairs = 0;                            ///< candidate pairs within r_q, the denominator of the grey share
   std::size_t near = 0;                             ///< number of edges with a decision within near_factor
 };
 

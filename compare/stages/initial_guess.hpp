@@ -1,5 +1,5 @@
 // Stage initial_guess: one round of the guess loop for one vertex, which computes y and x ← y truncated about X_prev
-// (Eq. 27, 28; method.md §5.2); and the frame of one segment of a rod, turned with the segment (compare/rods.md).
+// (Eq. 27, 28; method.md §5.2); and the frame of one segment of a rod, rotated with the segment (compare/rods.md).
 #pragma once
 
 #include <array>
@@ -21,9 +21,9 @@ struct InitialGuessCase {
   std::uint8_t reserved = 0;            ///< 0: an unused byte of the plug-ins' structure
 };
 
-/// A segment with its frame. D and Dᵗ are 0 or 2⁻⁵⁰ m … 2⁴⁰ m long; q is a unit quaternion within
-/// unit_quaternion_slack. The answer is q turned by the smallest rotation from Dᵗ to D. If D and Dᵗ are opposite, it is
-/// q i, half a turn about the frame's first axis. If D or Dᵗ is 0, it is q.
+/// A segment with its frame. D and Dᵗ are 0 or 2⁻⁵⁰ m … 2⁴⁰ m long; qᵗ is a unit quaternion within
+/// unit_quaternion_slack. The answer is qᵗ rotated by the smallest rotation from Dᵗ to D. If D and Dᵗ are opposite, it
+/// is qᵗ i, a rotation by π about the frame's first axis. If D or Dᵗ is 0, it is qᵗ.
 struct TurnCase {
   Vec3f before, now;                   ///< Dᵗ, D [m]
   Quaternion orientation{0, 0, 0, 1};  ///< qᵗ
@@ -39,7 +39,7 @@ struct InitialGuessIn {
 struct InitialGuessOut {
   std::vector<Vec3f> target, position;    ///< y, x [m]
   std::vector<std::uint8_t> cut;          ///< 1 if the stored y has ‖y − x_prev‖ > b_v
-  std::vector<Quaternion> orientation{};  ///< by turn
+  std::vector<Quaternion> orientation{};  ///< one for each element of `turns`
 };
 
 /// The exact y with the sum of the moduli of its terms in each coordinate. The judge checks position and cut with stage
@@ -47,7 +47,7 @@ struct InitialGuessOut {
 struct InitialGuessTruth {
   std::vector<Vec3> target;          ///< exact y [m]
   std::vector<double> target_scale;  ///< largest over the coordinates of |xᵗ| + h |vᵗ| + h² |a| [m]
-  std::vector<std::array<double, 4>> orientation{};  ///< exact, with the sign of turn · q
+  std::vector<std::array<double, 4>> orientation{};  ///< exact t qᵗ; t is the smallest rotation, real part ≥ 0
   /// 1/cos(θ/2), θ between Dᵗ and D: the factor by which an error of their directions grows. Infinite if the tolerance
   /// allows an error of half a radian or more; then any unit quaternion is accepted
   std::vector<double> orientation_scale{};
@@ -56,11 +56,11 @@ struct InitialGuessTruth {
 /// Largest error of y's coordinates in units of u · target_scale, u = 2⁻²⁴. The term h² a is rounded four times (h a,
 /// the sum with vᵗ, the product with h, the sum with xᵗ), h vᵗ three times, xᵗ once.
 inline constexpr double initial_guess_target_tolerance = 4;
-/// Largest error of a turned frame in units of u · orientation_scale. Let a and b be the directions of Dᵗ and D. Their
+/// Largest error of a rotated frame in units of u · orientation_scale. Let a and b be the directions of Dᵗ and D. Their
 /// lengths have errors of 5 u each (a scalar product, a root, a quotient), their components 1 u. The error of the
 /// quaternion (a × b, 1 + a·b) is 16 u: 10 u from both lengths, 2 u from the cross product, 4 u from the scalar product
 /// and the sum. Normalisation divides it by the quaternion's length 2 cos(θ/2), which leaves 8 u · orientation_scale.
-/// The product with q adds 8, and two normalisations 4 each.
+/// The product with qᵗ adds 8, and two normalisations 4 each.
 inline constexpr double initial_guess_turn_tolerance = 24;
 
 }  // namespace ogc::compare

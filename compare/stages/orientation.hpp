@@ -58,7 +58,7 @@ struct OrientationAnswer {
   std::array<double, 4> vector{};                 ///< b [N m]
   double energy = 0;                              ///< of q* [N m]
   /// ‖∂q/∂D‖ ‖D‖ + ‖∂q/∂c‖ (1 + k ‖Dᵗ‖/l) + ‖∂q/∂k_s‖ k_s + ‖∂q/∂b‖ Σ w (1 + k), at least 1. Infinite if errors within
-  /// the tolerance can turn one minimiser into any other; then only energy and residual are judged
+  /// the tolerance can change one minimiser into any other; then only energy and residual are judged
   double scale = 0;
   double energy_scale = 0;  ///< 2 k_s ‖D‖ (1 + k ‖Dᵗ‖/l) + Σ w (1 + k), the unit of energy and residual [N m]
 };
@@ -70,17 +70,17 @@ struct OrientationTruth {
   std::vector<std::uint8_t> near;                        ///< by case
 };
 
-/// Largest error of t·q and tᵗ·q in units of u = 2⁻²⁴. A product of quaternions errs by 8 u of both lengths: each
-/// component by 4 roundings of terms whose moduli add up to at most 1, four components by 8 in norm. t is one product,
-/// tᵗ two of them (16); the scalar product adds 4: 20.
+/// Largest error of t·q and tᵗ·q in units of u = 2⁻²⁴. A product of two unit quaternions errs by 8 u: each of its four
+/// components is a sum of terms whose moduli add up to at most 1, with 4 rounding errors. t is one product, tᵗ two of
+/// them (16). The scalar product adds 4: 20.
 inline constexpr double orientation_sign_grey = 20;
 /// Largest error in units of u · scale. Each factor ∂q/∂… of the scale has its own count of rounding errors; the
 /// largest decides:
 ///
 /// - b: tᵗ (16), its weight (2), sums (3): 21; the part of b in each eigenspace of M: two products and half a sum (17);
 ///   the answer: two quotients and a sum, its length (3 + 4): 45 in all.
-/// - c: the turn by R(qᵗ)ᵀ of the difference Dᵗ, a quotient, a factor, a sum (14 + 4), a qᵗ that is not quite of unit
-///   length (8), the unit vector (4): 30.
+/// - c: the rotation of the difference Dᵗ by R(qᵗ)ᵀ, a quotient, a factor, a sum (14 + 4), a qᵗ that is not quite of
+///   unit length (8), the unit vector (4): 30.
 /// - D: a difference and the unit vector (5).
 /// - k_s: σ, made of two lengths and three products (4 + 18 + 3).
 inline constexpr double orientation_tolerance = 45;
@@ -95,8 +95,8 @@ inline constexpr double orientation_residual_tolerance = 74;
 /// order. If b is smaller than its own error, q may lie on the wrong half of the circle of minimisers. The excess is
 /// then at most twice the error of b (45).
 inline constexpr double orientation_energy_tolerance = 90;
-/// Largest | ‖q‖ − 1 | in units of u. Rounding errors: four squares and their sum (4) halved by the root, the root, a
-/// quotient. A factor (3 − ‖q‖²)/2 and a product cost no more.
+/// Largest | ‖q‖ − 1 | in units of u. Rounding errors: four squares and their sum (4, halved by the root: 2), the root
+/// (1), a quotient (1). Normalisation by a product with (3 − ‖q‖²)/2 has no larger error.
 inline constexpr double orientation_length_tolerance = 4;
 
 }  // namespace ogc::compare

@@ -88,14 +88,14 @@ struct PlaneGuarantee {
 };
 
 /// Measures how far the vertices may still move, since planes are used to leave vertices more freedom than balls do. A
-/// pair is *due*, that is, it must have a plane, if two conditions hold:
+/// pair is *due*, that is, it must have a plane, if both hold:
 ///
 /// - For each of its movable vertices, it is nearer than the vertex's 17th nearest pair by more than
 ///   `detect_below_tolerance`, since rounding may decide which pair is the 17th.
 /// - Single precision can represent its plane: d ≥ 2⁻¹⁸ Σ|δ|, and γ_p d and (1 − 2γ_p) d are at least 2⁻⁴⁵ of the
 ///   largest modulus of a coordinate. δ are the coordinates relative to the pair's first vertex.
 ///
-/// Rounding turns n by u = 2⁻²⁴, which changes the pair's projection on n by at most u Σ|δ| ≤ d/64. Heights n·x and
+/// Rounding rotates n by u = 2⁻²⁴, which changes the pair's projection on n by at most u Σ|δ| ≤ d/64. Heights n·x and
 /// offsets err by a few 2⁻⁵³ of the coordinates.
 struct PlaneFreedom {
   std::size_t pairs = 0;        ///< pairs within r_q
@@ -113,7 +113,7 @@ struct PlaneFreedom {
   ///   a = max(0, largest n·w of the first side),  b = max(0, largest −n·w of the second),
   ///   s = a/(a + b) of the first side, b/(a + b) of the second, at least `least_division`; 1/2 if a = b = 0,
   ///
-  /// and W = max ‖w‖ of the pair. Left out are pairs with an immovable side, and pairs for which rounding can hide
+  /// and W = max ‖w‖ of the pair. Pairs with an immovable side are left out. So are pairs for which rounding may decide
   /// whether the sides approach.
   double division = 0;
   PrimitivePair worst_divided;  ///< the pair of `division`

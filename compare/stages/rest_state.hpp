@@ -52,10 +52,13 @@ struct MeetingMaterial {
 /// there.
 ///
 /// Rest frames are defined along a walk over neighbours. A chain's walk begins at the lower-numbered of its two end
-/// segments. A ring's walk begins at its lowest-numbered segment, from x₀ to x₁. The first frame is the smallest
-/// rotation from e₃ to x₁ − x₀, or half a turn about the first axis if x₁ − x₀ points along −e₃. Each next frame is the
-/// frame before it, turned by the smallest rotation between the two directions of the walk. If exactly one of the two
-/// segments points against the walk, the next frame is then turned by half a turn about its own first axis (q i).
+/// segments. A ring's walk begins at its lowest-numbered segment, from x₀ to x₁.
+///
+/// - The first frame is the smallest rotation from e₃ to x₁ − x₀. If x₁ − x₀ points along −e₃, it is a rotation by π
+///   about the first axis.
+/// - Each next frame is the frame before it, rotated by the smallest rotation between the two directions of the walk.
+///   If exactly one of the two segments points against the walk, the next frame is then rotated by π about its own
+///   first axis (q i).
 struct RestSegment {
   Edge end{};                              ///< x₀, x₁ in the order of the scene's loose edge
   Index body = -1;                         ///< gives the material
@@ -68,8 +71,8 @@ struct RestSegment {
   Quaternion orientation{};  ///< q°; q° and p° may have either sign
 };
 
-/// A scene, rounded (`round_to_single`) and valid (`validate`), except that k_c may be 0; every vertex that no motion
-/// and no fixed body holds has a triangle, a tetrahedron or a segment. Topology: `build_topology(scene)`.
+/// A scene, rounded (`round_to_single`) and valid (`validate`), except that k_c may be 0. Every vertex belongs to a
+/// triangle, a tetrahedron or a segment, unless it is prescribed or fixed. Topology: `build_topology(scene)`.
 struct RestStateIn {
   const Scene* scene = nullptr;        ///< rounded
   const Topology* topology = nullptr;  ///< of the scene's mesh
@@ -135,7 +138,8 @@ inline constexpr double rest_state_angle_tolerance = 1.6;
 //     vertices         returns the vertices that an element joins; −1 stands for one that it lacks
 //     each_possible    visits the vertices of each stencil that is an element if its material has the energy
 
-/// Base of the kinds whose elements a rest state has, with the vertices in one member.
+/// Base of the kinds whose elements a rest state has, in its member `list`. Member `joined` of an element has the
+/// vertices.
 template <auto list, auto joined>
 struct OfRestState {
   static constexpr auto rest = list;  ///< points to the elements
@@ -151,7 +155,7 @@ struct OfRestState {
   }
 };
 
-/// Base of the kinds whose stencils the mesh lists.
+/// Base of the kinds whose stencils are in member `stencils` of the mesh.
 template <auto list, auto joined, auto stencils>
 struct OfMesh : OfRestState<list, joined> {
   /// Visits each stencil of the mesh.

@@ -6,7 +6,7 @@
 
 namespace ogc::compare {
 
-/// D = x₁ − x₀. A quaternion q = (u, w) turns a vector by R(q) v = v + 2 w (u × v) + 2 u × (u × v); its director is
+/// D = x₁ − x₀. A quaternion q = (u, w) rotates a vector by R(q) v = v + 2 w (u × v) + 2 u × (u × v); its director is
 /// R(q) e₃.
 ///
 /// E = k_s l/2 (‖D/l − R(q) e₃‖² + k ‖R(q)ᵀ D/l − R(qᵗ)ᵀ Dᵗ/l‖²), where q and qᵗ are given. With c = e₃ + k R(qᵗ)ᵀ Dᵗ/l
@@ -35,18 +35,25 @@ struct RodIn {
 };
 
 /// Largest error of the force in units of u · scale, u = 2⁻²⁴. With A = k_s (1 + k) ‖D‖/l, C = k_s ‖c‖ and Cᵗ = k_s k
-/// ‖Dᵗ‖/l the scale is at least A + 2 C + 3 Cᵗ, since R is quadratic in q. So the largest of these counts of rounding
-/// errors, divided by 1, 2 and 3, decides: 12.
+/// ‖Dᵗ‖/l the scale is at least A + 2 C + 3 Cᵗ, since R is quadratic in q. So the count of rounding errors of A is
+/// divided by 1, that of C by 2 and that of Cᵗ by 3. The largest quotient decides: 24/2 = 12.
 ///
 /// - A: a difference, a quotient, 1 + k and its product (2), k_s, the last difference: 6.
-/// - C: the turn by R(q) (14, see below), k_s, the last difference (1 + 1), and ‖q‖², which is off by up to 2⁻²¹ and
-///   enters other formulas for R (8): 24.
-/// - Cᵗ, inside c: a difference, the turn by R(qᵗ)ᵀ (14), a quotient, k, a sum (1 + 1 + 1 + 1) and qᵗ's length (8): 26.
+/// - C: the rotation by R(q) (14, see below), k_s, the last difference (1 + 1), and ‖q‖², which is off by up to 2⁻²¹
+///   and enters other formulas for R (8): 24.
+/// - Cᵗ, inside c: a difference, the rotation by R(qᵗ)ᵀ (14), a quotient, k, a sum (1 + 1 + 1 + 1) and qᵗ's length
+///   (8): 26.
 ///
-/// A turned vector errs by at most 14 · 2⁻²⁴ of its length. With q = (u, w) the errors of R(q) v in units of 2⁻²⁴ ‖v‖
-/// are: u × v, 2.5 ‖u‖ (a product and a difference in each component); 2 w (u × v), 7 ‖u‖ w; 2 u × (u × v), 10 ‖u‖²;
-/// two sums, 2 + 2 ‖u‖ w. With damping by vertex the term of `moved` adds its size to the scale and errs by 7: a
-/// difference, a block of 3, two products and a sum.
+/// A rotated vector errs by at most 14 · 2⁻²⁴ of its length. With q = (u, w) the errors of R(q) v in units of 2⁻²⁴ ‖v‖
+/// are:
+///
+/// - u × v: 2.5 ‖u‖ (a product and a difference in each component)
+/// - 2 w (u × v): 7 ‖u‖ w
+/// - 2 u × (u × v): 10 ‖u‖²
+/// - two sums: 2 + 2 ‖u‖ w
+///
+/// With damping by vertex the term of `moved` adds its size to the scale and errs by 7: a difference, a block of 3, two
+/// products and a sum.
 inline constexpr double rod_force_tolerance = 12;
 /// Largest error of the block in units of u · scale. Rounding errors: 1 + k, a product, a quotient.
 inline constexpr double rod_block_tolerance = 3;

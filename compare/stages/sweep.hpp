@@ -69,7 +69,7 @@ struct SweepOut {
 /// nearest to the answer. It is also grey if it is *ill-conditioned*: the errors of H alone could make H singular,
 /// ‖H⁻¹‖ ‖δH‖ ≥ 1/2. Then the error of a single-precision solve is unlimited, and a solver may take a step down the
 /// gradient instead. So `accepted` is infinite. Exception: `accepted` is 0 if the vertex was not cut and moved against
-/// its force by more than any error explains.
+/// its force by more than the errors of f and H allow.
 ///
 /// `accepted` is also infinite if half-spaces cut a free vertex, or may cut it. The judge then only requires that the
 /// vertex lies in its region. Stage truncate judges how it slides.

@@ -13,8 +13,8 @@ namespace ogc::compare {
 ///
 /// E = V [μ/2 (‖F‖² − 3) − μ (J − 1) + (λ + μ)/2 (J − 1)² + k ϕ(G − Gᵗ)]. Each number of the rest shape is rounded
 /// once. w_k = V ∇N_k·∇N₀ and i = 1/(6V) define the elastic part:
-///   V ‖F‖²/2 = −½ Σ_k w_k ‖x_k − x₀‖² + what does not depend on x₀,   J = i det(x₁ − x₀, x₂ − x₀, x₃ − x₀),
-/// with V = 1/(6i); the damping's F is that of ∇N₁, ∇N₂, ∇N₃, with ∇N₀ = −∇N₁ − ∇N₂ − ∇N₃.
+///   V ‖F‖²/2 = −½ Σ_k w_k ‖x_k − x₀‖² + terms without x₀,   J = i det(x₁ − x₀, x₂ − x₀, x₃ − x₀),   V = 1/(6i).
+/// The damping computes F from ∇N₁, ∇N₂, ∇N₃, with ∇N₀ = −∇N₁ − ∇N₂ − ∇N₃.
 ///
 /// Block of the elastic part: the exact second derivative V (μ ‖∇N₀‖² I + (λ + μ) g gᵀ) with g = ∂J/∂x₀. J is affine in
 /// one vertex, so no term is dropped or clamped. Block of the damping: V k times the second derivative of ϕ along the

@@ -41,7 +41,7 @@ struct HalfSpacesIn {
 };
 
 /// Input of the stage: independent vertices. X_prev and the current position lie in the ball, and in each half-space
-/// with 2⁻⁵⁰ (Σ|n_k x_k| + |o|) to spare.
+/// even if its offset is smaller by 2⁻⁵⁰ (Σ|n_k x_k| + |o|).
 struct TruncateIn {
   std::vector<Vec3f> previous, position;  ///< X_prev and x [m]
   std::vector<float> bound;               ///< b_v ≥ 0 [m]
@@ -81,8 +81,8 @@ inline constexpr double half_space_slack = 0x1p-48;
 /// three coordinates (√3 half ulps), a step towards x_prev if rounding went outwards (the same again), and the relative
 /// error of the factor that shortens the move (4 u b).
 inline constexpr double truncate_position_tolerance = 8;
-/// truncate_position_tolerance for cases with half-spaces, where a step may be needed in each of three coordinates (2 u
-/// each).
+/// truncate_position_tolerance for cases with half-spaces. There each of three coordinates may need a step to the next
+/// float (2 u each).
 inline constexpr double truncate_region_tolerance = truncate_position_tolerance + 6;
 /// A kernel may stop this far short of a half-space, in units of u Σ|n_k x_k|, since storing can move a position across
 /// it. Storing counts 1, and 1 more after the ball has moved the vertex; the sum is rounded up to a power of two.

@@ -17,9 +17,9 @@ namespace ogc::compare {
 /// Input of the stage: one volume, that is its surface and its tetrahedra if it has any, and the points to test. A
 /// *part* is a connected component of triangles and tetrahedra, with its cavities. In a part with tetrahedra the
 /// triangles are exactly their boundary (compare/problem/tetrahedra.hpp). In a part of triangles each edge has one
-/// triangle (a rim), or two that run through it in opposite senses. Each triangle has an area, and no height below 2⁻²⁰
-/// of its longest side, where single precision determines neither closest point nor normal. Views; their owner must
-/// outlive the call.
+/// triangle (a rim), or two that run through it in opposite senses. Each triangle has an area. Its heights are at least
+/// 2⁻²⁰ of its longest side; below that single precision determines neither closest point nor normal. The views' owner
+/// must outlive the call.
 struct VolumeDepthIn {
   const Topology* topology = nullptr;            ///< of the volume's triangles
   std::span<const Vec3f> positions;              ///< by vertex of the volume [m]
@@ -57,9 +57,9 @@ struct VolumeContact {
 /// shortest way. Of equally short ways the one to the lowest-dimensional, then the lowest-numbered face counts. Ways of
 /// two sheets to one face are one contact. A sheet without a way has no contact. Without a sheet x is outside.
 ///
-/// If x is a vertex of the volume, sheets of tetrahedra and faces that contain this vertex are left out. Let a face
-/// belong to a triangle of a tetrahedron without positive volume. The surface is folded there, so a point outside may
-/// have a contact with this face or none.
+/// If x is a vertex of the volume, sheets of tetrahedra and faces that contain this vertex are left out. At a triangle
+/// of a tetrahedron without positive volume the surface is folded. So a point outside may have a contact with a face of
+/// this triangle or none.
 struct VolumeDepthOut {
   std::vector<VolumeContact> contacts;  ///< ascending by point, inside, triangle, face
   std::vector<Index> unresolved = {};   ///< ascending: the point of each sheet without a way

@@ -50,7 +50,7 @@ class Outputs {
 
 /// Converts a contact. All three overloads throw compare::ContestantFailure if it names an unknown kind of face.
 compare::VertexFacetContact contact_of(const ogc_vertex_facet_contact& c);
-/// Joins the two parts of a contact with a volume.
+/// Joins the two structures of a contact with a volume.
 compare::VolumeContact contact_of(const ogc_volume_contact& c, const ogc_volume_numbers& numbers);
 compare::EdgeEdgeContact contact_of(const ogc_edge_edge_contact& c);
 

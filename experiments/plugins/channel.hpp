@@ -55,15 +55,15 @@ struct MalformedBlock : std::runtime_error {
 /// Result of a transfer.
 enum class Transfer {
   whole,
-  end,  ///< the other side closed the socket, possibly in the middle of a block
+  end,  ///< the other process closed the socket, possibly in the middle of a block
   timeout,
 };
 
-/// Limits how long to wait for the other side.
+/// Limits how long to wait for the other process.
 struct Patience {
   double seconds = -1;  ///< < 0: for ever
-  /// Returns whether the process on the other side is still running. The socket alone can't show this, because children
-  /// of that process may keep it open.
+  /// Returns whether the other process is still running. The socket alone can't show this, because children of that
+  /// process may keep it open.
   std::function<bool()> other_runs{};
 };
 
@@ -78,7 +78,7 @@ class Channel {
   Channel(Channel&& other) noexcept : descriptor_(other.descriptor_) { other.descriptor_ = -1; }
   Channel& operator=(Channel&& other) noexcept;
 
-  /// Closes this end; the other side then receives Transfer::end.
+  /// Closes this end of the socket; the other process then receives Transfer::end.
   void close();
   /// Returns whether this end is open.
   bool is_open() const { return descriptor_ >= 0; }

@@ -18,7 +18,8 @@ std::size_t page() {
 
 std::size_t whole_pages(std::size_t bytes) { return (bytes + page() - 1) / page() * page(); }
 
-/// Protected address space on either side of an array, which occupies no memory. Accesses farther away are not caught.
+/// Size of the protected address space before and behind an array [bytes]. It occupies no memory. Accesses farther away
+/// are not caught.
 constexpr std::size_t untouchable = 16u << 20;
 
 /// Holds pages between two protected ranges of address space.

@@ -16,7 +16,7 @@ namespace ogc::experiments {
 inline constexpr std::uint32_t unwritten_word = 0x7fadc0de;
 inline constexpr std::uint8_t unwritten_byte = 0xe7;
 
-/// Side of an array on which bytes were written.
+/// Where bytes were written outside an array: nowhere, before the array or behind it.
 enum class Damage { none, before, behind };
 
 /// Holds the arrays of one question and its answer.
@@ -29,7 +29,7 @@ class PluginMemory {
   virtual void* output(std::size_t bytes, std::size_t unit) = 0;
   /// Waits until all work on the device has finished. Throws std::runtime_error if the device reports an error.
   virtual void synchronize() = 0;
-  /// Returns the side of the k-th output on which bytes were written.
+  /// Returns where bytes were written outside the k-th output.
   virtual Damage damage(std::size_t k) = 0;
   /// Returns the first `bytes` of the k-th output.
   virtual std::vector<std::byte> content(std::size_t k, std::size_t bytes) = 0;

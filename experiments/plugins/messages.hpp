@@ -33,7 +33,8 @@ struct WorkerAnswer {
       outputs;  ///< outputs of the stage, in its order; their lengths follow from the counts and the question's sizes
 };
 
-/// Read a message. Throw MalformedBlock that describes what is wrong with the message.
+/// read_greeting and read_answer read a message. Both throw MalformedBlock, which describes what is wrong with the
+/// message.
 Greeting read_greeting(const NextBlock& next);
 WorkerAnswer read_answer(const NextBlock& next, const PluginStage& stage, const QuestionSizes& sizes);
 

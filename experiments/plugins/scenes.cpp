@@ -216,15 +216,15 @@ struct Trace {
   std::vector<ogc_edge_edge_contact> edge_edge;
 };
 
-/// Returns part k of `all`, which consists of parts of this length.
+/// Returns the elements from k · length to (k + 1) · length − 1.
 template <class T>
 std::vector<T> part(const std::vector<T>& all, std::size_t k, std::size_t length) {
   const auto first = all.begin() + static_cast<std::ptrdiff_t>(k * length);
   return {first, first + static_cast<std::ptrdiff_t>(length)};
 }
 
-/// Returns the contacts of detection k, which lie between the end of detection k − 1 and its own end, in the canonical
-/// order that sweeps require.
+/// Returns the contacts of detection k, from the end of detection k − 1 in `all` to ends[k], in the canonical order
+/// that sweeps require.
 template <class Contact, class Plain>
 std::vector<Contact> contacts_of(const std::vector<Plain>& all, const std::vector<Index>& ends, std::size_t k) {
   const std::int64_t begin = k == 0 ? 0 : ends[k - 1], end = ends[k];

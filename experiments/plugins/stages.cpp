@@ -352,8 +352,8 @@ std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, const Lis
   return static_cast<std::size_t>(of_each() * lists[static_cast<std::size_t>(info.list)]);
 }
 
-// Returns the room for lists at the first call. Room for contacts and planes is a guess. Room for events and detections
-// is the most that Algorithm 3 needs, with a detection before each round and each iteration.
+// Returns the room for lists at the first call. Room for contacts and planes is an estimate. Room for events and
+// detections is the most that Algorithm 3 needs, with a detection before each round and each iteration.
 ListSizes first_capacities(const QuestionSizes& sizes) {
   const std::int64_t contacts = 64 + 4 * (std::int64_t{sizes.vertices} + sizes.edges),
                      rounds = sizes.settings.guess_rounds + sizes.settings.iterations;
@@ -369,11 +369,14 @@ ListSizes first_capacities(const QuestionSizes& sizes) {
           64 + 4 * sizes.cases};
 }
 
-// Returns limits: the first capacities plus the largest numbers of pairs at each detection, at most 2^40. Contacts are
-// at most all vertices with all triangles and all ordered pairs of edges; contacts with a volume, all points with all
-// faces. Planes are at most one for each vertex of each pair. The first capacities leave room for contacts that are
-// listed twice in a small mesh, so that the judge recognises them. Products of two sizes fit into 64 bits, because each
-// size fits into 31 bits.
+// Returns for each list its first capacity plus its most entries at each detection, together at most 2^40:
+//
+// - contacts: all vertices with all triangles, and all ordered pairs of edges
+// - contacts with a volume: all points with all faces
+// - planes: one for each vertex of each pair
+//
+// The first capacities leave room for contacts that are listed twice in a small mesh, so that the judge recognises
+// them. Products of two sizes fit into 64 bits, because each size fits into 31 bits.
 ListSizes most_entries(const QuestionSizes& sizes) {
   constexpr std::int64_t most = std::int64_t{1} << 40;
   ListSizes entries = first_capacities(sizes);

@@ -52,7 +52,7 @@ struct OutputInfo {
   Element element;         ///< type of the array
   std::size_t elements;    ///< number of elements in a group
   Per per;                 ///< the output has one group for each of these units
-  List list = List::none;  ///< the output has the groups of each entry of this list
+  List list = List::none;  ///< unless `none`: each entry of this list has these groups
 };
 
 /// Return the size of one element, and of one group [bytes].

@@ -213,8 +213,8 @@ bool answer(Channel& channel, Library& library, const CallRequest& request,
   return all;
 }
 
-/// Reads a question; returns nothing if the other side has closed the socket. Throws MalformedBlock if a part is
-/// missing; then the plug-in itself has read from the socket.
+/// Reads a question; returns nothing if `ogc` has closed the socket. Throws MalformedBlock if bytes are missing,
+/// because the plug-in itself has read from the socket.
 std::optional<std::pair<CallRequest, std::vector<std::vector<std::byte>>>> next_question(Channel& channel) {
   std::vector<std::byte> block;
   CallRequest request;
@@ -227,7 +227,7 @@ std::optional<std::pair<CallRequest, std::vector<std::vector<std::byte>>>> next_
   return std::pair(request, std::move(inputs));
 }
 
-/// Answers questions until the other side closes the socket.
+/// Answers questions until `ogc` closes the socket.
 void serve(Channel& channel, Library& library) {
   try {
     while (const auto question = next_question(channel))

@@ -1,5 +1,5 @@
 // Declares the process in which a plug-in runs: `ogc plugin-worker FILE`, which only PluginProcess starts. The process
-// loads the library, reports the result, and answers questions until the other side closes the socket. A failure of the
+// loads the library, reports the result, and answers questions until PluginProcess closes the socket. A failure of the
 // library affects this process alone.
 #pragma once
 
@@ -41,7 +41,7 @@ struct CallRequest {
 /// Exit status of a worker that could not send its answer.
 inline constexpr int worker_lost_socket = 70;
 
-/// Adds the hidden subcommand.
+/// Adds the hidden subcommand plugin-worker.
 void add_plugin_worker_command(CLI::App& app, CommandContext& context);
 
 }  // namespace ogc::experiments

@@ -16,8 +16,8 @@ struct Activation {
   float energy, slope, curvature;
 };
 
-// Returns both stages of Eq. 18; `inner` is k'_c. At d = tau the quadratic part applies. No term squares d, because d
-// squared could underflow.
+// Returns the activation of Eq. 18 with its two branches; `inner` is k'_c. At d = tau the quadratic branch holds. No
+// term squares d, because d squared could underflow.
 __device__ Activation two_stages(float d, float r, float k, float tau, float inner) {
   if (d >= tau) return {0.5f * k * (r - d) * (r - d), -k * (r - d), k};
   return {0.5f * k * (r - tau) * (r - tau) + inner * logf(tau / d), -inner / d, inner / d / d};

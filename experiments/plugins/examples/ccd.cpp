@@ -1,5 +1,5 @@
 // A correct plug-in in double precision for the stage ccd, by conservative advancement (Li et al. 2021, Algorithm 1).
-// Each advance is 0.9 of the longest safe time, which follows from the faces' speeds or from the slab between them.
+// Each advance is 0.9 of the longest safe time: one from the faces' speeds, two from the slab between the faces.
 //
 //     g++ -O2 -shared -fPIC -I INCLUDE ccd.cpp -o ccd.so
 //     ogc compare ccd --plugin ./ccd.so
@@ -40,7 +40,7 @@ Vector shortest(bool edges, const Points& x) {  // shortest vector between the f
 
 double time_of(const ogc_ccd_case& c) {
   const bool edges = c.kind == OGC_CCD_EDGE_EDGE;
-  const int split = edges ? 2 : 1;  // number of vertices of the first side
+  const int split = edges ? 2 : 1;  // number of vertices of the first face
   const auto apart = [](const ogc_vec3& a, const ogc_vec3& b) { return minus({a.x, a.y, a.z}, {b.x, b.y, b.z}); };
   Points from, way, x;
   Vector mean{};
@@ -55,7 +55,7 @@ double time_of(const ogc_ccd_case& c) {
     const Vector d = shortest(edges, x);
     const double gap = length(d) - 1e-13 * size;  // minus the largest rounding error
     if (gap <= 0 || gap < 0.1 * (first = step == 0 ? gap : first)) break;
-    double slab[2] = {2, 2};  // time for which the slab stays empty, seen along d and against it
+    double slab[2] = {2, 2};  // times for which the slab stays empty, by heights along d and -d
     for (int i = 0; i < split; ++i)
       for (int j = split; j < 4; ++j)
         for (int k = 0; k < 2; ++k) {

@@ -9,7 +9,7 @@
 
 namespace museum {
 
-// Returns k'_c of the two activations that have two stages; others do not read it.
+// Returns k'_c of the two activations that have two branches; the other activations do not read it.
 inline float right_inner(int64_t activation, float r, float k) {
   const float depth = r - r / 2;
   return activation == OGC_ACTIVATION_OGC_AS_PRINTED ? r / 2 * k * depth * depth : r / 2 * k * depth;
@@ -18,7 +18,7 @@ inline float right_inner(int64_t activation, float r, float k) {
 // Writes g, g' and g'' of case i with this distance, stiffness and k'_c.
 inline void answer(const ogc_activation_in* in, int64_t i, float d, float k, float inner, ogc_activation_out* out) {
   const float r = in->contact_radius[i], tau = r / 2, depth = r - d, share = depth / d;
-  float energy = k * depth * depth / 2, slope = -k * depth, curvature = k;  // the quadratic stage
+  float energy = k * depth * depth / 2, slope = -k * depth, curvature = k;  // the quadratic branch
   switch (in->activation[i]) {
     case OGC_ACTIVATION_QUADRATIC: break;
     case OGC_ACTIVATION_IPC_LOG: {

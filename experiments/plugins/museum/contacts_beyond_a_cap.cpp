@@ -20,8 +20,8 @@ struct Nearest {
   double distance = INFINITY;
 };
 
-// Decides faces and blocks. Each side of a plane is computed by one function for all faces, so that rounding can't
-// place a point between two blocks.
+// Decides faces and blocks. For all faces one function decides on which side of a plane a point lies, so that rounding
+// can't place the point between two blocks.
 struct Question {
   const ogc_detect_in& in;
   const ogc_topology& mesh;
@@ -70,8 +70,8 @@ struct Question {
   static void keep_nearer(Nearest& best, const Nearest& other) {
     if (other.distance < best.distance) best = other;
   }
-  // Return whether p passes the test of Eq. 8 (block of a vertex) or of Eq. 9 (no triangle of the edge lies on the side
-  // of p).
+  // is_before_vertex tests whether p is in the block of vertex w (Eq. 8). is_before_edge tests that no triangle of edge
+  // e lies on the side of p (Eq. 9).
   bool is_before_vertex(Vec p, int w) const {
     for (int k = mesh.vertex_neighbours.offsets[w]; k < mesh.vertex_neighbours.offsets[w + 1]; ++k)
       if (!is_beyond(p, w, mesh.vertex_neighbours.items[k])) return false;

@@ -12,7 +12,7 @@ struct Edges {
   Vec a, e, b, f;
 };
 
-// Places on both edges, from 0 to 1, and the distance of these points.
+// Parameters of a point on each edge, from 0 to 1, and the distance of the two points.
 struct Places {
   double s = 0, t = 0, distance = INFINITY;
 };
@@ -38,7 +38,7 @@ inline Places closest(const Edges& x) {
   return best;
 }
 
-// The part of the first edge that the second covers, seen along the first.
+// The interval of the first edge's parameter, from 0 to 1, that the projection of the second edge covers.
 struct Overlap {
   double low = 0, high = 0;
 };

@@ -12,7 +12,7 @@ inline Edges edges_of(const ogc_vec3* x) {
   return {vec(x[0]), vec(x[1]) - vec(x[0]), vec(x[2]), vec(x[3]) - vec(x[2])};
 }
 
-// Weights by vertex, positive on the first side and negative on the second.
+// Weights by vertex, positive on the first side of the contact and negative on the second.
 struct Sides {
   double of[4] = {1, 0, 0, 0};
 };

@@ -21,7 +21,8 @@ inline double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Vec cross(Vec a, Vec b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 inline double length(Vec a) { return std::sqrt(dot(a, a)); }
 
-// Returns the place on the segment from a to b of the point nearest to p, from 0 to 1; 0 if the segment has no length.
+// Returns the parameter, from 0 at a to 1 at b, of the point of the segment nearest to p; 0 if the segment has no
+// length.
 inline double place_on(Vec p, Vec a, Vec b) {
   const double squared = dot(b - a, b - a);
   return squared > 0 ? std::clamp(dot(p - a, b - a) / squared, 0.0, 1.0) : 0;

@@ -1,5 +1,5 @@
-// The number of positive weights chooses between corner and edge: a single positive weight selects its corner. Beside
-// an obtuse corner an edge is nearer. Distances then come out too large, and contacts get the wrong face.
+// The number of positive weights chooses between corner and edge: a single positive weight selects its corner. At an
+// obtuse corner an edge may be nearer. Distances then come out too large, and contacts get the wrong face.
 #include "experiments/plugins/museum/triangle.h"
 
 OGC_PLUGIN("signs of weights choose corner or edge", OGC_HOST_MEMORY)

@@ -12,7 +12,7 @@ struct Weights {
   double of[3] = {0, 0, 0};
 };
 
-// Returns the weights of the foot on the triangle's plane; not-a-number if the triangle has no area.
+// Returns the weights of the foot of p on the triangle's plane; not-a-number if the triangle has no area.
 inline Weights foot(Vec p, const Vec* t) {
   const Vec n = cross(t[1] - t[0], t[2] - t[0]);
   Weights w;
@@ -20,8 +20,8 @@ inline Weights foot(Vec p, const Vec* t) {
   return w;
 }
 
-// Returns the weights of the closest point of the edge from corner k to the next one. Each weight is a quotient of its
-// own, because 1 minus the other weight rounds to 0 too soon.
+// Returns the weights of the closest point of the edge from corner k to the next one. Each weight is computed as a
+// quotient, because 1 minus the other weight rounds to 0 too soon.
 inline Weights on_edge(Vec p, const Vec* t, int k) {
   const int next = (k + 1) % 3;
   const Vec e = t[next] - t[k];
@@ -36,9 +36,9 @@ inline Weights on_edge(Vec p, const Vec* t, int k) {
 
 inline Vec point(const Vec* t, const Weights& w) { return w.of[0] * t[0] + w.of[1] * t[1] + w.of[2] * t[2]; }
 
-// Returns the weights of the closest point on the nearest edge. The foot, with the weights `w`, must lie outside the
-// triangle. If the foot lies on the outer side of an edge and between its ends, this edge takes precedence, because
-// rounding may make an end of another edge as near.
+// Returns the weights of the closest point on the nearest edge. The foot of p, with the weights `w`, must lie outside
+// the triangle. If the foot lies beyond an edge and between its ends, this edge takes precedence, because by rounding
+// an end of another edge may seem as near.
 inline Weights on_nearest_edge(Vec p, const Vec* t, const Weights& w) {
   Weights best;
   double nearest = INFINITY;
@@ -61,7 +61,7 @@ inline Weights closest(Vec p, const Vec* t) {
   return positive(w) == 3 ? w : on_nearest_edge(p, t, w);
 }
 
-// Returns the feature, by the weights that are not 0.
+// Returns the feature whose corners have weights above 0.
 inline uint8_t feature(const Weights& w) {
   switch ((w.of[0] > 0) + 2 * (w.of[1] > 0) + 4 * (w.of[2] > 0)) {
     case 1: return OGC_CORNER_0;
