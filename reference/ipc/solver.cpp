@@ -49,7 +49,6 @@ double mean_inertia(const Potential& potential) {
   return potential.free_count() > 0 ? sum / static_cast<double>(potential.free_count()) : 0;
 }
 
-/// Returns the mobilities, with prescribed vertices as free ones.
 std::vector<Mobility> all_movable(std::vector<Mobility> mobility) {
   for (Mobility& m : mobility)
     if (m == Mobility::prescribed) m = Mobility::free;
