@@ -1,9 +1,11 @@
-// Decides by one edge on which side of the surface a vertex's normals lie. N_v is a convex cone that meets the star's
-// cone only in the vertex, so all its directions lie on one side of the surface. (A flat vertex has two opposite
-// normals, and each is perpendicular to every edge.) Let g in N_v be perpendicular to an edge at v. Move v + ε g
-// parallel to this edge: it does not meet the star, because g·w > 0 for its points w (relative to v) and g·w ≤ 0 for
-// points of the star. Hence v + ε g lies on the same side as a point just above the edge, and that side follows from
-// the edge's two triangles.
+// Decides with one edge at a vertex v whether the segment from v to x begins outside. The normals N_v are a convex cone
+// that meets the star of v only in v. So all normals lie on one side of the surface. (A flat vertex has two opposite
+// normals, and each is perpendicular to every edge.)
+//
+// Choose a normal g in N_v that is perpendicular to an edge at v, and a small ε > 0. The point v + ε g can move
+// parallel to this edge without meeting the star, because g·w > 0 for these points w (relative to v) and g·w ≤ 0 for
+// points of the star. Hence v + ε g lies on the same side of the surface as a point just above the edge. The edge's two
+// triangles decide on which side that point lies.
 #include "reference/definitions/closed_surface.hpp"
 
 #include <algorithm>
@@ -35,7 +37,8 @@ int bend(const Complex& mesh, Index edge) {
 
 bool is_rim(const Complex& mesh, Index edge) { return mesh.triangles_of(edge).size() == 1; }
 
-/// Returns whether the edge's two triangles lie on the same side of it in one plane.
+/// Returns whether the edge's two triangles are folded onto each other: coplanar, and both on the same side of the
+/// edge.
 bool is_folded(const Complex& mesh, Index edge) {
   const auto triangles = mesh.triangles_of(edge);
   return bend(mesh, edge) == 0 && sign_of(dot(normal(mesh, triangles[0]), normal(mesh, triangles[1]))) < 0;

@@ -6,7 +6,7 @@
 
 namespace ogc::reference {
 
-/// Locates a point relative to a surface, which may pass through itself and cover places more than once.
+/// Describes where a point lies relative to a surface. The surface may pass through itself.
 struct PointLocation {
   bool on_surface = false;  ///< exactly on a triangle
   /// signed number of times that the surface winds around the point; 0 on the surface
@@ -17,13 +17,15 @@ struct PointLocation {
 };
 
 /// Returns whether the segment from a face of an oriented surface to x begins on the outside. The face's interior must
-/// hold the surface's closest point to x; for other x the answer has no meaning. Each edge must have one triangle, or
-/// two that run through it in opposite senses. Each triangle must have an area.
+/// hold the surface's closest point to x; for other x the result has no meaning. Each edge must have one triangle, or
+/// two that run through it in opposite senses. Each triangle must have an area. The segment begins outside
 ///
-/// The segment begins outside a triangle if x is on the side of the normal, and outside an edge if its triangles meet
-/// at less than π inside. At a vertex, an edge that is perpendicular to one of the vertex's normals decides. Points of
-/// the face itself are outward (closed). A rim (an edge with one triangle, or an end of this edge) has no inner side,
-/// and neither do triangles that are folded onto each other.
+///   - a triangle, if x is on the side of the triangle's normal or on the triangle,
+///   - an edge, if the angle between its triangles is less than π inside (a flat edge: as for a triangle),
+///   - a vertex, if it begins outside an edge at the vertex that is perpendicular to one of the vertex's normals,
+///   - a rim (an edge with one triangle, or an end of this edge) and triangles that are folded onto each other, always.
+///
+/// Points of the face itself are outside.
 bool begins_outside(const Complex& mesh, Face face, const Vec3f& x);
 
 /// A surface that encloses a volume: each edge has two triangles that run through it in opposite senses, each triangle
@@ -32,14 +34,15 @@ bool begins_outside(const Complex& mesh, Face face, const Vec3f& x);
 /// their owners must outlive this.
 class ClosedSurface {
  public:
-  /// Throws compare::InputError with the first edge or triangle that violates a condition.
+  /// Throws compare::InputError with the first edge or triangle that does not meet these requirements.
   explicit ClosedSurface(const Complex& mesh);
 
   /// Returns begins_outside(mesh(), face, x); x must satisfy all conditions of U_a except the distance (Eq. 8–10).
   bool outward(Face face, const Vec3f& x) const;
 
-  /// Checks whether x is in the outward part of U_a (§3.9), closed at r and at the surface. For a triangle or a flat
-  /// neighbourhood this is the outward half. For reentrant edges and vertices it holds only points of the face.
+  /// Checks whether x is in the outward part of U_a (§3.9), closed at r and at the surface. The outward part of a
+  /// triangle's block, or of a block in a flat neighbourhood, is its outward half. The outward part of a reentrant edge
+  /// or vertex holds only the face itself.
   bool in_outward_block(Face face, const Vec3f& x, float contact_radius) const;
 
   /// Locates x by the signed crossings of a ray with the direction (1, ε, ε²), ε → 0. The ray meets no edge, so no

@@ -50,7 +50,7 @@ bool in_planes(const Complex& mesh, Face face, const Vec3f& x) {
   return inside;
 }
 
-/// Returns d² − r² (a gap) of x and a closed triangle.
+/// Returns d² − r², where d is the distance from x to a closed triangle.
 Margin triangle_gap(const Complex& mesh, Index t, const Vec3f& x, float contact_radius) {
   const Corners corners = corners_of(mesh, t);
   return with_radius(feature_gap(corners, closest_feature(corners, x), x), contact_radius);
@@ -89,8 +89,8 @@ std::vector<VertexFacetContact> vertex_facet_by_definition(const compare::Detect
     for (Index t = 0; t < static_cast<Index>(in.topology->triangles.size()); ++t) {
       if (!in.topology->on_surface(mesh.triangle(t)) || is_excluded(in.exclusions, {&v, 1}, mesh.triangle(t))) continue;
       for (const Face face : faces_of(mesh, t)) {
-        // Eq. 12 requires only v ⊄ a. So triangles that contain v are visited, too: a face without v may belong to no
-        // other triangle.
+        // Eq. 12 requires only v ⊄ a. So triangles that contain v are visited, too: the edge opposite to v may belong
+        // to no other triangle.
         if (!contains(mesh.vertices(face).span(), v) && blocks.in_contact(face, mesh.at(v), in.contact_radius))
           found.insert({v, face, owner_of(mesh, face)});
       }

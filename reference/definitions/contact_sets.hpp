@@ -31,7 +31,7 @@ std::vector<compare::EdgeEdgeContact> edge_edge_over_all_pairs(const compare::De
 std::vector<std::vector<Index>> vertices_near_facets(const compare::Topology& topology,
                                                      std::span<const compare::VertexFacetContact> contacts);
 
-/// Returns E_OGC(e): for each edge the numbers of the contacts that have it as `first_edge` or `second_edge`.
+/// Returns E_OGC(e): for each edge the indices of the contacts that have it as `first_edge` or `second_edge`.
 std::vector<std::vector<std::size_t>> contacts_of_edges(const compare::Topology& topology,
                                                         std::span<const compare::EdgeEdgeContact> contacts);
 

@@ -1,5 +1,5 @@
-// Multiplies the vector from the foot to the point by the foot's denominator. So sums of products of coordinates
-// suffice and nothing is divided.
+// Avoids divisions: multiplies the vector from the foot of the perpendicular to the point by the foot's denominator. So
+// exact numbers with sums and products suffice.
 #include "reference/definitions/defined_blocks.hpp"
 
 #include "reference/definitions/defined_blocks_exact.hpp"

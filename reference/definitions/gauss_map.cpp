@@ -21,8 +21,8 @@ Unit normalised(const Unit& a) {
   return {a[0] / length, a[1] / length, a[2] / length};
 }
 
-/// Returns the unit vector of a. Divides by the largest component first, so that neither squares nor the conversion to
-/// double overflow or underflow.
+/// Returns a / ‖a‖. Divides by the largest component first, so that neither squares nor the conversion to double
+/// overflow or underflow.
 Unit unit(const ExactVector& a) {
   const auto size = [](const Exact& x) { return sign_of(x) < 0 ? -x : x; };
   const Exact largest = std::max({size(a.x), size(a.y), size(a.z)});
@@ -52,7 +52,7 @@ void sort_around(std::vector<Unit>& units, const Unit& axis, const Unit& zero) {
   std::sort(units.begin(), units.end(), [&](const Unit& a, const Unit& b) { return angle(a) < angle(b); });
 }
 
-/// Orders the corners of an arc or a circle in the plane of the generators.
+/// Sorts the corners of an arc or of a full circle by angle.
 void order_arc(GaussMap& map, bool circle) {
   map.closed = circle;
   const auto tilted = std::max_element(map.corners.begin() + 1, map.corners.end(), [&](const Unit& a, const Unit& b) {

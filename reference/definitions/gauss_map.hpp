@@ -30,7 +30,7 @@ bool is_hull_edge(const Complex& mesh, Index vertex, Index edge);
 /// The normals of a face, for drawing.
 struct GaussMap {
   int dimension = -1;         ///< dimension of N_a on the sphere: −1 empty, 0 one or two points, 1 arcs, 2 a region
-  std::vector<Unit> corners;  ///< corners of N_a: of a region in cyclic order, of an arc in order along it
+  std::vector<Unit> corners;  ///< corners of N_a in order: around a region, or along an arc
   bool closed = false;  ///< true if N_a is the whole circle or the whole sphere; `corners` are then its generators
 };
 
@@ -41,7 +41,8 @@ GaussMap gauss_map(const Complex& mesh, Face face, bool edge_only = false);
 /// deficit (Gauss–Bonnet).
 double solid_angle(const GaussMap& map);
 
-/// Echeverria's polygon of a vertex: the normals of its triangles in order around it. Parts of it may be inverted.
+/// Echeverria's polygon of a vertex: the normals of its triangles in order around it. The polygon may have parts of
+/// negative area.
 struct Indicatrix {
   std::vector<Unit> normals;  ///< normals of the vertex's triangles, in order
   bool closed = false;        ///< false at a boundary vertex

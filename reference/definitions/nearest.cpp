@@ -1,5 +1,5 @@
-// Compares distances that are rounded down. Compares exact fractions only if both distances round to the same number.
-// The order of threads does not matter: distances are exact, and the lowest number wins a tie.
+// Compares distances that are rounded down, and exact fractions only if both distances round to the same number. The
+// order of threads does not matter: distances are exact, and the lowest number wins a tie.
 #include "reference/definitions/nearest.hpp"
 
 #include <tbb/blocked_range.h>
@@ -24,8 +24,8 @@ class NearestOfEach {
   NearestOfEach(std::size_t count, float query_radius)
       : items_(count, Nearest{-1, gap_points({}, {query_radius, 0, 0})}), below_(count, query_radius) {}
 
-  /// Offers a partner. `below` is the distance, rounded down. A partner at r_q or farther is not stored: since r_q is a
-  /// single-precision number, `below` is then at least r_q, the initial value.
+  /// Offers a partner. `below` is the distance, rounded down. A partner at r_q or farther is not stored, because its
+  /// `below` is at least r_q, the initial value.
   void offer(Index primitive, Index partner, const Margin& gap, float below) {
     const auto i = static_cast<std::size_t>(primitive);
     const std::atomic_ref<float> smallest(below_[i]);

@@ -1,6 +1,6 @@
-// Represents the normals of a face as a convex cone with generators: the corners of the polyhedral Gauss map. It shares
-// no formula with the half-spaces of blocks.hpp, so each tests the other. Only .cpp files of this folder include this
-// header, because it exposes CGAL's number type.
+// Represents the normals of a face as a convex cone with generators: the corners of the polyhedral Gauss map. The cone
+// shares no formula with the half-spaces of blocks.hpp, so a comparison tests both. Only .cpp files of this folder
+// include this header, because it exposes CGAL's number type.
 #pragma once
 
 #include <CGAL/Mpzf.h>

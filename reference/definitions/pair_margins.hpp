@@ -6,7 +6,7 @@
 
 namespace ogc::reference {
 
-/// The margins of both conditions of a contact {p, q} (Eq. 17, corrected).
+/// The margins of a contact {p, q} at the boundaries of both blocks (Eq. 17, corrected).
 struct PairMargins {
   /// margins of the point of q closest to p, at the boundaries of U_p^E (Eq. 14, 15), the sphere first
   std::vector<BlockMargin> first;

@@ -62,7 +62,7 @@ ExactVector normal(const Complex& mesh, Index t) {
   return cross(exact(mesh.at(b)) - exact(mesh.at(a)), exact(mesh.at(c)) - exact(mesh.at(a)));
 }
 
-/// Returns x − c for a vertex or an edge, times a positive number.
+/// Returns x − c times a positive number, where c is the point of a vertex or of an edge's line closest to x.
 ExactVector offset_of(const Complex& mesh, Face face, const Vec3f& x) {
   if (face.kind == FaceKind::vertex) return exact(x) - exact(mesh.at(face.index));
   const auto [a, b] = mesh.edge(face.index);

@@ -32,8 +32,8 @@ bool in_box_of(const Complex& volume, const std::vector<Index>& triangles, const
 /// Returns the face of a triangle whose interior holds the triangle's closest point to x.
 Face closest_face_of(const Complex& volume, Index triangle, const Vec3f& x);
 
-/// Returns the contacts of x with all parts of a volume, in the order of inside, triangle, face. `part` holds for each
-/// vertex the number of its part; if it is empty, the parts are the connected components. Each edge must have one
+/// Returns the contacts of x with all parts of a volume, sorted by `inside`, `triangle` and `face`. `part` holds for
+/// each vertex the number of its part; if it is empty, the parts are the connected components. Each edge must have one
 /// triangle, or two that run through it in opposite senses. Each triangle must have an area.
 ///
 /// A part holds x if x is in the part's box and the segment from the nearest face to x begins on the inner side

@@ -1,12 +1,16 @@
-// A *way* is the straight segment from x to a boundary point. The grey zone: an error of 16 · 2⁻²⁴ in a tetrahedron's
-// coordinates changes each weight of a point by 16 · 2⁻²⁴ Σ|∂w/∂δ||δ|. The sum is at most three times the moduli of the
-// weight's terms, which have degree three. The end of a way on a triangle's interior has in addition the error of the
-// triangle's normal (normal_scale). Within this error a segment may pass a nearby triangle, edge or vertex on either
-// side. A way is certain if none of these is on the body's boundary. Then the way reaches its end, whichever tetrahedra
-// rounding selects.
+// A *way* is the straight segment from x to a boundary point. A way is certain if no rounding error changes whether it
+// exists.
 //
-// Weights in double are known to 2⁻⁴⁶ of the moduli of their terms, which is negligible beside 16 · 2⁻²⁴. Whether a way
-// exists in exact numbers is decided with rational numbers, among the tetrahedra that the way may reach.
+// The grey zone: let δ be the coordinates of a tetrahedron and x, and w a weight of a point in this tetrahedron. An
+// error of 16 · 2⁻²⁴ in δ changes w by 16 · 2⁻²⁴ Σ|∂w/∂δ||δ|. The sum is at most three times the moduli of the terms of
+// w, which have degree three. If a way ends in a triangle's interior, the triangle's normal adds an error to the end
+// (normal_scale).
+//
+// Within this error a segment may pass a nearby triangle, edge or vertex on either side of it. A way is certain if none
+// of these is on the body's boundary: whichever tetrahedra rounding selects, the way reaches its end.
+//
+// Weights in double are known to 2⁻⁴⁶ of the moduli of their terms, which is negligible beside 16 · 2⁻²⁴. Rational
+// numbers decide whether a way exists exactly, among the tetrahedra that the way may reach.
 #include "reference/definitions/solid_depth.hpp"
 
 #include <algorithm>
@@ -43,8 +47,8 @@ Vec3 normal_moduli(const Vec3& a, const Vec3& b) {
   return {p.y * q.z + p.z * q.y, p.z * q.x + p.x * q.z, p.x * q.y + p.y * q.x};
 }
 
-/// Factor of the grey zone for a sum m of terms of degree three: Σ|∂m/∂δ||δ| is at most three times the sum of the
-/// terms' moduli.
+/// Factor of the grey zone for a sum m of terms of degree three in the coordinates δ: Σ|∂m/∂δ||δ| is at most three
+/// times the sum of the terms' moduli.
 constexpr double grey_part = 3 * compare::grey_factor;
 
 bool has(const Tetrahedron& t, Index v) { return std::ranges::find(t, v) != t.end(); }

@@ -28,14 +28,14 @@ class Solid {
   const std::vector<Index>& tetrahedra_of(Index vertex) const {
     return tetrahedra_of_[static_cast<std::size_t>(vertex)];
   }
-  /// Returns the vertex's number in joined_components.
+  /// Returns the number of the vertex's component in joined_components.
   Index component(Index vertex) const { return component_[static_cast<std::size_t>(vertex)]; }
   /// Returns whether the volume is positive, exactly.
   bool is_positive(Index t) const { return sign_[static_cast<std::size_t>(t)] > 0; }
   /// Returns whether rounding could change the sign of the volume.
   bool is_doubtful(Index t) const { return doubtful_[static_cast<std::size_t>(t)] != 0; }
-  /// Returns whether a way may end at the triangle opposite to this corner, because no tetrahedron behind the triangle
-  /// certainly has a positive volume.
+  /// Returns whether a way may end at the triangle opposite to this corner. It may, unless a tetrahedron behind the
+  /// triangle certainly has a positive volume.
   bool is_closed(Index t, std::size_t corner) const;
   /// Returns the triangle opposite to a corner; its normal is outward if the volume is positive.
   compare::Triangle side(Index t, std::size_t corner) const;
@@ -54,7 +54,7 @@ class Solid {
 /// Tests one point against one part of tetrahedra.
 class SolidPart : public VolumeFaces {
  public:
-  /// `faces` must have been built for the same point.
+  /// Copies the point and its distances to all triangles from `faces`.
   SolidPart(const VolumeFaces& faces, const Solid& solid) : VolumeFaces(faces), solid_(solid) {}
 
   /// Returns the accepted answers for the part with these boundary triangles.

@@ -27,8 +27,8 @@ bool even(const compare::Triangle& t) { return (t[0] < t[1]) + (t[1] < t[2]) + (
 
 bool holds(const Tetrahedron& t, Index v) { return std::find(t.begin(), t.end(), v) != t.end(); }
 
-/// Maps the sorted vertices of a triangle to its tetrahedra; an entry is 4 i + the corner of tetrahedron i opposite to
-/// the triangle.
+/// Maps the sorted vertices of a triangle to its tetrahedra. The number 4 i + k is tetrahedron i, whose corner k is
+/// opposite to the triangle.
 using Sides = std::map<compare::Triangle, std::vector<Index>>;
 
 Sides sides_of(std::span<const Tetrahedron> tetrahedra) {
@@ -67,8 +67,8 @@ int turn_about(const RationalPoint& a, const RationalPoint& b, const RationalPoi
   return CGAL::sign(dot(cross(b - a, c - a), d - a));
 }
 
-/// Returns whether the half-plane of `u` about ab lies between the half-planes of c (included) and d (excluded). These
-/// two must be less than half a turn apart.
+/// Returns whether the half-plane of `u` about ab lies between the half-planes of c (included) and d (excluded). The
+/// angle between these two must be less than 180°.
 bool between_half_planes(const std::array<RationalPoint, 4>& abcd, const RationalPoint& u) {
   const auto& [a, b, c, d] = abcd;
   const int after = turn_about(a, b, c, u);

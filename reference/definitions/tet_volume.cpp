@@ -1,6 +1,6 @@
-// The walk keeps, for each tetrahedron, the smallest parameter of the segment at which a path from the start can be in
-// it. The segment meets a tetrahedron in one interval. So a path that can be in the tetrahedron at t can be there at
-// every later parameter of the interval.
+// `Walk` keeps a number for each tetrahedron: the smallest parameter of the segment at which a path from the start can
+// be in the tetrahedron. The segment meets a tetrahedron in one interval. So a path that can be in the tetrahedron at t
+// can be there at every later parameter of the interval.
 #include "reference/definitions/tet_volume.hpp"
 
 #include <algorithm>

@@ -50,7 +50,7 @@ struct BoundaryDepth {
   /// the shortest valid path; if several are equally short, the one to the lowest triangle
   BoundaryPath path;
   std::vector<Index> equally_near;  ///< all boundary triangles with a valid path of exactly this length, ascending
-  /// Number of strictly nearer boundary triangles without a valid path. The Euclidean distance would have chosen one of
+  /// Number of strictly nearer boundary triangles without a valid path. The Euclidean distance would end at one of
   /// them.
   std::size_t refused = 0;
 };
@@ -59,9 +59,11 @@ struct BoundaryDepth {
 class TetVolume {
  public:
   /// Throws compare::InputError, naming the element, if a shortest path may bend or the map is not locally injective.
-  /// This is so for an index that is no vertex, an inverted or flat tetrahedron, and a triangle with more than two
-  /// tetrahedra or with two on one side. It is also so if tetrahedra do not wind once around an inner edge, or if only
-  /// an inner vertex joins them.
+  /// Errors are
+  ///
+  ///   - an index that is no vertex, and an inverted or flat tetrahedron,
+  ///   - a triangle with more than two tetrahedra, or with two on the same side of it,
+  ///   - an inner edge around which tetrahedra do not wind once, and tetrahedra that only an inner vertex joins.
   TetVolume(std::span<const Vec3f> positions, std::span<const Tetrahedron> tetrahedra);
 
   /// Returns the boundary triangles, ordered by tetrahedron, then by the corner opposite to them.

@@ -1,9 +1,10 @@
-// Finds the faces that could be nearest. Uses the distances of all triangles of a part, each known to 16 · 2⁻²⁴ of the
-// triangle's coordinates, and the faces that closest_face accepts. The exactly nearest face is found without rounding.
+// Finds exactly the face that is nearest, and all faces that could be nearest within rounding. A distance to a triangle
+// is grey within 16 · 2⁻²⁴ of the triangle's coordinates, and closest_face gives the faces that it accepts for each
+// triangle.
 //
-// A face F that is nearest only by rounding does not decide on which side x is. The exactly nearest face decides if it
-// shares a vertex with F and is not a rim. Otherwise the nearest triangle around F decides, because the edge of a
-// valley alone would put every point inside. At a rim x is always outside.
+// If a face F is nearest only because of rounding, F itself does not decide whether x is inside. The exactly nearest
+// face decides if it shares a vertex with F and is not a rim. Otherwise the nearest triangle around F decides, because
+// the edge of a valley alone would put every point inside. At a rim x is always outside.
 #include "reference/definitions/volume_depth.hpp"
 
 #include <algorithm>
@@ -42,8 +43,7 @@ class TrianglePart : public VolumeFaces {
     std::vector<Face> outside;  // faces with x on their outer side, each a possible contact
     for (const Face face : possible) {
       const bool holds = in_box && (face == nearest ? faces_in : is_inside(face, nearest, faces_in, candidates));
-      // A rim has no inner side. So if the nearest face is a rim, a face that is nearest only by rounding and has an
-      // inner side may put x inside.
+      // A rim has no inner side. If the nearest face is a rim, another possible face that is no rim may put x inside.
       const bool is_open = in_box && (on_surface || (face != nearest && is_rim(nearest) && !is_rim(face)));
       truth.may_be_inside = truth.may_be_inside || holds || is_open;
       truth.may_be_outside = truth.may_be_outside || !holds || is_open;

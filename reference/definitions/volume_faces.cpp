@@ -16,7 +16,6 @@ namespace {
 
 using compare::at;
 
-/// Factor of `doubt`, the error up to which a distance is grey.
 constexpr double doubt_factor = compare::grey_factor;
 
 double norm_1(const Vec3f& a, const Vec3f& b) {
@@ -187,7 +186,7 @@ VolumeAnswer VolumeFaces::answer(Face face, bool inside) const {
   result.contact.inside = inside;
   result.contact.triangle = exact.triangle;
   result.contact.face = face;
-  // Kernels clamp a foot that lies beyond the end of the face, so their weights are in [0, 1].
+  // Kernels clamp the closest point to the face, so their weights are in [0, 1].
   for (std::size_t k = 0; k < 3; ++k) result.weights[k] = std::clamp(exact.weights[k], 0.0, 1.0);
   result.direction = exact.direction;
   result.depth = exact.depth;

@@ -13,7 +13,7 @@ namespace ogc::reference {
 /// Relates the triangles of a volume to one point x. Holds views; their owners must outlive this.
 class VolumeFaces {
  public:
-  /// `own`: the number of x if x is a vertex of the volume, which has no contact with its own faces; otherwise −1.
+  /// `own` is the number of x if x is a vertex of the volume, otherwise −1. A vertex has no contact with its own faces.
   VolumeFaces(const Complex& mesh, const Vec3f& x, float radius, Index own);
   VolumeFaces(const VolumeFaces&) = default;
   virtual ~VolumeFaces() = default;
@@ -46,8 +46,8 @@ class VolumeFaces {
   /// Returns whether x is on the face's inner side. `nearest_inside` is the answer for the exactly nearest face
   /// `nearest`.
   bool is_inside(Face face, Face nearest, bool nearest_inside, const std::vector<Index>& candidates) const;
-  /// Returns whether x is accepted as inside and as outside at this face, because volumes of tetrahedra at the face may
-  /// not be positive.
+  /// Returns whether both answers, inside and outside, are accepted at this face, because volumes of tetrahedra at the
+  /// face may not be positive.
   virtual bool is_vague(Face) const { return false; }
   /// Adds contacts for the case that x is outside: with each face whose outward block holds x nearer than r, certainly
   /// or possibly. `faces_in`: whether x is on the inner side of the nearest face.
@@ -55,7 +55,7 @@ class VolumeFaces {
   /// Adds a contact at a face, unless it is already listed or x is certainly farther than r.
   void add_touching(Face face, compare::VolumePartTruth& truth) const;
   compare::VolumeAnswer answer(Face face, bool inside) const;
-  /// Returns an upper limit of the sensitivity Σ‖∂n̂/∂δ‖‖δ‖ of the unit normal n̂, at least 1. δ are two sides e₁ and
+  /// Returns an upper limit of the sensitivity Σ‖∂n̂/∂δ‖‖δ‖ of the unit normal n̂, at least 1. δ are two edges e₁ and
   /// e₂ of the triangle; each contributes ‖e₁‖‖e₂‖/‖e₁ × e₂‖.
   double normal_scale(Index t) const;
 

@@ -1,5 +1,5 @@
 // Computes the activation with fifty decimal digits. The printed form of Eq. 18 and 20 loses fewer than twenty of them
-// by cancellation, even if d is close to τ and the logarithms are those of metres.
+// by cancellation, even if d is close to τ and all lengths are in metres.
 #include "reference/energies/activation.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 using compare::ContactActivation;
 
-/// A multiprecision number with the operations of the energies, so that the same code is differentiated over it.
+/// A multiprecision number with the operations that energies and their derivatives need.
 struct Precise {
   boost::multiprecision::cpp_bin_float_50 value;
   Precise(double x = 0) : value(x) {}

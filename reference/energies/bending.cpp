@@ -25,7 +25,7 @@ Hinge<ByVertex> now_of(const compare::BendingCase& q, Inputs& inputs) {
 const Input& at_vertex(const ByVertex& x) { return x.value; }
 const Input& at_vertex(const Input& x) { return x; }
 
-/// Returns the angle and, if rounding could turn it past ±π, also the angle turned by 2π.
+/// Returns the angle. If rounding could move the angle past ±π, also returns the angle ∓ 2π.
 template <class T>
 std::vector<T> with_turn(const Inputs& inputs, const T& angle) {
   const Input& value = at_vertex(angle);
@@ -34,10 +34,11 @@ std::vector<T> with_turn(const Inputs& inputs, const T& angle) {
   return {angle, angle + T(Input(value.value > 0 ? -2 * std::numbers::pi : 2 * std::numbers::pi))};
 }
 
-/// Holds the scales of second-order errors. They remain where the first derivatives of force and block are 0. The
-/// gradient ∇θ has an error of n u · condition, with n = bending_gradient and u = 2⁻²⁴. The second-order error of the
-/// block is the square of ∇θ's error, times the curvature. The one of the force is the product of ∇θ's error and the
-/// error of the moment ∂E/∂θ. All roundings of the force except those of ∇θ count as the moment's.
+/// Holds scales of second-order errors of force and block, which remain if the first derivatives are 0:
+///  - ∇θ: its error is n u · condition, with n = bending_gradient and u = 2⁻²⁴.
+///  - Block: the square of the error of ∇θ, times the curvature ∂²E/∂θ².
+///  - Force: the product of the error of ∇θ and the error of the moment ∂E/∂θ. All roundings of the force except those
+///    of ∇θ count as roundings of the moment.
 struct SecondOrder {
   double force, block;
 };

@@ -7,7 +7,7 @@ namespace ogc::reference {
 
 struct RestBuilder;
 
-/// Returns the exact answer. If an angle is near ±π, also returns the answers for this angle turned by 2π.
+/// Returns the exact answer. If an angle is near ±π, also returns the answers for this angle ∓ 2π.
 std::vector<compare::ForceAnswer> bending(const compare::BendingCase& question);
 
 /// Computes all cases, in parallel over them.

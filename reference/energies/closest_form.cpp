@@ -76,8 +76,9 @@ ClosestForm edge_edge(const Corners& x) {
 
 }  // namespace
 
-/// Uses the distance from the nearest end if the angle between the edges is below 2⁻²⁰. Rounding then makes the common
-/// normal, and so the distance of the lines, meaningless. The result is wrong by at most 2⁻²⁰ of an edge's length.
+/// Returns the closest points of two edges. If the angle between the edges is below 2⁻²⁰, uses the distance from the
+/// nearest end: rounding makes the common normal, and so the distance of the lines, meaningless. The result is then
+/// wrong by at most 2⁻²⁰ of an edge's length.
 ClosestForm closest_edges(const Corners& x) {
   const Triple<double> u = x[1] - x[0], v = x[3] - x[2], w = x[2] - x[0], normal = cross(u, v);
   const double area = dot(normal, normal), s = dot(cross(w, v), normal), t = dot(cross(w, u), normal);

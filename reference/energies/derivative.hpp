@@ -17,7 +17,7 @@ namespace ogc::reference {
 /// Returns the value without derivatives.
 inline double plain(double x) { return x; }
 
-/// A number with its derivatives by N inputs. Slopes from the number `count` on are 0 and are not computed, because
+/// A number with its derivatives by N inputs. Slopes with indices from `count` on are 0 and are not computed, because
 /// most factors of an energy depend on few inputs.
 template <class T, std::size_t N>
 struct Derivative {
@@ -28,7 +28,7 @@ struct Derivative {
   Derivative() = default;
   Derivative(const T& constant) : value(constant) {}
   Derivative(double constant) requires(!std::is_same_v<T, double>) : value(constant) {}
-  /// Makes the input with the number `direction`, as a variable with the value `at`.
+  /// Makes input number `direction`, with the value `at`.
   Derivative(const T& at, std::size_t direction) : value(at), count(direction + 1) { slope[direction] = T(1.0); }
 
   friend Derivative operator+(Derivative a, const Derivative& b) {

@@ -51,8 +51,8 @@ Friction acting(Meeting meeting, const compare::FrictionForceCase& q) {
   compare::ForceAnswer result = answer(inputs, energy, block);
   const double stiff = reach(inputs, {&stiffness, 1});
   add_weight_error(meeting, q.contact, stiff * reach(inputs, u), 2 * stiff, result);
-  // At d = r the normal force is 0; without slip, u is 0, too. The first-order error of their product is then 0,
-  // although the product of both errors remains.
+  // If the normal force and the slip u are both 0 (d = r and no slip), the first-order error of their product is 0. The
+  // product of their errors remains.
   result.force_scale += compare::contact_grey * compare::unit_roundoff * inputs.condition({&stiffness, 1}) *
                         inputs.condition(u);
   const double pull = q.friction * meeting.slope_doubt(), over_slip = slope_over_slip(y, limit).value;

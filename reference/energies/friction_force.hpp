@@ -6,7 +6,7 @@
 
 namespace ogc::reference {
 
-/// Returns the exact answer first. The answers for the other accepted places of the contact points follow.
+/// Returns the exact answer first. The answers for the other accepted positions of the contact points follow.
 std::vector<compare::ForceAnswer> friction_force(const compare::FrictionForceCase& question);
 
 /// Computes all cases, in parallel over them.

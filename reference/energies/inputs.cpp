@@ -27,7 +27,7 @@ Input Inputs::number(double value, double size) {
 
 namespace {
 
-/// ∂f/∂q of an answer f by a vector q: one row for each number of f.
+/// The derivatives of an answer f by a vector q; row i holds ∂fᵢ/∂q.
 using Rows = std::vector<std::array<double, 3>>;
 
 Rows rows_of(std::span<const Input> answer, std::size_t first) {

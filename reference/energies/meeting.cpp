@@ -14,7 +14,7 @@ namespace {
 using compare::ContactForceCase;
 using compare::ContactSides;
 
-/// The place of the contact points: the weights of a triangle's second and third corner, or the parameters on both
+/// The position of the contact points: the weights of a triangle's second and third corner, or the parameters on both
 /// edges, 0 at end 0 and 1 at end 1.
 using Parameters = std::array<Input, 2>;
 using Vertices = std::array<Triple<Input>, 4>;
@@ -72,8 +72,8 @@ std::vector<Parameters> all_on_triangle(const Inputs& inputs, const ContactForce
   return all;
 }
 
-/// Returns the accepted parameters of the closest point of a segment: for end 0, end 1, interior. This order decides
-/// which feature of a collapsed segment is the exact one.
+/// Returns the accepted parameters of the closest point of a segment, the exact one first. On a collapsed segment the
+/// exact one is the first that is possible of end 0, end 1 and interior.
 std::vector<Parameters> all_on_segment(const Inputs& inputs, const ContactForceCase& q, const Vertices& x) {
   const Vec3f &p = q.vertex[0], &a = q.vertex[1], &b = q.vertex[2];
   std::array<Membership, 3> membership;
@@ -95,7 +95,7 @@ std::vector<Parameters> all_on_segment(const Inputs& inputs, const ContactForceC
 }
 
 /// Returns the parameter of the closest point on the first of two edges. `feature` and `other` are the closest features
-/// of the first and the second edge; `skew` is whether their lines have unique closest points.
+/// of the first and the second edge; `skew` is whether the lines of the edges have unique closest points.
 Input on_edge(const Inputs& inputs, bool skew, EdgeFeature feature, const Triple<Input>& u0, const Triple<Input>& u1,
               EdgeFeature other, const Triple<Input>& v0, const Triple<Input>& v1) {
   if (!skew && feature != EdgeFeature::interior && other == EdgeFeature::interior)
@@ -159,9 +159,11 @@ std::array<Input, 4> weights(ContactSides sides, const Input& first, const Input
   return {one, -one, zero, zero};
 }
 
-/// Returns e_k as one input. Its size is its condition plus the square of the normal's error. The normal e × e' has the
-/// error 4 u ‖e‖‖e'‖, u = 2⁻²⁴, from two products and a difference of rounded edges. For parallel edges, where the
-/// first order vanishes, this square is the only error.
+/// Returns e_k as one input. The size of its error is the sum of
+///
+///  - its condition,
+///  - the square of the error of the normal e × e', the only error of parallel edges. The normal has the error
+///    4 u ‖e‖‖e'‖ (u = 2⁻²⁴), from two products and a difference of rounded edges.
 Input mollified(const ContactForceCase& q, Inputs& inputs) {
   Inputs own;
   const Triple<Input> e = own.vector(q.previous[1], q.previous[0]), f = own.vector(q.previous[3], q.previous[2]);
@@ -181,7 +183,7 @@ Input shared(const ContactForceCase& q, Inputs& inputs) {
   return inputs.number(result.value, own.condition({&result, 1}));
 }
 
-/// Returns the exact e_k first. If the edges may count as parallel or not within rounding, the other e_k follows.
+/// Returns the exact e_k first. If rounding may change whether the edges are nearly parallel, the other e_k follows.
 std::vector<Input> energy_shares(const ContactForceCase& q, Inputs& inputs) {
   if (q.sides != ContactSides::edge_edge) return {one};
   if (q.rest_squared[0] > 0 && q.rest_squared[1] > 0) return {mollified(q, inputs)};
@@ -222,9 +224,9 @@ void measure(Meeting& meeting) {
   meeting.distance_doubt = factor * meeting.inputs.condition({&meeting.distance, 1});
 }
 
-/// Returns whether the triangle is a needle, or one edge is much shorter than the other. The longest side is the unit
-/// of length. The foot of a point at distance d from a triangle of height h has an error of u d/h (u = 2⁻²⁴). In units
-/// of the height this is u d/h²: 3/64 for h = 2⁻⁹ and d = 3.
+/// Returns whether the triangle's height h is below 2⁻⁹ of its longest edge (a needle), or one edge is below 2⁻⁹ of the
+/// other. In units of the longest edge, the foot of a point at distance d from the triangle has an error of u d/h (u =
+/// 2⁻²⁴). For h = 2⁻⁹ and d = 3 this error is 3/64 of h.
 bool has_needle(const ContactForceCase& q, const Vertices& x) {
   constexpr double least_squared = 0x1p-18;
   const auto squared = [&](std::size_t a, std::size_t b) { return dot(x[a] - x[b], x[a] - x[b]).value; };
@@ -290,7 +292,7 @@ double Meeting::slope_doubt() const {
 
 namespace {
 
-/// Sets the weights. Each weight has an error of u = 2⁻²⁴ beside the errors of its inputs.
+/// Sets the weights. Each parameter gets an error of u = 2⁻²⁴ in addition to the errors of its inputs.
 void weigh(Meeting& meeting, ContactSides sides, const Parameters& at) {
   const bool has_parameters = sides != ContactSides::point_point;
   const Input first = has_parameters ? meeting.inputs.number(0, 1) : zero,
@@ -298,7 +300,7 @@ void weigh(Meeting& meeting, ContactSides sides, const Parameters& at) {
   meeting.weight = weights(sides, at[0] + first, at[1] + second);
 }
 
-/// Returns a copy of `common` with weights for each accepted place of the contact points.
+/// Returns copies of `common`, one with the weights of each accepted position of the contact points.
 std::vector<Meeting> weighed(const ContactForceCase& question, Meeting common) {
   std::vector<Meeting> all;
   common.needle = has_needle(question, common.vertex);

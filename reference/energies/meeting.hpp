@@ -19,8 +19,8 @@
 
 namespace ogc::reference {
 
-/// One accepted place of the contact points, with everything that follows from it. Coordinates are relative to end 0 of
-/// the first edge, or to the second side's first vertex if the first side is a point.
+/// One accepted position of the contact points, with everything that follows from it. Coordinates are relative to end 0
+/// of the first edge, or to the second side's first vertex if the first side is a point.
 struct Meeting {
   Inputs inputs;
   std::array<Triple<Input>, 4> vertex;  ///< x [m]
@@ -32,7 +32,7 @@ struct Meeting {
   Input distance;       ///< d, without derivatives if it is 0
   double doubt = 0;     ///< error of the vector between the contact points [m]
   double distance_doubt = 0;  ///< error of d, to first order [m]
-  /// whether the derivatives may underestimate the error in the place of the contact points
+  /// whether the derivatives may underestimate the error in the position of the contact points
   /// (compare/stages/contact_force.hpp)
   bool needle = false;
 
@@ -62,8 +62,8 @@ struct Meeting {
   bool may_jump() const {
     return form_of(activation).jumps && std::abs(distance.value - 0.5 * contact_radius.value) <= distance_doubt;
   }
-  /// Returns an additional error of −g' [N] for activations whose g' has no slope at r: the size of −g' within the
-  /// error of d about r. First-order errors do not include it.
+  /// Returns an error of −g' [N] that first-order errors do not include. It is not 0 only if g' and g'' are 0 at r and
+  /// d is within rounding of r. It is then the value of −g' at r minus three errors of d.
   double slope_doubt() const;
   /// Returns whether the contact has a force: 0 < d < r. For d ≥ r it has only a block.
   bool acts() const { return distance.value > 0 && distance.value < contact_radius.value; }
@@ -93,9 +93,10 @@ enum class Ends {
   nowhere     ///< only for d = 0, where the normal is undefined
 };
 
-/// Returns a stage's accepted answers for all `meetings` (accepted places of the contact points) of a contact. `acting`
-/// returns the answer of a Meeting with a force. `largest` takes a distance [m] and returns, as scales, upper limits of
-/// force and block at this distance or beyond. It is used for needles, and if the contact points may coincide.
+/// Returns a stage's accepted answers for all `meetings` (accepted positions of the contact points) of a contact.
+/// `acting` returns the answer of a Meeting with a force. `largest` takes a distance [m] and returns, as scales, upper
+/// limits of force and block at this distance or beyond. It is used for needles, and if the contact points may
+/// coincide.
 std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings, Ends end,
                                           const std::function<compare::ForceAnswer(double)>& largest,
                                           const std::function<compare::ForceAnswer(const Meeting&)>& acting);
@@ -116,10 +117,14 @@ inline double units_of_whole(double tolerance) { return 1 / (compare::unit_round
 /// Returns an upper limit of the answer's norm: its value plus its error.
 double reach(const Inputs& inputs, std::span<const Input> answer);
 
-/// Adds to the scales the error that each weight has beyond its inputs' errors. Weights are computed as in
-/// closest_face, so the error of each, even of a weight of 0, may be u = 2⁻²⁴ times the largest condition of all
+/// Adds to the scales the error that each weight has beyond the errors of its inputs. Weights are computed as in
+/// closest_face. So each weight, even a weight of 0, has an error of u = 2⁻²⁴ times the largest condition of all
 /// weights. `force` and `curvature` are the largest force and curvature for w = 1. If n vertices are updated together,
-/// the block has the factor |w| Σ |w_u|. The factor's error is the error of |w| times the sum, plus n errors times |w|.
+/// the block has the factor |w| Σ |w_u|, whose error has the terms
+///
+///  - the error of |w| times the sum,
+///  - |w| times n errors of weights,
+///  - the product of both errors.
 void add_weight_error(const Meeting& meeting, const compare::ContactForceCase& question, double force, double curvature,
                       compare::ForceAnswer& answer);
 

@@ -46,9 +46,13 @@ struct Question {
 double length(const Triple<Input>& a) { return std::hypot(a[0].value, a[1].value, a[2].value); }
 
 /// Returns an answer that covers all directions of the normal f₁ × f₂ if f₁ × f₂ may be 0; otherwise returns nothing.
-/// Force and block are those of ψ without J. The scales cover the terms with J, whose direction is unknown: at most A
-/// (λ + 2μ) ‖t‖ in the force and A (μ ‖b‖² + (λ + μ) ‖t‖²) in the block. Here b = ∇N of the own corner and t = b₁ f₂ −
-/// b₂ f₁. Both limits are enlarged by a hundredth, because J is not quite 0.
+/// Force and block are those of ψ without J. The scales cover the terms with J, whose direction is unknown. With b = ∇N
+/// of the own corner and t = b₁ f₂ − b₂ f₁, these terms are at most
+///
+///  - A (λ + 2μ) ‖t‖ in the force,
+///  - A (μ ‖b‖² + (λ + μ) ‖t‖²) in the block.
+///
+/// Both limits are enlarged by a hundredth, because J is not quite 0.
 std::optional<ForceAnswer> any_normal(const Question& q) {
   const Inputs& inputs = q.inputs;
   const MembraneTermOf<Input>& term = q.term;

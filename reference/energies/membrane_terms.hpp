@@ -130,8 +130,7 @@ struct MembraneCorner {
   }
 };
 
-/// Adds force and block of an energy of the strain G. The block is the material part: the energy's second derivative by
-/// G along the derivatives of G.
+/// Adds force and block of an energy E of the strain G. The block is the material part (∂G/∂x)ᵀ (∂²E/∂G²) ∂G/∂x.
 template <class Number>
 void add_strain(const Strain<ByOwnTwice<Number>>& g, const ByOwnTwice<Number>& energy, VertexSystemOf<Number>& sum) {
   for (std::size_t i = 0, k = 0; i < 3; ++i) {

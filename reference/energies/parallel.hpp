@@ -1,5 +1,5 @@
-// Computes all cases of a batch in parallel. Each case writes to a separate place of the result, so the result does not
-// depend on the number of threads.
+// Computes all cases of a batch in parallel. Each case writes to a separate element of the result, so the result does
+// not depend on the number of threads.
 #pragma once
 
 #include <utility>

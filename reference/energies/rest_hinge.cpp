@@ -1,4 +1,3 @@
-// Computes rest data of hinges.
 #include <cmath>
 
 #include "reference/energies/bending.hpp"

@@ -1,4 +1,3 @@
-// Computes rest data of triangles.
 #include <cmath>
 
 #include "reference/energies/membrane.hpp"

@@ -38,10 +38,13 @@ struct Separation {
 };
 
 /// Returns an error of a stitch's block that the first order lacks [N/m]. The vector Σ wᵢ xᵢ of length l has an error
-/// of 4 u · condition (u = 2⁻²⁴, compare/stages/spring.hpp). If l is more than twice this error, the tolerances cover
-/// the error of 1/l, and the result is 0. Otherwise l₀/l may be anything up to 1. If l₀ > 0, the block may then lack
-/// all of max(0, 1 − l₀/l)(I − n nᵀ). The remaining errors, of n and l₀/l, are at most √2 l₀/l. The first-order
-/// tolerance of 44 u · condition covers 44/8 of this, because l is at most 8 u · condition.
+/// of 4 u · condition (u = 2⁻²⁴, compare/stages/spring.hpp).
+///
+///  - If l is more than twice this error, the tolerances cover the error of 1/l. The result is 0.
+///  - Otherwise l₀/l may be anything up to 1. If l₀ > 0, the block may lack all of max(0, 1 − l₀/l)(I − n nᵀ). The
+///    result is the norm of this term.
+///  - The errors of n and l₀/l that remain are at most √2 l₀/l. The first-order tolerance of 44 u · condition covers
+///    44/8 of them, because l is at most 8 u · condition.
 double lost_block(const Inputs& inputs, const compare::SpringCase& q, const Separation& ends, const Input& length) {
   if (q.ratio == 0 || q.rest_length == 0) return 0;
   const Triple<Input> apart{ends.apart[0].value, ends.apart[1].value, ends.apart[2].value};

@@ -11,7 +11,7 @@
 namespace ogc::reference {
 namespace {
 
-/// The elastic part in Input numbers; the own corner is the origin.
+/// The elastic energy in Input numbers; the own corner is the origin.
 struct Elastic {
   Inputs inputs;
   std::array<Triple<Input>, 4> corner;
@@ -90,7 +90,7 @@ Gradients gradients_of(const compare::TetrahedronCase& q, Inputs& inputs) {
   return gradient;
 }
 
-/// Returns the Green strain Gᵗ at the start; each component is paired with the unit of its error.
+/// Returns the Green strain Gᵗ at the start of the step; each component is paired with the unit of its error.
 std::array<std::pair<double, double>, 6> strain_at_start(const compare::TetrahedronCase& q) {
   Inputs inputs;
   const std::array<Triple<Input>, 4> x = inputs.stencil(q.start, 0);

@@ -127,8 +127,7 @@ struct TetrahedronCorner {
   }
 };
 
-/// Adds the force of V k ϕ(G − Gᵗ) and the material part of its block, that is, its second derivative by G along the
-/// derivatives of G.
+/// Adds the force of E = V k ϕ(G − Gᵗ) and the material part of its block, (∂G/∂x)ᵀ (∂²E/∂G²) ∂G/∂x.
 template <class Number>
 void add_damping(const TetrahedronTermOf<Number>& term, const TetrahedronCorner<Number>& at,
                  VertexSystemOf<Number>& sum) {

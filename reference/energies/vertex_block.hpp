@@ -1,6 +1,6 @@
 // Force and sweep block of one vertex, over any number type. Whole runs use doubles (solvers/vertex_system.hpp). The
 // judged stages use Input numbers, which also give the units of error. Each energy's block is derived once, beside the
-// energy (membrane_terms.hpp, hinge_terms.hpp, spring_terms.hpp). This file has the common parts.
+// energy (membrane_terms.hpp, hinge_terms.hpp, spring.hpp). This file has the common functions.
 #pragma once
 
 #include "reference/energies/derivative.hpp"
@@ -25,7 +25,7 @@ using ByOwn = Derivative<Number, 3>;
 template <class Number>
 using ByOwnTwice = Second<3, Number>;
 
-/// Returns the own coordinate with the number `direction` as a variable.
+/// Returns coordinate `direction` of the own vertex as a variable.
 template <class Number>
 ByOwnTwice<Number> variable(const Number& value, std::size_t direction) {
   ByOwnTwice<Number> x(value);

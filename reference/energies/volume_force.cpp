@@ -74,7 +74,7 @@ Rubbed rubbed(const compare::VolumeForceCase& q, const Pressed& pressed) {
   const ByVertex energy = chained(Input(strength * lagged_potential(y, limit)), Input(Input(0.5) * stiffness),
                                   dot(slip, slip));
   Block block;
-  // The derivative of the slip is w (I − n nᵀ). For a unit vector n, its product with its transpose is w² (I − n nᵀ).
+  // The derivative of the slip is D = w (I − n nᵀ). For a unit vector n, D Dᵀ = w² (I − n nᵀ).
   for (std::size_t i = 0, k = 0; i < 3; ++i)
     for (std::size_t j = i; j < 3; ++j, ++k) {
       const Input plane = (i == j ? Input(1.0) : Input(0.0)) - n[i] * n[j];

@@ -5,7 +5,7 @@
 
 namespace ogc::reference {
 
-/// Returns the exact answer. If the sign of r − φ is grey, the answer on the other side of the jump follows.
+/// Returns the exact answer. If the sign of r − φ is grey, the answer for the other sign follows.
 std::vector<compare::ForceAnswer> volume_force(const compare::VolumeForceCase& question);
 
 /// Computes all cases, in parallel over them.

@@ -24,7 +24,7 @@ double force_at(ContactActivation kind, double distance, double stiffness) {
 }
 
 /// Returns the distance at which the energy has this force. The force falls with the distance, so bisection finds the
-/// distance; 64 halvings of its logarithm give a double to the last bit.
+/// distance; 64 halvings of the interval of ln d give a double to the last bit.
 double distance_of(ContactActivation kind, double force, double stiffness) {
   double near = std::log(0x1p-100), far = 0;
   for (int halving = 0; halving < 64; ++halving) {

@@ -1,6 +1,6 @@
 // A block is the set of points that the face reaches when it moves along each of its normals by up to r. For a vertex
-// it consists of cones over the region N_v, for an edge of prisms over the arc N_e, for a triangle of a prism on either
-// side. So each picture is made from the outline of N_a.
+// it consists of cones over the region N_v, for an edge of prisms over the arc N_e, for a triangle of one prism on each
+// side of it. So each picture is made from the outline of N_a.
 #include "reference/illustrations/block_picture.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ Point3 widened_point(const Vec3f& x) { return {x.x, x.y, x.z}; }
 
 double inner(const Unit& a, const Unit& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// Returns the point at the share t of the great circle from a to b; a and b must not be opposite.
+/// Returns the point of the great circle from a to b at the parameter t in [0, 1]; a and b must not be opposite.
 Unit between(const Unit& a, const Unit& b, double t) {
   const double angle = std::acos(std::clamp(inner(a, b), -1.0, 1.0));
   if (angle < 1e-9) return a;
@@ -52,8 +52,8 @@ class Painter {
     wall.outlines.back().push_back(corners.front());
   }
 
-  /// Adds the surface between two rows of points. The segments at the two ends of the rows are its outlines, unless the
-  /// rows go around (`around`).
+  /// Adds the surface between two rows of points. Its outlines join the first points and the last points of the rows,
+  /// unless the rows are closed (`around`).
   void strip(Kind kind, bool closed, const std::vector<int>& low, const std::vector<int>& high, bool around) {
     BlockPatch& wall = patch(kind, closed);
     for (std::size_t k = 0; k + 1 < low.size(); ++k) {

@@ -31,14 +31,13 @@ DrawingLayer circle(const Point2& centre, double r) {
   return layer;
 }
 
-/// The force of the quadratic stage on one face of the polyline: it acts at the closest point, away from x, with length
-/// r − d.
+/// The force of a point x on one face of the polyline, by the quadratic stage of the activation. It acts at the face's
+/// closest point to x, away from x, with length r − d.
 struct Push {
   SliceFace face;
   std::array<double, 2> from{}, force{};
 };
 
-/// Returns the push at the point of `face` that is closest to x.
 Push push_on(const Slice& slice, SliceFace face, const Point2& x, double r) {
   const Point2& a = slice.polyline()[static_cast<std::size_t>(face.index)];
   std::array<double, 2> c{a[0], a[1]};
@@ -109,8 +108,7 @@ DrawingPanel face_set_panel(const std::string& name, const std::string& caption,
   return panel;
 }
 
-/// Returns a grid of nx × ny points over a rectangle, x fastest. Its offset 0.501 keeps points from lying on
-/// boundaries.
+/// Returns a grid of nx × ny points over a rectangle, x fastest. The offset 0.501 avoids points on boundaries.
 template <class Value>
 DrawingLayer field(const std::string& name, const std::array<double, 4>& rectangle, int nx, int ny, Value value) {
   DrawingLayer layer{name, {}, {}, {}, {}, true};

@@ -142,7 +142,7 @@ struct Fall {
   std::vector<std::vector<float>> bounds;  ///< b_v at the beginning of each round
 };
 
-/// Returns the truncated positions with planes between near pairs (method.md §5.6).
+/// Returns the positions, truncated by planes between near pairs (method.md §5.6).
 std::vector<Cut> cut_by_planes(const compare::Topology& topology, const std::vector<Vec3f>& x,
                                const std::vector<Vec3f>& target, float query_radius) {
   const std::vector<Index> no_groups;

@@ -1,4 +1,4 @@
-// The surface extends along z by much more than any radius, so its ends are never near the plane z = 0.
+// The surface extends along z by much more than any radius, so both ends of the surface are far from the plane z = 0.
 #include "reference/illustrations/slice.hpp"
 
 #include <algorithm>

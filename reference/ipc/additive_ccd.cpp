@@ -21,10 +21,12 @@ double largest_coordinate(const Corners& x) {
 class Motion {
  public:
   /// Takes positions relative to the first vertex and displacements relative to their mean; this changes no distance.
-  /// Let S be the largest relative coordinate plus the largest displacement. A coordinate at a time t ≤ 1 has an error
-  /// of at most 4 · 2⁻⁵³ S, from a difference, a product, a rounded time and a sum. A projection on a unit vector,
-  /// known to 4 · 2⁻⁵³, has about thirty roundings in all. A slab's width has two projections, whose error is below
-  /// 2⁻⁴⁶ S. The product of a rate and a time of at most 1 adds the same error.
+  /// Let S be the largest relative coordinate plus the largest displacement. Errors:
+  ///
+  ///  - A coordinate at a time t ≤ 1: at most 4 · 2⁻⁵³ S, from a difference, a product, a rounded time and a sum.
+  ///  - A projection on a unit vector, which has an error of 4 · 2⁻⁵³: about thirty roundings in all.
+  ///  - The width of a slab, from two projections: below 2⁻⁴⁶ S.
+  ///  - The product of a rate and a time of at most 1: below 2⁻⁴⁶ S.
   Motion(compare::ContactSides sides, const Corners& x, const Corners& delta)
       : sides_(sides), split_(sides == compare::ContactSides::edge_edge ? 2 : 1) {
     const Triple<double> mean = 0.25 * (delta[0] + delta[1] + delta[2] + delta[3]);
@@ -57,14 +59,13 @@ class Motion {
     const Triple<double> apart = separation(form.weight, slab.x);
     slab.width = -1;
     widen(slab, apart);
-    // The direction of the connection has an error of 2⁻⁵³ S over the gap, which tilts the slab. Normals of lines and
-    // planes are more precise.
+    // Rounding tilts the connection `apart`, by up to 2⁻⁵³ S over the gap (S: see the constructor). Normals of lines
+    // and planes are more precise.
     if (slab.width < 0.9 * norm(apart)) widen(slab, normal_of(form, slab.x, apart));
     return slab;
   }
 
-  /// Returns how long the slab stays wider than `thickness`. A slab that is not wider proves nothing, even if all
-  /// vertices move out of it.
+  /// Returns how long the slab stays wider than `thickness`; 0 if it is not wider now.
   double empty_for(const Slab& slab, double thickness) const {
     if (!(slab.width > thickness)) return 0;
     double time = std::numeric_limits<double>::infinity();
@@ -90,8 +91,11 @@ class Motion {
     if (width > slab.width) slab.width = width, slab.normal = unit;
   }
 
-  /// Returns the direction of a slab's normal, on the side of `apart`. It is the normal of the plane or of the two
-  /// lines that hold the closest points, or the part of `apart` perpendicular to the line, or `apart` for two points.
+  /// Returns a slab's normal (not a unit vector), in the direction of `apart`:
+  ///
+  ///  - two points: `apart`,
+  ///  - a point and a line: the component of `apart` perpendicular to the line,
+  ///  - a point and a plane, or two lines: the normal of the plane or of both lines.
   static Triple<double> normal_of(const ClosestForm& form, const Corners& x, const Triple<double>& apart) {
     const auto at = [&](std::size_t place) { return x[form.at[place]]; };
     if (form.kind == FormKind::points) return apart;

@@ -4,9 +4,9 @@
 // be wrong by more than the distance. So the gap here is the width of the empty slab between two parallel planes: for
 // any normal it is at most the distance, and its rounding error is known.
 //
-// A second bound keeps the normal of the slab. It ends when a vertex of one side comes within the thickness of a vertex
-// of the other side along this normal. For pairs that slide past each other it is exact, while ℓ is far too large. Each
-// step takes the larger bound.
+// A second bound keeps the slab's normal. It is the time until a vertex of one primitive comes within the thickness of
+// a vertex of the other primitive along this normal. For pairs that slide past each other this bound is exact, while ℓ
+// is far too large. Each step takes the larger bound.
 #pragma once
 
 #include "reference/energies/closest_form.hpp"
@@ -16,8 +16,8 @@ namespace ogc::reference {
 /// The share of the first gap that is left at the returned time (s of Algorithm 1), and the factor of each safe step.
 inline constexpr double ccd_gap_left = 0.1, ccd_rescaling = 0.9;
 
-/// Limit of the steps. A safe step is at least 1/90 of the step that ℓ allows for a tenth of the gap, so the limit ends
-/// only motions that would take unreasonably long. The time reached by then is a safe answer.
+/// Limit of the steps. While a tenth of the first gap g is left, a step is at least 0.09 g/ℓ. So the limit ends only
+/// motions that would take unreasonably long. The time reached by then is a safe answer.
 inline constexpr int ccd_most_steps = 10000;
 
 /// Returns a time t in [0, until], until ≤ 1. On [0, t] the pair stays more than `thickness` [m] apart while its

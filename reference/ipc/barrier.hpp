@@ -61,11 +61,11 @@ T squared_form_distance(const ClosestForm& form, const std::array<Triple<T>, N>&
 /// One barrier without κ: w e_k b(D − ξ²).
 template <class Number>
 struct BarrierTermOf {
-  /// numbers of the vertices, in the order of the form; unused entries are −1
+  /// numbers of the vertices, in the order of `form`; unused elements are −1
   std::array<compare::Index, 4> vertex{-1, -1, -1, -1};
   std::uint8_t count = 0;     ///< number of vertices
   ClosestForm form;           ///< the closest points, with a weight for each vertex
-  Number weight = 1.0;        ///< number of pairs of primitives that this barrier stands for
+  Number weight = 1.0;        ///< number of pairs of primitives that share this barrier
   Number rest_squared = 0.0;  ///< ‖ē‖²‖ē'‖² if the pair is two mollified edges [m⁴]; 0: e_k = 1
 
   /// Returns the energy without κ [m⁴].

@@ -42,8 +42,8 @@ bool is_pair(const compare::ExclusionView& exclusions, const First& first, const
          !is_excluded(exclusions, first, second);
 }
 
-/// Returns the items that `count` queries find, in the order of the queries: query(i, found) appends those of query i.
-/// The result does not depend on the number of threads.
+/// Returns the items that `count` queries find, in the order of the queries; query(i, found) appends the items of query
+/// i to `found`. The result does not depend on the number of threads.
 template <class Item, class Query>
 std::vector<Item> found_by(std::size_t count, Query query) {
   constexpr std::size_t grain = 256;

@@ -13,7 +13,6 @@ namespace {
 using compare::at, compare::Index;
 using compare::ContactSides;
 
-/// Calls `visit` with an array of the `count` corners.
 template <class Visit>
 auto with_corners(std::size_t count, const std::array<Index, 4>& vertex, const State& x, Visit visit) {
   switch (count) {

@@ -44,9 +44,9 @@ class IpcForces {
   /// The scene must be rounded and valid; scene and topology must outlive this.
   IpcForces(const compare::Scene& scene, const compare::Topology& topology, const BarrierShape& shape);
 
-  /// Begins the step with this number from xᵗ with target y [m]. Removes the previous friction and pull.
+  /// Begins step `number` from `start` = xᵗ with `target` = y [m]. Removes the previous friction and pull.
   void begin_step(const State& start, const State& target, std::int64_t number);
-  /// Returns the rods, whose frames energies and forces use.
+  /// Returns the rods. Energies and forces use the frames of the rods.
   RodSystem& rods() { return potential_.rods(); }
   /// Computes λ, n and weights of these barriers at x; they stay until the next call.
   void lag_friction(const BarrierSet& set, const State& x, double stiffness);

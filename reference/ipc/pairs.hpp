@@ -1,6 +1,6 @@
 // Finds the pairs of primitives that can meet, and the pairs with a barrier. One broad phase serves a whole motion: its
-// boxes hold the whole motion of each primitive, widened by d̂. So its pairs contain those of the continuous detection
-// and, for every state of the motion, those with a barrier.
+// boxes hold the whole motion of each primitive, widened by d̂. So its pairs contain all pairs that continuous
+// detection tests, and all pairs with a barrier at any state of the motion.
 #pragma once
 
 #include <vector>
@@ -44,7 +44,7 @@ struct BarrierSet {
   /// pairs with the same closest vertices and edges are one term; its weight is their number
   std::vector<BarrierTerm> terms;
   std::vector<PrimitivePair> active;    ///< pairs with 0 < gap < H, before merging
-  std::vector<double> squared;          ///< their squared distances [m²]
+  std::vector<double> squared;          ///< squared distances of the active pairs [m²]
   double smallest = 0;                  ///< smallest distance of active pairs, or ξ + d̂ if there is none [m]
   PrimitivePair closest;                ///< the pair at the smallest distance
   std::vector<PrimitivePair> touching;  ///< pairs with a gap ≤ 0, for which no barrier is defined

@@ -7,8 +7,9 @@
 
 namespace ogc::reference {
 
-/// Starts IPC. Rounds its copy of the scene, which must be valid. Throws compare::InputError with the pairs that
-/// intersect or touch; so does restoring a snapshot. A step that fails (StepMetrics::status) is not committed.
+/// Starts IPC. Rounds its copy of the scene, which must be valid. Starting and restoring a snapshot throw
+/// compare::InputError with the pairs that intersect or touch. A step that fails (StepMetrics::status) is not
+/// committed.
 std::unique_ptr<compare::Simulation> start_ipc(const compare::Scene& scene, const compare::SimulationOptions& options);
 
 }  // namespace ogc::reference

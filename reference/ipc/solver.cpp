@@ -49,7 +49,6 @@ double mean_inertia(const Potential& potential) {
   return potential.free_count() > 0 ? sum / static_cast<double>(potential.free_count()) : 0;
 }
 
-/// Returns the mobilities, with prescribed vertices as free ones.
 std::vector<Mobility> all_movable(std::vector<Mobility> mobility) {
   for (Mobility& m : mobility)
     if (m == Mobility::prescribed) m = Mobility::free;
@@ -244,8 +243,8 @@ std::optional<IpcSolver::Outcome> IpcSolver::iterate() {
   return metrics_.iterations >= ipc_.iterations ? std::optional(Outcome::limit) : std::nullopt;
 }
 
-/// Returns false if neither Newton's step nor the following step along the gradient makes progress. The last step of a
-/// solve may stall, because nothing is left to do.
+/// Moves along p as far as the line search accepts. Returns false if neither Newton's step nor the following step along
+/// the gradient makes progress. The last step of a solve may stall, because nothing is left to do.
 bool IpcSolver::take(const State& p, bool is_last) {
   const Bounded bound = bounded(p);
   const double share = searched(p, bound);
@@ -263,7 +262,7 @@ bool IpcSolver::take(const State& p, bool is_last) {
   return true;
 }
 
-/// Converts the frames' rotations to lengths: a frame that turns by ω moves points fixed to it by up to the segment's
+/// Converts the frames' rotations to lengths: a frame that rotates by ω moves points fixed to it by up to the segment's
 /// length times ω.
 State IpcSolver::as_motion(State p) const {
   for (std::size_t i = x_.size(); i < p.size(); ++i) p[i] = forces_.potential().rods().length(i - x_.size()) * p[i];
@@ -273,7 +272,7 @@ State IpcSolver::as_motion(State p) const {
 State IpcSolver::of_vertices(const State& p) const { return {p.begin(), p.begin() + std::ssize(x_)}; }
 
 /// Returns the direction p: Newton's, or the negative gradient over the diagonal. Along the gradient frames do not
-/// turn, because their diagonal does not determine how far they would turn.
+/// rotate, because their diagonal does not determine the angle.
 std::optional<State> IpcSolver::direction() {
   System& now = system();
   const std::vector<double> diagonal = forces_.diagonal();
@@ -318,8 +317,8 @@ bool IpcSolver::converged(const State& p) {
   return iterations_ > 1 && std::sqrt(mean) < ipc_.velocity_tolerance;
 }
 
-/// Returns whether there is no pull. If there is a pull, the converged state minimises only the present Lagrangian. So
-/// this doubles ρ, or updates λ once ρ has reached most_pull.
+/// Returns whether there is no pull. With a pull, the converged state minimises only the present Lagrangian. The
+/// function then doubles ρ, or updates λ once ρ has reached most_pull.
 bool IpcSolver::pulled_home() {
   if (!forces_.pull()) return true;
   Pull pull = *forces_.pull();

@@ -90,7 +90,7 @@ class IpcSolver {
   struct Bounded {
     double share = 1;
     std::optional<PrimitivePair> pair;
-    std::vector<PrimitivePair> pairs;  ///< all pairs that can come within d̂ on the way
+    std::vector<PrimitivePair> pairs;  ///< all pairs that can come within d̂ during the motion
   };
 
   void begin(const State& start, const State& velocity, std::int64_t number);

@@ -1,4 +1,5 @@
-// Writes the report of an IPC step: its notes, the rows of its iterations, and its row. No iteration depends on it.
+// Writes the report of an IPC step: its notes, the rows of its iterations, and its row. The report changes no
+// iteration.
 #include <algorithm>
 #include <limits>
 

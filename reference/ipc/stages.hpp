@@ -6,8 +6,8 @@
 
 namespace ogc::reference {
 
-/// Returns the impacts, decided without rounding (compare/oracle/first_meeting.hpp). `early` is the time of
-/// additive_ccd with the remaining distance as its thickness.
+/// Returns the impacts, decided without rounding (compare/oracle/first_meeting.hpp). CcdTruth::early is the time that
+/// additive_ccd returns with the remaining distance as thickness.
 compare::CcdTruth ccd_truth(const compare::CcdIn& in);
 
 /// Computes the truth with barrier_slopes, in double.

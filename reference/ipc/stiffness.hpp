@@ -17,7 +17,7 @@ struct StiffnessScale {
 };
 
 /// Limits of κ. At the lower limit the barrier's curvature at a distance of 1e-8 diagonals is 1e11 mean inertias; the
-/// upper limit is a hundred times the lower one. With `gap`, the thickness is added to that distance.
+/// upper limit is a hundred times the lower one. With IpcAdaptation::gap, the thickness is added to that distance.
 struct StiffnessBounds {
   double lower = 0, upper = 0;  ///< [J/m⁴]
 };

@@ -8,8 +8,8 @@ namespace ogc::reference {
 /// Returns the diagonal of the rest positions' bounding box [m], IPC's unit of distances.
 double rest_diagonal(const compare::Scene& scene);
 
-/// Returns the diagonal of the smallest rest box of a body with a free vertex [m]; that of the whole scene if no vertex
-/// is free. A step's tolerance is a share of it (reference/README.md).
+/// Returns the smallest diagonal of the rest boxes of bodies with a free vertex [m]; the diagonal of the whole scene if
+/// no vertex is free. A step's tolerance is a share of this diagonal (reference/README.md).
 double moving_diagonal(const compare::Scene& scene);
 
 /// Returns the speed below which the stopping rule ends an IPC step [m/s]; 0 if all iterations run. At the end of a

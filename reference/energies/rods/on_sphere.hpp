@@ -1,5 +1,5 @@
 // Minimises the energy −½ qᵀ M q − b·q over the unit sphere of ℝ⁴, for any number type. Newton's method on the sphere
-// finds a minimiser from a start. It uses neither the eigenvectors of M nor the equation of the Lagrange multiplier.
+// finds a minimiser from a given q. It uses neither the eigenvectors of M nor the equation of the Lagrange multiplier.
 #pragma once
 
 #include <cmath>

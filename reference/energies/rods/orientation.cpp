@@ -115,7 +115,6 @@ double reaction(const Square<Many>& bend, const std::vector<Triple<Many>>& colum
   return static_cast<double>(root(squared));
 }
 
-/// Returns the components of v along the tangents `basis`.
 Triple<Many> along(const std::array<Four<Many>, 3>& basis, const Four<Many>& v) {
   return {inner(basis[0], v), inner(basis[1], v), inner(basis[2], v)};
 }

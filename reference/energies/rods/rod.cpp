@@ -39,8 +39,8 @@ struct Segment {
       strain[axis] = (Input(1.0) / length) * apart[axis] - ByOwnTwice<Input>(director[axis]);
     return stretch_energy(strain, stretch, length);
   }
-  /// Returns the damping energy, from the change of the strain R(q)ᵀ D/l. The contract defines the energy by D/l − R(q)
-  /// R(qᵗ)ᵀ Dᵗ/l. Both vectors have the same norm only if the quaternions are unit.
+  /// Returns the damping energy of the change D/l − R(q) R(qᵗ)ᵀ Dᵗ/l, as compare/stages/rod.hpp defines it. The change
+  /// of the strain R(q)ᵀ D/l has the same norm only if the quaternions are unit.
   ByOwnTwice<Input> viscous() const {
     const Triple<Input> held = rotated(q, rotated(conjugate(start), before));
     Triple<ByOwnTwice<Input>> change;

@@ -67,7 +67,7 @@ struct ByDifferences {
   }
 };
 
-/// A kind whose energy depends on Σ wᵢ xᵢ alone: one coordinate, w/‖w‖.
+/// A kind of stencils whose energy depends only on Σ wᵢ xᵢ. The only coordinate is Σ wᵢ xᵢ/‖w‖.
 template <template <class> class Term>
 struct ByWeights {
   template <class Number>

@@ -1,6 +1,6 @@
 // Computes gradient and Hessian of a stencil over all of its vertices. Energies are invariant under translations, so
-// derivatives are taken in coordinates orthogonal to all translations: three variables fewer, and the eigenvalues of
-// the smaller matrix are those of the whole one except its three zeros.
+// derivatives are taken in coordinates orthogonal to all translations. This saves three variables. The smaller matrix
+// has the eigenvalues of the whole matrix except three zeros.
 #pragma once
 
 #include <array>

@@ -20,13 +20,13 @@ struct Batch {
   std::array<std::array<std::uint8_t, Count>, batch_width> place{};
   std::array<StencilDerivatives*, batch_width> result{};
 
-  /// Adds a stencil whose vertices are in the order of its corners.
+  /// Adds a stencil; corner k has the place k.
   void add(const Term& with, const std::array<Triple<double>, Count>& at, StencilDerivatives& to) {
     std::array<std::uint8_t, Count> places;
     for (std::size_t k = 0; k < Count; ++k) places[k] = static_cast<std::uint8_t>(k);
     add(with, at, places, to);
   }
-  /// Adds a stencil whose derivatives go to other places.
+  /// Adds a stencil; corner k has the place places[k].
   void add(const Term& with, const std::array<Triple<double>, Count>& at, const std::array<std::uint8_t, Count>& places,
            StencilDerivatives& to) {
     term[size] = &with;
@@ -63,7 +63,7 @@ struct PlacedContactOf {
 /// A contact over doubles.
 using PlacedContact = PlacedContactOf<double>;
 
-/// Kernels for contacts and friction, compiled for one machine; solvers/kinds/kernels.hpp has those for elements.
+/// Kernels for contacts and friction, compiled for one machine; solvers/kinds/kernels.hpp has the kernels for elements.
 struct StencilKernels {
   template <class Term, std::size_t Count>
   using Function = void (*)(const Batch<Term, Count>& batch, HessianProjection projection);
