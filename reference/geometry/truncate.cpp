@@ -9,10 +9,11 @@
 //
 //   s   storing, and steps that bring the stored position back inside: truncate_region_tolerance u (‖X_prev‖_∞ + b)
 //   a   the standoff from a half-space: truncate_standoff u Σ|n_k x_k| along n, so ‖w‖/(n·w) times that along w
-//   k   the solve for w, with a backward error ε ‖H‖: ‖δw‖ ≤ ε κ/(1 − ε κ) ‖w‖, κ = ‖H‖ ‖H⁻¹‖. It moves the point where
-//       w meets the half-space by at most (1 + ‖n‖ ‖w‖/(n·w)) ‖δw‖/‖w‖ times the length of the slide
+//   k   the solve for w, with a backward error ε ‖H‖: ‖δw‖ ≤ ε κ/(1 − ε κ) ‖w‖, κ = ‖H‖ ‖H⁻¹‖. It moves the point
+//       where w meets the half-space by at most (1 + ‖n‖ ‖w‖/(n·w)) ‖δw‖/‖w‖ times the length of the slide
 //
-// If the point is then scaled into the ball, a and k are multiplied by b over the point's smallest distance from X_prev.
+// If the point is then scaled into the ball, a and k are multiplied by b over the point's smallest distance from
+// X_prev.
 #include "reference/geometry/truncate.hpp"
 
 #include <algorithm>
