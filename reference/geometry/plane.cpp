@@ -139,7 +139,6 @@ class PlaneCheck {
            !(double{out_.bound[at(v)]} <= double{in_.bounds_relaxation} * double{in_.query_radius});
   }
 
-  /// Returns the largest bound of the vertices that can move.
   template <class Pair>
   float largest_bound(const Pair& pair) const {
     float largest = 0;
