@@ -20,8 +20,8 @@ struct Answer {
   bool near = false;
 };
 
-/// Adds one case, in which one particular face of the edge holds x. `premise`: whether this face holds x. `block`:
-/// whether x is then in the block.
+/// Adds the case that one given face of the edge holds x. `premise`: whether this face holds x. `block`: whether x is
+/// then in the block.
 void add(Answer& answer, const Membership& premise, const Membership& block) {
   answer.inside = answer.inside || (premise.exact && block.exact);
   answer.may_be_inside = answer.may_be_inside || (premise.possible && block.possible);

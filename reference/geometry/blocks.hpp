@@ -68,10 +68,10 @@ inline Face face_of(const Complex& mesh, Index edge, compare::EdgeFeature featur
   return vertex_face(mesh.edge(edge)[static_cast<std::size_t>(feature)]);
 }
 
-/// A condition of a block, and the face whose block lies beyond its boundary.
+/// A condition of a block, and the face whose block begins where the condition fails.
 struct Boundary {
-  Condition condition;  ///< holds in the block
-  Face across;          ///< the face whose block begins where the condition fails
+  Condition condition;
+  Face across;
 };
 
 /// Visits all conditions of U_a for the point x, except the distance (Eq. 8, 9, 10); visit(Boundary) returns false to

@@ -143,8 +143,8 @@ Weights weights_of(const Regions& regions, int feature) {
   if (!(error <= 0.25 * sum)) return {{}, std::numeric_limits<double>::infinity()};
   for (int k = 0; k < 3; ++k)
     if (margins[k] >= 0) weights.values[k] = std::max(0.0, regions.margin(margins[k]).value / sum);
-  // A weight is m/Σ, where Σ is the sum of the margins. If the errors of the margins are e and their sum is Σe, the
-  // weight has an error of at most (e + m/Σ Σe)/(Σ − Σe), and of three roundings.
+  // A weight is m/Σ, where m is one margin and Σ is the sum of the margins. Let e and Σe be the error of m and the sum
+  // of all errors. Then the weight has an error of at most (e + m/Σ Σe)/(Σ − Σe). The term 2⁻⁵¹ covers three roundings.
   weights.error = 3 * error / sum + 0x1p-51;
   return weights;
 }

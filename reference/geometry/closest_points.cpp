@@ -45,8 +45,8 @@ bool hold(const Conditions& conditions) {
   return std::all_of(conditions.items.begin(), conditions.items.begin() + conditions.count, holds);
 }
 
-/// Returns whether some end of the second edge, projected on the first edge's line, lies beyond the first edge's end
-/// `from` in the direction of the other end.
+/// Returns whether some end of the second edge lies ahead of the first edge's end `from`. Ahead means in the direction
+/// from this end to the first edge's other end.
 Membership some_end_beyond(const EdgePair& pair, std::size_t from) {
   Membership either{false, false, false};
   for (const Vec3f& end : pair.second) {

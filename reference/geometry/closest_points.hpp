@@ -50,8 +50,8 @@ bool nearly_parallel(const EdgePair& pair);
 /// edges or, if the rule does not hold, a margin of the region of the closest features.
 bool is_near_decision(const EdgePair& pair, EdgeFeatures closest, bool is_parallel);
 
-/// Returns d² − r² (a gap) with r = 0 (see with_radius). An end is a point, an interior stands for its line; d is the
-/// distance of the two. For the closest features, d is the distance of the edges.
+/// Returns d² − r² (a gap) with r = 0 (see with_radius), where d is the distance between the two features. An interior
+/// counts as the edge's whole line. For the closest features, d is the distance of the edges.
 Margin feature_gap(const EdgePair& pair, EdgeFeatures features);
 
 /// Returns the truth of all cases; computes them in parallel.

@@ -1,5 +1,5 @@
-// Groups contacts of which rounding may replace one by another into one decision, and finds out whether an answer with
-// none of them is accepted, too.
+// Joins contacts into one decision if rounding may replace one of them by another. Also finds whether an answer without
+// any contact of a decision is accepted.
 #pragma once
 
 #include <map>

@@ -27,7 +27,7 @@ namespace {
 using Interval = CGAL::Interval_nt<false>;
 using Exact = CGAL::Mpzf;
 
-/// Sets the rounding mode of intervals while the object lives.
+/// Sets the rounding mode that intervals need; the destructor restores the old mode.
 using UpwardRounding = CGAL::Protect_FPU_rounding<true>;
 
 // Filtered begins with the kinds of margins, in the order of MarginKind.
@@ -212,10 +212,13 @@ double sensitivity_at(const Margin& margin, const std::array<std::array<double, 
 }
 
 /// Largest error of a value in double, relative to its modulus. At most 18 roundings lie between a coordinate and a
-/// margin; the gap from a plane has this number. Its normal n has 4 (two differences, a product and a difference). The
-/// height n·(p − a) adds 4 (a difference, a product and two sums). The square doubles these 8 and adds one, and the
-/// difference from r² n² is the 18th. The modulus may be too small by the same error. Nothing overflows or underflows:
-/// terms lie between 2⁻¹⁴⁹ˣ⁶ and 2¹²⁹ˣ⁶.
+/// margin. The gap from a plane has the most:
+///   its normal n                    4: two differences, a product, a difference
+///   its height n·(p − a)        4 + 4: a difference, a product, two sums
+///   the square of the height    2 · 8 + 1
+///   minus r² n²                     1
+/// The modulus may be too small by the same error. Nothing overflows or underflows: terms lie between 2⁻¹⁴⁹ˣ⁶ and
+/// 2¹²⁹ˣ⁶.
 constexpr double rounding = 0x1p-48;
 
 /// Returns the margin in double, with the sum of the moduli of its terms.

@@ -50,7 +50,7 @@ class AnsweredPlanes {
 
   bool moves(Index v) const { return in_.is_fixed[static_cast<std::size_t>(v)] == 0; }
 
-  /// Returns the offset of v's half-space for this pair, which must exist.
+  /// Returns the offset of v's half-space for this pair. The half-space must exist.
   double offset(Index v, const compare::PrimitivePair& pair) const { return plane_of(v, pair)->offset; }
 
   /// Returns the normal of the plane that separates the pair, from the first side to the second. Empty if no plane
@@ -139,7 +139,6 @@ class PlaneCheck {
            !(double{out_.bound[at(v)]} <= double{in_.bounds_relaxation} * double{in_.query_radius});
   }
 
-  /// Returns the largest bound of the vertices that can move.
   template <class Pair>
   float largest_bound(const Pair& pair) const {
     float largest = 0;
@@ -175,7 +174,7 @@ std::tuple<PrimitivePair::Kind, Index, Index> order(const PrimitivePair& pair) {
   return {pair.kind, pair.first, pair.second};
 }
 
-/// A pair that is within r_q, possibly only by a kernel's rounding.
+/// A pair that a kernel may find within r_q, exactly or because of rounding.
 struct MeasuredPair {
   PrimitivePair name;
   std::array<Index, 4> vertices{};

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int most_steps = 8;
 
-/// Tests two primitives: the first has the first `split` points.
+/// Tests two primitives; the first `split` points belong to the first one.
 template <std::size_t split>
 bool surely_beyond(const std::array<compare::Vec3f, 4>& x, double distance) {
   std::array<Point<double>, 4> p;

@@ -4,14 +4,16 @@
 // Decides exactly which half-spaces a proposal violates. Positions are in long double: the three products of
 // single-precision numbers in n·x are exact there, and the two sums lose 2⁻⁶⁴ of their moduli.
 //
-// A right answer may be off the exact position by
+// A free vertex slides along w = H⁻¹n to a half-space that it violates. A right answer is off the exact position by at
+// most the sum of three errors (u = 2⁻²⁴, ε = u truncate_solve_tolerance); twice the sum is accepted:
 //
-//   s   storing, and steps that bring the stored position back inside: truncate_region_tolerance u (‖X_prev‖ + b)
-//   a   the standoff from a half-space: `truncate_standoff` u Σ|n_k x_k| along n, hence ‖w‖/(n·w) times that along w
-//   k   the solve w = H⁻¹n, with a backward error ε ‖H‖: ‖δw‖ ≤ ε κ/(1 − ε κ) ‖w‖, κ = ‖H‖ ‖H⁻¹‖. It moves the point
+//   s   storing, and steps that bring the stored position back inside: truncate_region_tolerance u (‖X_prev‖_∞ + b)
+//   a   the standoff from a half-space: truncate_standoff u Σ|n_k x_k| along n, so ‖w‖/(n·w) times that along w
+//   k   the solve for w, with a backward error ε ‖H‖: ‖δw‖ ≤ ε κ/(1 − ε κ) ‖w‖, κ = ‖H‖ ‖H⁻¹‖. It moves the point
 //       where w meets the half-space by at most (1 + ‖n‖ ‖w‖/(n·w)) ‖δw‖/‖w‖ times the length of the slide
 //
-// If the point is then scaled into the ball, a and k are multiplied by b over the point's distance.
+// If the point is then scaled into the ball, a and k are multiplied by b over the point's smallest distance from
+// X_prev.
 #include "reference/geometry/truncate.hpp"
 
 #include <algorithm>
@@ -59,10 +61,10 @@ double size_at(const HalfSpace& h, const Point& x) {
 Long excess_at(const HalfSpace& h, const Point& x) { return inner(wide(h.normal), x) - Long{h.offset}; }
 double standoff(const HalfSpace& h, const Point& x) { return compare::truncate_standoff * u * size_at(h, x); }
 
-/// The direction H⁻¹n, and its error.
+/// The direction H⁻¹n, and the limit of its relative error ‖δw‖/‖w‖.
 struct Way {
   Point w{};
-  double relative_error = infinity;  ///< ‖δw‖/‖w‖
+  double relative_error = infinity;
 };
 
 /// Solves H w = n for w by cofactors. κ is computed in Frobenius norms; it is at most three times as large as in ‖·‖₂.
@@ -168,9 +170,9 @@ class RegionCheck {
     truth_.accepted = (share - std::max(0.0, least)) * whole + stored_;
   }
 
-  /// Counts the half-spaces that the step does not approach and that the rounded end may violate. If there is one, a
-  /// small step away from this half-space brings the end inside. If there are several, possibly no position near the
-  /// end is inside all of them.
+  /// Counts the half-spaces that the step does not approach, but that the rounded end of the step may violate. If there
+  /// is one, a small step away from this half-space brings the end inside. If there are several, possibly no position
+  /// near the end is inside all of them.
   std::ptrdiff_t beside(const Point& end, const Point& step) const {
     return std::ranges::count_if(half_spaces_, [&](const HalfSpace& h) {
       const Point n = wide(h.normal);

@@ -42,9 +42,9 @@ class StepSolver {
 /// Selects a condition that ends the guess loop early. Without it, the loop ends if few vertices are cut, or after
 /// `guess_rounds`.
 enum class GuessEnd {
-  rounds,  ///< no early end: contacts stop vertices that approach, all others move on (method.md §5.2)
-  /// the loop ends at the first contact; if there are contacts at xᵗ, no round runs. A further round would move only
-  /// vertices without contact, and the mesh would distort
+  rounds,  ///< no early end: a vertex that meets a contact stops, all others move on (method.md §5.2)
+  /// the loop ends at the first contact, and no round runs if there are contacts at xᵗ. A further round would move only
+  /// vertices without contact and distort the mesh
   contact
 };
 
@@ -69,13 +69,14 @@ class ContactStep {
   /// Runs the guess loop. Friction is lagged to xᵗ, because the contact forces there are those of a converged step.
   void guess(GuessEnd end);
   bool in_contact() const;  ///< whether the last detection found contacts
-  /// Returns whether cut vertices trigger a detection: at least `times` γ_e K of them, and at least one. With
-  /// bounds=planes, prescribed vertices behind their targets are counted separately. One such vertex alone triggers a
-  /// detection if it has moved since the last detection; otherwise it triggers only one detection in a step.
+  /// Returns whether `cut` cut vertices trigger a detection: at least `times` γ_e K of them, and at least one. With
+  /// bounds=planes, prescribed vertices behind their targets are counted separately. One of them alone triggers a
+  /// detection if it has moved since the last detection; otherwise it triggers only one in a step.
   bool asks(std::size_t cut, std::int64_t times = 1);
   bool nothing_near() const;  ///< whether x certainly has no contacts, without a detection
   std::size_t move_prescribed();
-  /// Returns whether a detection is due after an iteration that cut `cut` vertices, by `asks` or by `detection_every`.
+  /// Returns whether a detection is due after an iteration that cut `cut` vertices: if `asks` returns true, or by the
+  /// setting `detection_every`.
   bool detection_due(std::size_t cut);
   void set_residual(double mean_force);  ///< sets the residual of Eq. 29; the first force of a step is f*
   compare::IterationMetrics new_row(bool detects) const;
@@ -108,7 +109,7 @@ class ContactStep {
   Detected detected_;
   FeasibleRegions regions_;
   float query_radius_ = 0;
-  /// whether contacts must be detected; whether they were detected at the present x
+  /// `detect_next_`: whether contacts must be detected. `fresh_`: whether they were detected at the present x
   bool detect_next_ = false, fresh_ = false;
   std::size_t cut_ = 0;                ///< vertices cut in the last iteration, prescribed ones included
   std::int64_t iterations_since_ = 0;  ///< iterations since the last detection

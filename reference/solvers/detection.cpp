@@ -18,7 +18,6 @@ double distance_to_segment(const Triple<double>& x, const Triple<double>& a, con
   return std::hypot(gap[0], gap[1], gap[2]);
 }
 
-/// Returns the contacts nearer than `contact_radius` [m].
 ContactSets sets_within(compare::DetectIn in, float contact_radius) {
   in.contact_radius = contact_radius;
   return {exact_vertex_facet(in).contacts, exact_edge_edge(in).contacts};

@@ -1,7 +1,7 @@
-// The regions in which the vertices of Newton's method and VBD stay between two detections. Positions are doubles, but
-// a detection reads single-precision positions, so X_prev is x rounded. Each region is smaller than its bounds by this
-// rounding error. So both x and its stored value keep the bounds (Eq. 27; method.md §5.6). So does the path from X_prev
-// over x to the next X_prev.
+// Computes the regions in which Newton's method and VBD keep the vertices between two detections. Positions are
+// doubles, but a detection reads single-precision positions, so X_prev is x rounded. Each region is smaller than its
+// bounds by this rounding error. So x, its stored value, and the path from X_prev over x to the next X_prev keep the
+// bounds (Eq. 27; method.md §5.6).
 #pragma once
 
 #include <functional>

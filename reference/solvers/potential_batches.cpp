@@ -16,8 +16,8 @@ struct Prepared {
   std::array<std::uint8_t, 4> place{0, 1, 2, 3};  ///< places of these vertices among the contact's vertices
 };
 
-/// Prepares a contact term at x and returns its group. Terms with the same closest features and the same stage of the
-/// activation form a group, whose members are evaluated together. Returns `left_out` if the contact does not act.
+/// Prepares a contact term at x and returns its group. A group has the same closest features and the same branch of the
+/// activation, so its members are evaluated together. Returns `left_out` if the contact does not act.
 std::uint8_t prepare(const ContactTerm& term, const State& x, Prepared& to) {
   const std::array<Triple<double>, 4> corners = contact_corners(term.sides, term.vertex, x);
   const ClosestForm form = closest_form(term.sides, corners);

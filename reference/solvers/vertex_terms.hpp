@@ -13,18 +13,17 @@
 
 namespace ogc::reference {
 
-/// One term of force and block, with the tolerances of its stage in units of 2⁻²⁴ · scale. Accepted answers within a
-/// tolerance of the exact answer are not tried one by one; they enlarge the spread. The spread is the largest
-/// difference of these answers from the exact one, plus the tolerance, because their scale may be twice the scale of
-/// the exact answer.
+/// One term of force and block, with the tolerances of its stage in units of 2⁻²⁴ · scale. Accepted answers near the
+/// exact one are not tried one by one; the spread covers them. It is their largest difference from the exact answer,
+/// plus the tolerance: their scale, and so their own tolerance, may be twice that of the exact answer.
 struct Term {
   std::vector<compare::ForceAnswer> accepted;  ///< the exact answer first
   double force_tolerance = 0, block_tolerance = 0;
   double force_spread = 0, block_spread = 0;  ///< [N], [N/m]
 };
 
-/// Makes a term from the accepted answers of one energy. Answers near the exact one enlarge the spread; the others are
-/// kept in `accepted`.
+/// Makes a term from the accepted answers of one energy. Answers within the tolerance of the exact one enlarge the
+/// spread; the others are kept in `accepted`.
 Term term_of(std::vector<compare::ForceAnswer> accepted, double force_tolerance, double block_tolerance);
 
 /// All terms of a vertex except inertia.

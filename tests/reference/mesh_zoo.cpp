@@ -110,7 +110,7 @@ class Zoo {
     all_.push_back(std::move(specimen));
   }
 
-  /// Adds the mesh and its copies: turned exactly, scaled by powers of ten and by powers of two down to denormal
+  /// Adds the mesh and its copies: rotated exactly, scaled by powers of ten and by powers of two down to denormal
   /// coordinates, and moved far away.
   void add_family(const std::string& name, const Surface& surface, double radius) {
     add(name, surface, radius);

@@ -25,7 +25,7 @@ const std::vector<Specimen>& mesh_zoo();
 Surface tetrahedron();
 Surface octahedron();
 Surface cube();
-/// Returns `pages` triangles on the edge from vertex 0 to vertex 1, evenly spread around it over `turn` turns.
+/// Returns `pages` triangles on the edge from vertex 0 to vertex 1, evenly spread over an angle of 2π `turn` around it.
 Surface book(int pages, double turn);
 /// Returns a closed strip of 2n triangles with a half twist.
 Surface moebius(int n);

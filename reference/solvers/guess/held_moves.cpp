@@ -76,13 +76,14 @@ std::vector<Move> HeldMoves::round(std::span<const GuessContact> contacts, const
 
 namespace {
 
-/// Roundings from the inputs to the move that one contact leaves. Their sum is 65:
-/// - the normal: 36, as in the stage contact_force
-/// - another vertex's move: 2; its product with the weight and the sum over three vertices: 3
-/// - opening or closing (independent scalar products): 3; their difference and the quotient: 2
-/// - the product with the normal and the sum: 2
-/// - the relative move: 2; its normal part: 4; the difference: 1; the length: 4
-/// - the limit of friction: 2; quotients: 2; product and difference: 2
+/// Number of roundings from the inputs to the move that one contact leaves:
+///   36  the normal, as in the stage contact_force
+///    5  another vertex's move (2); its product with the weight, and the sum over three vertices (3)
+///    3  n·move or n·others, which do not depend on each other
+///    2  their difference and the quotient
+///    2  the product with the normal, and the sum
+///   11  the relative move (2), its normal component (4), their difference (1), and the length of this slip (4)
+///    6  the limit of friction (2), quotients (2), product and difference (2)
 constexpr double roundings = 65, unit = roundings * compare::unit_roundoff;
 
 /// A move and its accepted error [m].
@@ -130,7 +131,7 @@ Measured measure(Meeting meeting, const Asked& asked, std::size_t own, const Mov
   const InputMove relative = wanted + Input(1.0) / weight * others, slide = relative - dot(normal, relative) * normal;
   const Input closing = dot(normal, wanted), opening = dot(normal, others) / weight;
   const auto plain_of = [](const InputMove& a) { return Move{a[0].value, a[1].value, a[2].value}; };
-  // If the other vertices certainly approach, the contact does not open, and the opening has no error.
+  // If the other vertices certainly approach, the opening counts as 0 and has no error.
   const double room = dot(plain_of(normal), plain_of(others)) / share,
                room_error = unit * inputs.condition({&opening, 1}) + others_error / share;
   Measured result;

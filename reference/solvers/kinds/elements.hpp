@@ -30,7 +30,7 @@ template <class Kind>
 constexpr std::size_t corner_count =
     std::tuple_size_v<decltype(Kind::corners(std::declval<typename Kind::Term>(), std::declval<State>()))>;
 
-/// Differentiates a batch of elements on this machine (kernels.hpp).
+/// Differentiates a batch of elements with the kernel for this machine (kernels.hpp).
 template <class Kind>
 void differentiate_batch(const Batch<typename Kind::Term, corner_count<Kind>>& batch, HessianProjection projection);
 

@@ -1,5 +1,5 @@
-// Derivatives of elements for Newton's method, several of one kind side by side, as in
-// energies/stencils/stencil_kernels.hpp.
+// Declares the kernels with which Newton's method differentiates elements. A kernel differentiates several elements of
+// one kind side by side (energies/stencils/stencil_kernels.hpp).
 #pragma once
 
 #include "reference/energies/stencils/stencil_kernels.hpp"
@@ -7,7 +7,7 @@
 
 namespace ogc::reference {
 
-/// Holds the function of a kind, compiled for one machine. It is empty for a kind whose list computes its own
+/// Holds the kernel of a kind, compiled for one machine. It is empty for a kind whose list computes its own
 /// derivatives.
 template <class Kind>
 struct KernelOf {};
@@ -17,21 +17,21 @@ struct KernelOf<Kind> {
   StencilKernels::Function<typename Kind::Term, corner_count<Kind>> kernel;  ///< differentiates a batch
 };
 
-/// The functions of all kinds.
+/// The kernels of some kinds.
 template <class Kinds>
 struct KernelsOf;
 template <class... Kinds>
 struct KernelsOf<std::tuple<Kinds...>> : KernelOf<Kinds>... {
-  /// Returns the function of a kind.
+  /// Returns the kernel of a kind.
   template <class Kind>
   auto of() const {
     return static_cast<const KernelOf<Kind>&>(*this).kernel;
   }
 };
-/// The functions of all kinds in ElementKinds.
+/// The kernels of all kinds in ElementKinds.
 using KindKernels = KernelsOf<ElementKinds>;
 
-/// Kernels for any machine, and for one with AVX2.
+/// The kernels for any machine, and for a machine with AVX2.
 extern const KindKernels kind_kernels_baseline, kind_kernels_avx2;
 
 /// Returns the kernels for this machine.

@@ -1,4 +1,4 @@
-// Segments of rods, whose list has frames beside vertices (solvers/rods/rod_system.hpp).
+// Describes segments of rods. Their stencils depend on orientations, too (solvers/rods/rod_system.hpp).
 #pragma once
 
 #include "compare/stages/rest_state.hpp"

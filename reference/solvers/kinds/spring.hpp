@@ -1,4 +1,4 @@
-// Springs between two vertices, or a vertex and a point between two others.
+// Describes springs between two vertices, or between a vertex and a point on the line of two others.
 #pragma once
 
 #include "compare/stages/rest_state.hpp"

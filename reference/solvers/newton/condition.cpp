@@ -10,12 +10,12 @@ namespace ogc::reference {
 namespace {
 
 constexpr int most_iterations = 500;
-/// Relative tolerance of an eigenvalue. ‖A z − θ z‖ ≤ tolerance θ implies an eigenvalue within tolerance θ of the Ritz
-/// value θ. It is small, so that the iteration separates the largest eigenvalue from its neighbours.
+/// Relative tolerance of an eigenvalue. For a unit vector z, ‖A z − θ z‖ ≤ tolerance θ implies an eigenvalue within
+/// tolerance θ of θ. It is small, so that the iteration separates the largest eigenvalue from its neighbours.
 constexpr double tolerance = 0x1p-20;
 
-/// Returns a start vector with pseudorandom entries in [−1, 1), the same in every run. From a start orthogonal to the
-/// largest eigenvector the iteration would never find it.
+/// Returns a start vector with pseudorandom entries in [−1, 1), the same in every run. If it were orthogonal to the
+/// eigenvector of the largest eigenvalue, the iteration would miss this eigenvalue.
 Eigen::VectorXd start(Eigen::Index size) {
   std::mt19937 engine;
   Eigen::VectorXd x(size);

@@ -51,8 +51,9 @@ MovingPlanes::MovingPlanes(const std::vector<NearPair>& pairs, const std::vector
       pair.vertices[k] = static_cast<std::size_t>(near.vertices[k]);
       size = std::max(size, largest(centre_[pair.vertices[k]]) + radius_[pair.vertices[k]]);
     }
-    // Error of the separation: n is a unit vector up to 2⁻²²; x and its stored value may both have a rounding error, on
-    // each side of the pair.
+    // The limit of the separation's error has two terms:
+    //  - x and its stored value may both have a rounding error, on each side of the pair; n is a unit vector up to 2⁻²²
+    //  - rounding of heights n·x in double
     const double noise = 2 * (1 + 0x1p-20) * rounding_of(size) + 3 * height_noise * size;
     pair.gap = separation(pair, [&](std::size_t v) { return centre_[v]; });
     pair.least = (1 - 2 * relaxation) * pair.gap + noise;
@@ -130,7 +131,8 @@ bool MovingPlanes::shares(const State& x, const State& step, std::vector<double>
   for (const Pair& pair : pairs_) {
     const double after = separation(pair, [&](std::size_t v) { return x[v] + step[v]; });
     if (after >= pair.least) continue;
-    // The separation is a concave function of the share, so it is at least the linear interpolation between both ends.
+    // The separation is a concave function of the share. So it is at least the linear interpolation between the shares
+    // 0 and 1.
     const double before = separation(pair, [&](std::size_t v) { return x[v]; }),
                  left = std::max(0.0, (before - pair.least) / (before - after)) * (1 - 0x1p-40);
     for (const std::size_t v : pair.vertices) share[v] = std::min(share[v], left);

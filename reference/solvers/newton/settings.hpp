@@ -28,7 +28,7 @@ struct NewtonSettings {
   double tolerance;         ///< residual (Eq. 29) at which a step has converged; if 0, all iterations run
   /// a step has also converged if Newton's direction δ moves every vertex by less than this times h [m/s]
   double step_tolerance;
-  /// number of solves in a step; each takes lagged friction from the result of the solve before
+  /// number of solves in a step; each takes lagged friction from the result of the previous solve
   std::int64_t friction_solves;
   HessianProjection projection;  ///< projection of each stencil's Hessian
   Truncation truncation;

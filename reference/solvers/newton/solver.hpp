@@ -10,14 +10,14 @@
 // Choices that the paper leaves open:
 //
 // - The guess loop ends at the first contact, and a step that begins with contacts begins at xᵗ. The loop moves
-//   vertices one by one: vertices in contact would stay while others cross several balls. The mesh would be crumpled,
-//   with distances so small that no ball lets it unfold. Newton's steps cross as many balls, but move all vertices
-//   together.
+//   vertices one by one: vertices in contact would stay while others cross several balls. This would crumple the mesh
+//   and leave distances, hence balls, that are too small to unfold it. Newton's steps cross as many balls, but move all
+//   vertices together.
 // - Friction of the first solve is lagged to xᵗ, where contact forces are those of a converged step.
-// - Contacts are detected again after the guess: the force f* of Eq. 29 needs them, and the solve begins with full
-//   balls.
-// - A solve to a tolerance detects again as soon as one vertex was cut (method.md §6). A vertex at the limit of its
-//   ball would otherwise keep the residual up forever. Without a tolerance only γ_e decides.
+// - Contacts are detected again after the guess: the force f* of Eq. 29 needs them, and each vertex is then at the
+//   centre of its ball.
+// - A solve to a tolerance detects again as soon as one vertex was cut (method.md §6). Otherwise a vertex at the limit
+//   of its ball could keep the residual above the tolerance. Without a tolerance only γ_e decides.
 // - The solve does not wait for prescribed vertices. If bounds keep such a vertex from its target, it lags.
 //
 // If balls cut δ, up to three directions are backtracked. The one that lowers the energy most is taken:
@@ -40,9 +40,10 @@
 // (moving_planes.hpp), and δ' is δ with the sides of these pairs moved apart. The guess loop still uses balls; a step
 // ends with a detection at the stored positions.
 //
-// Stencils are projected if the matrix is not positive definite without projection, and after an iteration that was
-// cut, because far from the solution the matrix is rarely definite. If every iteration projected, a step of a crumpled
-// cloth would end in many iterations of linear convergence: the projection keeps curvature that other stencils cancel.
+// The Hessians of stencils are projected if the matrix is not positive definite without projection. They are also
+// projected after an iteration that was cut, because far from the solution the matrix is rarely definite. If every
+// iteration projected, a step of a crumpled cloth would end in many iterations of linear convergence: the projection
+// keeps curvature that other stencils cancel.
 //
 // NewtonSteps::whole leaves all of this out: each iteration detects, solves and takes the whole step, even if the
 // energy rises or surfaces intersect. A step ends at the tolerance or with its last iteration. This is the usual solve

@@ -26,8 +26,8 @@ Frame unit(const Frame& q) { return on_sphere::scaled(1 / std::sqrt(inner(q, q))
 
 double norm(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
 
-/// Returns the relative rotation p of a segment e and its neighbour f, whose quaternions are `own` and `other`: q̄_e
-/// q_f if f is ahead (`end` is 1), q̄_f q_e if f is behind.
+/// Returns q̄_b q_a, the rotation of the segment a ahead of a joint relative to the segment b behind it. `own` and
+/// `other` are the quaternions of a segment and its neighbour; the neighbour is ahead if `end` is 1.
 Frame relative(const Frame& own, const Frame& other, std::size_t end) {
   return end == 1 ? product(conjugate(own), other) : product(conjugate(other), own);
 }
@@ -226,8 +226,8 @@ void RodSystem::sweep(const Positions& x) {
 
 namespace {
 
-/// Returns k_s l/2 (‖D/l − R(q) e₃‖² + k ‖D/l − R(q) R(qᵗ)ᵀ Dᵗ/l‖²); `apart` is D, `damping` is k. The second term is
-/// the change of the strain R(q)ᵀ D/l. It is rotated by R(q), which keeps its length.
+/// Returns k_s l/2 (‖D/l − R(q) e₃‖² + k ‖D/l − R(q) R(qᵗ)ᵀ Dᵗ/l‖²); `apart` is D, `damping` is k. The second vector is
+/// the change of the strain R(q)ᵀ D/l since xᵗ, rotated by R(q), which keeps its length.
 template <class T>
 T segment_energy(const RodTerm& term, const Triple<T>& apart, const FourOf<T>& q, double damping) {
   const auto about = [&](const Triple<double>& own) {

@@ -34,8 +34,8 @@ std::vector<compare::Index> segment_colours_of(const compare::RestStateOut& rest
 /// shape, each rotated so that its director is along the segment at the start.
 std::vector<compare::Quaternion> start_orientations(const compare::Scene& scene, const compare::RestStateOut& rest);
 
-/// Returns q after the smallest rotation from one direction to another. Opposite directions give half a turn about the
-/// first axis of q. If a direction is zero, returns q.
+/// Returns q after the smallest rotation from one direction to another. Opposite directions give a rotation by π about
+/// the first axis of q. If a direction is zero, returns q.
 FourOf<double> turned_along(const Triple<double>& from, const Triple<double>& to, const FourOf<double>& q);
 
 /// The rods of one scene, step after step.

@@ -19,9 +19,8 @@ struct ListedContacts {
 /// Returns the contacts nearer than in.contact_radius; does not read in.query_radius. `body` holds the body of each
 /// vertex. Throws std::logic_error for ContactSet::ogc.
 ///
-/// - pairs: for each non-adjacent vertex and triangle, and for each two non-adjacent edges, their closest faces.
-///   Blocks are not tested. A face that is closest in several pairs is listed several times, so that its force is a
-///   multiple.
+/// - pairs: for each non-adjacent vertex and triangle, and for each pair of non-adjacent edges, their closest faces.
+///   Blocks are not tested. A face that is closest in several pairs is listed several times, and its force multiplied.
 /// - distance: for each vertex the closest face of each other body. If several triangles are equally close, the
 ///   lowest-numbered one is used. Edges have no contacts.
 ListedContacts contact_variant(ContactSet set, const compare::DetectIn& in, std::span<const compare::Index> body);

@@ -26,7 +26,7 @@ Surface dented_cube() {
   return surface;
 }
 
-/// Returns a cube with a cavity: a smaller cube inside it that is turned inside out.
+/// Returns a cube with a cavity: a smaller cube inside it whose triangles have the opposite orientation.
 Surface hollow_cube() {
   Surface inner = mapped(cube(), [](Vec3f x) { return Vec3f{x.x / 2 + 0.5f, x.y / 2 + 0.5f, x.z / 2 + 0.5f}; });
   for (auto& t : inner.triangles) std::swap(t[0], t[1]);

@@ -47,7 +47,7 @@ TEST_CASE("counterexample to the remark on saddles in §3.3: within r of one, an
   REQUIRE(reference::sign(reference::gap_points(mesh.at(0), x, 6)) < 0);
   for (const Index t : topology.vertex_triangles[0]) CHECK_FALSE(in_block(mesh, triangle_face(t), x, 6));
   for (const Index e : topology.vertex_edges[0]) CHECK_FALSE(in_block(mesh, edge_face(e), x, 6));
-  // Covering still holds, by two vertices on the rim.
+  // The blocks of two vertices on the rim still contain the point.
   const auto contacts = reference::vertex_facet_over_all_pairs(question(star, topology, 6, 6));
   CHECK(faces_touched(contacts, 5) == std::vector<Face>{vertex_face(1), vertex_face(3)});
 }

@@ -1,7 +1,7 @@
 // Tests contacts with volumes of triangles in three ways:
 //
-// - For closed parts, a contact is on the inside exactly if its point is inside by the winding number. Contacts take
-//   their side from the nearest face, without winding numbers.
+// - For closed parts, a contact is inside exactly if the winding number of its point is not 0. Contacts do not use
+//   winding numbers; the nearest face decides.
 // - If a volume has several parts, each part has the contacts that it has alone.
 // - In simple cases contacts have the values derived by hand.
 #include "reference/definitions/part_contacts.hpp"

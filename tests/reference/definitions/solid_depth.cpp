@@ -50,7 +50,7 @@ struct Cells {
 
 Vec3f straight(int i, int j, int k) { return {static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)}; }
 
-/// Returns a bar bent by more than one turn, so that its ends overlap.
+/// Returns a bar bent by more than 2π, so that its ends overlap.
 Cells ring() {
   return {2, 20, 2, [](int i, int j, int k) {
             const double angle = 2 * std::numbers::pi * j / 17, radius = 1 + i;
@@ -177,7 +177,7 @@ TEST_CASE("a sheet that nothing but tetrahedra without volume surrounds has no w
   std::vector<compare::Triangle> triangles;
   for (std::size_t t = 1; t < 5; ++t) {
     const auto [a, b, c, apex] = body.tetrahedra[t];
-    // The first tetrahedron has the side abc, too; the order a, b, c turns outward from it.
+    // The triangle abc also belongs to the first tetrahedron, and its normal points out of it.
     for (const auto& [p, q] : {std::array{a, b}, std::array{b, c}, std::array{c, a}}) triangles.push_back({p, q, apex});
   }
   const compare::Topology topology = compare::build_topology(8, triangles);

@@ -61,9 +61,9 @@ Body box(int n) {
   });
 }
 
-constexpr int ring_cells = 40, ring_turn = 36;  // one turn is 36 cells: the last 4 cells lie in the first 4
+constexpr int ring_cells = 40, ring_turn = 36;  // the bar winds once in 36 cells: the last 4 cells lie in the first 4
 
-/// Returns a bar bent around the z axis by more than a turn, so that its two ends overlap. Radius 1 … 3, height 0 … 2.
+/// Returns a bar bent around the z axis by more than 2π, so that its two ends overlap. Radius 1 … 3, height 0 … 2.
 Body overlapping_ring() {
   return blocks(2, ring_cells, 2, [](int i, int j, int k) {
     const double angle = 2 * std::numbers::pi * j / ring_turn, radius = 1 + i;
@@ -143,8 +143,7 @@ TEST_CASE(
     const auto sheets = volume.sheets(x);
     REQUIRE(sheets.size() == 2);
     for (const auto& sheet : sheets) {
-      // Within a quarter turn of the sheet the bar does not overlap itself, so the nearest boundary there is the
-      // answer.
+      // Within ±π/2 of the sheet the bar does not overlap itself, so the nearest boundary there is the answer.
       double expected = 1e9;
       for (const auto& side : volume.boundary())
         if (std::abs(ring_cell(side.tetrahedron) - ring_cell(sheet[0])) < ring_turn / 4)
@@ -164,8 +163,7 @@ TEST_CASE(
     "[unit]") {
   const Body body = overlapping_ring();
   const TetVolume volume(body.positions, body.tetrahedra);
-  // The point is 0.02 of a cell before the bar's end. The second sheet ends there; the first one continues for a
-  // further half turn.
+  // The point is 0.02 of a cell before the bar's end. The second sheet ends there, the first one 36 cells later.
   const double angle = 2 * std::numbers::pi * (ring_cells - ring_turn - 0.02) / ring_turn;
   const Vec3f x{static_cast<float>(2 * std::cos(angle)), static_cast<float>(2 * std::sin(angle)), 1.0f};
   const auto sheets = volume.sheets(x);
@@ -231,8 +229,7 @@ TEST_CASE("tet volume: inverted, flat, folded, crowded and wound tetrahedra are 
   const Body crowded{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}, {1, 1, -1}},
                      {{0, 1, 2, 3}, {0, 2, 1, 4}, {0, 2, 1, 5}}};
   CHECK(contains(refusal(crowded), "belongs to 3 tetrahedra"));
-  // Six tetrahedra make a turn around the edge of vertices 0 and 1. These make two turns, each with its own rim
-  // vertices.
+  // Six tetrahedra wind once around the edge of vertices 0 and 1. These twelve wind twice, over twelve rim vertices.
   Body wound{{{0, 0, 0}, {0, 0, 1}}, {}};
   for (int k = 0; k < 12; ++k) {
     const double angle = std::numbers::pi * k / 3;

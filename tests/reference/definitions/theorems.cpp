@@ -73,7 +73,6 @@ bool near_mesh(const Complex& mesh, const Vec3f& x, float r) {
   return false;
 }
 
-/// Returns the faces whose blocks hold x.
 std::set<Face> blocks_at(const Complex& mesh, const Vec3f& x, float r) {
   std::set<Face> found;
   const auto ask = [&](FaceKind kind, std::size_t count) {

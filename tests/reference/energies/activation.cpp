@@ -1,4 +1,5 @@
-// Tests activation: smoothness where the stages meet, and the consequence of Eq. 19 as printed.
+// Tests activation: smoothness where its quadratic and its logarithmic branch meet, and the consequence of Eq. 19 as
+// printed.
 #include "reference/energies/activation.hpp"
 
 #include <array>

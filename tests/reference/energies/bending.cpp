@@ -177,7 +177,8 @@ TEST_CASE(
     "the isometric model agrees with the hinge for small angles of a shape that keeps its lengths, and is 2 sin(θ/2) "
     "for large ones",
     "[property]") {
-  // x0 and x1 lie on the edge, o0 above it, and o1 below it and turned. The weights belong to this rest shape.
+  // x0 and x1 lie on the edge, o0 above it, and o1 below it, rotated by `theta` about the edge. The weights belong to
+  // this rest shape.
   const double length = 2, foot_a = 0.5, foot_b = 1.25, height_a = 1, height_b = 0.5;
   for (const double theta : {0.0, 1e-3, 0.7, 2.5}) {
     BendingCase c;
@@ -213,7 +214,7 @@ TEST_CASE("damping of the isometric model sees no rigid motion, and resists a ch
   c.start = c.vertex;
   BendingCase elastic = c;
   elastic.damping = 0;
-  // Since the start the hinge has turned by 90° about z and has moved.
+  // Since the start the hinge has been rotated by 90° about z and moved.
   for (std::size_t k = 0; k < 4; ++k) c.start[k] = {-c.vertex[k].y + 1, c.vertex[k].x, c.vertex[k].z};
   for (c.own = elastic.own = 0; c.own < 4; ++c.own, ++elastic.own) {
     const compare::ForceAnswer damped = reference::bending(c)[0], free = reference::bending(elastic)[0];

@@ -114,8 +114,8 @@ TEST_CASE("the reference's membrane exerts no net force and, without damping, no
       }
       scale += answer.force_scale;
     }
-    // Gradients of a turned stencil are rounded to single precision again: an input has an error of 2⁻²⁴, one unit of
-    // the scale. Arms are shorter than 3 m.
+    // When another corner becomes the first, gradients are rounded to single precision again: an input has an error of
+    // 2⁻²⁴, one unit of the scale. Arms are shorter than 3 m.
     CHECK(norm(force) < 4 * compare::unit_roundoff * scale);
     CHECK(norm(torque) < 12 * compare::unit_roundoff * scale);
   }
@@ -160,7 +160,7 @@ TEST_CASE("the reference's membrane at rest exerts nothing, and damping resists 
   c.lame_lambda = c.lame_mu = 4;
   c.damping = 3;
   CHECK(exact(c).force == compare::Vec3{});
-  // Since the start of the step the triangle has turned as a whole: no strain, no damping.
+  // Since the start of the step the triangle has been rotated rigidly: no strain, no damping.
   c.corner = {{{0, 0, 0}, {0, 0, 1}, {0, 1, 0}}};
   CHECK(exact(c).force == compare::Vec3{});
   c.corner[0] = {-0.25f, 0, 0};

@@ -199,7 +199,8 @@ TEST_CASE("from a near old q it minimises the energy of stretch, shear, bend and
     if (std::abs(again[0] - q[0]) + std::abs(again[1] - q[1]) + std::abs(again[2] - q[2]) + std::abs(again[3] - q[3]) >
         1e-5)
       continue;
-    // Skips cases in which a neighbour's turn θ is near π. A turn beyond π changes the sign and may have less energy.
+    // Skips cases in which the rotation angle θ to a neighbour is near π. Beyond π the sign changes, and the energy may
+    // be lower.
     if (std::max(angle_to(c, c.orientation, false), angle_to(c, c.orientation, true)) > 2.9) continue;
     ++compared;
     const double least = physical_energy(c, c.orientation);
@@ -222,7 +223,7 @@ TEST_CASE("where neighbours ask for nothing the frame turns about nothing but wh
   c.orientation_start = c.orientation;
   c.rest_length = 1;
   c.stretch = 2;
-  // A quarter turn about e₂ takes e₃ to e₁.
+  // A rotation by π/2 about e₂ takes e₃ to e₁.
   const Four q = reference::orientation(c).front().orientation;
   CHECK(q[1] == Approx(std::sqrt(0.5)).epsilon(1e-12));
   CHECK(q[3] == Approx(std::sqrt(0.5)).epsilon(1e-12));
@@ -238,12 +239,12 @@ TEST_CASE("a grey sign has two answers, and a reversed director none that stands
   c.orientation_start = c.orientation;
   c.rest_length = 1;
   c.stretch = 2;
-  c.ahead = {1, {0, 0, 1, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};  // a half turn of twist
+  c.ahead = {1, {0, 0, 1, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};  // a twist by π
   const auto both = reference::orientation(c);
   REQUIRE(both.size() == 2);
   CHECK(both[0].orientation[2] == Approx(1));
   CHECK(both[1].orientation[2] == Approx(-1));
-  c.ahead.now = {1, 0, 0, 0};  // a half turn that reverses the director, while the stretch keeps it
+  c.ahead.now = {1, 0, 0, 0};  // a rotation by π reverses the director; the stretch opposes it
   c.orientation = {0.6f, 0, 0, 0.8f};
   CHECK(std::isinf(reference::orientation(c).front().scale));
   c.ahead.weight = 100;  // this neighbour overcomes the stretch

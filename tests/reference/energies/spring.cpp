@@ -185,7 +185,7 @@ TEST_CASE("what a lost length leaves of a stitch's block is accepted, no block i
 TEST_CASE("damping of a spring's strain sees no rigid motion, damping by vertex a translation, too", "[property]") {
   SpringCase c;
   c.vertex = {{{1, 0, 0}, {0, 0, 0}, {0, 0, 0}}};
-  c.start = {{{5, 1, 0}, {5, 0, 0}, {5, 0, 0}}};  // the spring has turned and moved, with the same length
+  c.start = {{{5, 1, 0}, {5, 0, 0}, {5, 0, 0}}};  // the spring has been rotated and moved, with the same length
   c.stiffness = 2;
   c.rest_length = 1;
   c.damping = 3;

@@ -236,8 +236,11 @@ TEST_CASE("block: a boundary is grey within rounding of it, and decided exactly"
 }
 
 TEST_CASE("block: the point of an edge is that inside it or its nearer end", "[unit]") {
-  // The point of edge 5–6 that is closest to vertex 0 lies, case by case: above vertex 0; above vertex 0, at the end of
-  // edge 5–6; beside it, at an end; beside it, because edge 5–6 is slanted.
+  // The point of edge 5–6 that is closest to vertex 0 lies, in the order of the four checks:
+  //  - above vertex 0
+  //  - above vertex 0, at an end of the edge
+  //  - not above vertex 0, at an end of the edge
+  //  - not above vertex 0, because the edge is slanted
   const auto inside = [](const Vec3f& from, const Vec3f& to, Face a) {
     return Mesh(patch(from, to)).ask({{Kind::edge_in_edges, 8, a}}).inside[0];
   };

@@ -53,7 +53,6 @@ double distance_to(const Complex& mesh, Face face, const Vec3f& x) {
   return reference::distance(reference::feature_gap(corners, reference::closest_feature(corners, x), x));
 }
 
-/// Returns the faces of one triangle: corners, edges, the triangle.
 std::vector<Face> faces_of(const Complex& mesh, Index t) {
   std::vector<Face> faces;
   for (const Index v : mesh.triangle(t)) faces.push_back(vertex_face(v));

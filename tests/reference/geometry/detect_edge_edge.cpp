@@ -251,7 +251,7 @@ TEST_CASE("detect_edge_edge: parallel strands keep their contacts at any tilt", 
 }
 
 TEST_CASE("detect_edge_edge: two parallel flat sheets have interior pairs only, along the normal", "[unit]") {
-  // The second sheet is turned by the angle of a 3-4-5 triangle and shifted, so no edges of both sheets are parallel.
+  // The second sheet is rotated by the angle of a 3-4-5 triangle and shifted, so no edges of both sheets are parallel.
   const int n = 7;
   const Surface upper = mapped(grid(n), [](Vec3f x) {
     return Vec3f{0.6f * x.x - 0.8f * x.y + 3.37f, 0.8f * x.x + 0.6f * x.y - 1.21f, 0.5f};

@@ -48,7 +48,7 @@ double differentiated(const Margin& m) {
   return sum;
 }
 
-/// Coordinates are random in the unit box, on a lattice, or in a plane, so that terms may vanish, too.
+/// Returns a margin with random coordinates in the unit box, on a lattice, or in a plane. So terms may also vanish.
 Margin some_margin(MarginKind kind, compare::Random& random) {
   Margin margin{kind};
   const int family = random.below(3);

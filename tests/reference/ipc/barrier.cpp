@@ -250,7 +250,7 @@ TEST_CASE(
 
 TEST_CASE("barrier: the energy does not jump where closest features change, parallel edges included", "[property]") {
   const BarrierShape shape{0.2, 0};
-  // A vertex slides over a triangle and beyond it; a short edge turns above a long edge.
+  // A vertex slides over a triangle and beyond it; a short edge rotates above a long edge.
   const auto largest_jump = [&](auto pieces_at) {
     double largest = 0, before = total(pieces_at(0.0), shape), highest = before;
     for (int k = 1; k <= 4000; ++k) {

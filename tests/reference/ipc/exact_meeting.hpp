@@ -86,16 +86,17 @@ inline std::array<Bernstein, 2> halves(const Bernstein& b) {
   return {left, {right.rbegin(), right.rend()}};
 }
 
-/// A vector that moves on a straight line, as its Bernstein coefficients at both ends of the interval.
+/// A vector that moves on a straight line: for each axis the Bernstein coefficients, which are its values at both ends
+/// of the interval.
 using Line = std::array<Bernstein, 3>;
 
 struct MeetingQuestion {
-  Bernstein coplanar;             ///< must vanish
-  std::vector<Bernstein> inside;  ///< must not be negative
+  Bernstein coplanar;             ///< 0 at the times when the four points lie in one plane
+  std::vector<Bernstein> inside;  ///< not negative at such a time if the primitives meet
   /// the vectors from each vertex of the second primitive to each vertex of the first; a direction whose products with
   /// all of them are positive separates the primitives
   std::vector<Line> apart;
-  Line along;  ///< the first of two edges
+  Line along;  ///< vector along the first of two edges
 };
 
 /// Returns whether the products of an integer direction with all of `apart` have the same strict sign at all times.

@@ -32,7 +32,6 @@ class MotionLadder {
 
  private:
   double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  /// Returns 10⁰ … 10⁻ᵇᵒᵗᵗᵒᵐ in turn.
   static double rung(int i, int bottom) { return std::pow(10.0, -(i % (bottom + 1))); }
 
   /// Places touching primitives in the plane z = 0: a vertex inside, on the rim of or next to the triangle, or edges
@@ -73,7 +72,7 @@ class MotionLadder {
     }
   }
 
-  /// Turns the case, shrinks it to the size of a cloth's triangles, moves it away from the origin, adds a common
+  /// Rotates the case, shrinks it to the size of a cloth's triangles, moves it away from the origin, adds a common
   /// velocity, and rounds it for the exact answer.
   void place(PairMotion& m) {
     std::array<std::array<double, 3>, 3> q{};

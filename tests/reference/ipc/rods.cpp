@@ -76,7 +76,7 @@ double lowest_above(const compare::Topology& topology, const State& x) {
 
 // Sweeps round positions of at most 1 cm to single precision in each of five steps, by 2⁻²⁴ of 1 cm. IPC ends a step if
 // nothing moves faster than 1e-7 lengths of the rod per second, 1e-12 m per step. A frame follows the ends of its
-// segment of 1 mm, so errors of 5e-9 m at each end turn it by at most 1e-5.
+// segment of 1 mm, so errors of 5e-9 m at each end rotate the frame by at most 1e-5.
 TEST_CASE("rods: IPC and converged sweeps end at the same minimiser", "[property]") {
   std::vector<Vec3> points;
   for (int k = 0; k <= 10; ++k) points.push_back({1e-3 * k, 3e-4 * std::sin(0.8 * k), 2e-4 * std::cos(0.5 * k)});

@@ -77,8 +77,8 @@ TEST_CASE("IPC: a cloth far from everything falls as -g h^2 n(n+1)/2", "[propert
   }
 }
 
-/// The rule `velocity` averages over three iterations, so a solve continues after the first one. Rounding of the
-/// positions hides what these iterations change.
+/// With the rule `velocity`, a solve continues after the first iteration, because the rule averages over three
+/// iterations. Rounding of positions hides what these iterations change.
 TEST_CASE("IPC: a cloth that is not strained falls by either rule of stopping and either membrane", "[property]") {
   for (const auto model : {compare::MembraneModel::st_venant_kirchhoff, compare::MembraneModel::stable_neo_hookean})
     for (const auto rule : {reference::IpcStopping::displacement, reference::IpcStopping::velocity}) {

@@ -106,7 +106,7 @@ TEST_CASE(
 TEST_CASE("rest state: a flat hinge has angle 0, a right angle has a quarter turn, folded ones half a turn", "[unit]") {
   using std::numbers::pi;
   CHECK(angle_of({1, -1, 0}) == 0);
-  // For the far corner (1, 0, 1) the second normal is (0, 1, 0)·2: +z turned about +x by −90°.
+  // For the far corner (1, 0, 1) the second normal is (0, 1, 0)·2: +z rotated about +x by −90°.
   CHECK(angle_of({1, 0, 1}) == Approx(-pi / 2).epsilon(1e-15));
   CHECK(angle_of({1, 0, -1}) == Approx(pi / 2).epsilon(1e-15));
   CHECK(angle_of({1, -1, 1}) == Approx(-pi / 4).epsilon(1e-15));
@@ -133,7 +133,7 @@ TEST_CASE("rest state: hinges are as stiff as 3 k e^2 / (A0 + A1)", "[unit]") {
 }
 
 TEST_CASE("rest state: needles and folds keep every bit", "[unit]") {
-  // A needle has a height of 2⁻¹⁹ over a side of 2²⁰, so 2A = 2. A fold misses half a turn by 2⁻¹⁹.
+  // A needle has a height of 2⁻¹⁹ over a side of 2²⁰, so 2A = 2. The angle of a fold differs from π by 2⁻¹⁹.
   Scene scene;
   scene.name = "needle";
   append_body(scene, {.name = "sheet", .material = {}},

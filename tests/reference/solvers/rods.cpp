@@ -1,5 +1,5 @@
 // Tests rods in the reference's whole runs: forces against differences of the energy, sweeps that never raise the
-// energy, frames at rest, and frames after a turn.
+// energy, frames at rest, and frames after a rotation.
 #include "reference/solvers/rods/rod_system.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // Tests whether a vertex's update lowers its incremental potential (method.md §4.2, §7.1). If normals and closest
-// points stay and no contact is in the logarithmic stage of its activation, an update never raises the potential;
-// otherwise it rarely does.
+// points stay and the activation of no contact is in its logarithmic branch, an update never raises the potential;
+// otherwise an update rarely raises it.
 #include <algorithm>
 #include <cmath>
 #include <random>

@@ -108,10 +108,11 @@ Matrix<N> lane_of(const LowerTriangle<N, Lanes<Packs>>& h, std::size_t lane) {
   return m;
 }
 
-/// Error bound of the difference of two projections. Both solvers change the basis from both sides, by N − 2
-/// reflections and about two rotations for each of the N(N − 1)/2 entries off the diagonal. Each has an error of at
-/// most 8 · 2⁻⁵³ ‖H‖ (Frobenius). Clamping does not enlarge the error; the modulus enlarges it by at most √2 (Araki and
-/// Yamagami 1981). The sum of N terms of rank one adds a few 2⁻⁵³ of the norm for each term.
+/// Error bound of the difference of two projections. Each solver has these errors:
+/// - It applies N − 2 reflections and about two rotations for each of the N(N − 1)/2 entries off the diagonal, to rows
+///   and columns. Each application has an error of at most 8 · 2⁻⁵³ ‖H‖ (Frobenius).
+/// - Clamping does not enlarge the error; the modulus enlarges it by at most √2 (Araki and Yamagami 1981).
+/// - The sum of N terms of rank one adds a few 2⁻⁵³ ‖H‖ for each term.
 template <std::size_t N>
 constexpr double projection_bound = 0x1p-53 * 2 * 1.5 * (2 * 8.0 * (N - 2 + N * (N - 1)) + 4 * N);
 

@@ -60,7 +60,7 @@ TEST_CASE("what closes a contact is taken, and what opens it or goes along it is
 }
 
 TEST_CASE("a partner that makes room is followed, and one that comes is not fled from", "[unit]") {
-  // The first argument is minus the partner's move, because its weights are −1 in sum.
+  // The first argument is minus the partner's move, because the weights of the partner's vertices are −1 in sum.
   CHECK(held_by(above({0, 0, 1}), {0, 0, -3}) == Move{0, 0, -1});
   CHECK(held_by(above({0, 0, 4}), {0, 0, -3}) == Move{0, 0, -3});
   CHECK(held_by(above({0, 0, -1}), {0, 0, -3}) == Move{0, 0, 0});

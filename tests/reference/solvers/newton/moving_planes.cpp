@@ -85,7 +85,6 @@ TEST_CASE("pair by pair: whatever a step wants, nothing meets on its way, and wh
     for (const double share : {0.1, 0.35, 0.7, 1.0}) CHECK(held.intersections(shifted(x, share, step)) == 0);
     meetings_uncut += held.intersections(shifted(x, 1, wanted));
     cut += step != wanted;
-    // A second step begins at the end of the first step.
     const State next = shifted(x, 1, step);
     CHECK(held.intersections(shifted(next, 1, held.planes.truncated(next, wanted))) == 0);
   }

@@ -58,7 +58,7 @@ TEST_CASE("rods: gradients and Hessians of segments and joints are those of thei
   system.begin_step(x, 1);
   for (std::size_t v = 0; v < x.size(); ++v)
     for (std::size_t axis = 0; axis < 3; ++axis) x[v][axis] += 1e-4 * std::sin(3.0 * static_cast<double>(3 * v + axis));
-  system.sweep(x);  // turns the frames, so that they differ from those at the start and at rest
+  system.sweep(x);  // changes the frames, so that they differ from those at the start and at rest
   x.resize(x.size() + system.segments());
   for (std::size_t i = 0; i < system.size(); ++i) {
     const auto unknown = system.vertices(i);
@@ -72,7 +72,7 @@ TEST_CASE("rods: gradients and Hessians of segments and joints are those of thei
     };
     const std::size_t count = unknown[2] < 0 ? 6 : 9;
     for (std::size_t a = 0; a < count; ++a) {
-      // Positions are in metres, turns in radians; a step in each loses half of the digits.
+      // Positions are in metres, rotations in radians. With these steps a difference loses half of the digits.
       const auto step = [&](std::size_t k) { return unknown[k / 3] < 4 ? 1e-6 : 1e-3; };
       const double slope = (moved(a, step(a), a, 0) - moved(a, -step(a), a, 0)) / (2 * step(a));
       CHECK(at.gradient[a] == Approx(slope).epsilon(1e-5).margin(1e-9));
@@ -177,13 +177,13 @@ TEST_CASE("rods: a ring of a straight rod with k_b = GJ leaves its plane at a tw
       scene.mesh.positions[static_cast<std::size_t>(k)] = {radius * std::sin(angle * k), radius * std::cos(angle * k),
                                                            is_held ? 0 : ripple * radius * std::sin(2 * angle * k)};
     }
-    // Frames follow the polygon. Each is turned about its director by the twist that the ring has at this side. The
-    // director of side e is the x axis, turned by -angle (e + 1/2) about z.
+    // Frames follow the polygon. Side e has the direction of the x axis, rotated by -angle (e + 1/2) about z. Each
+    // frame is also rotated about its director by the twist of the ring at its side.
     const double twist = share_of_critical * std::sqrt(3.0) * angle;
     for (Index e = 0; e < n; ++e) {
       const double way = -angle * (e + 0.5) / 2, turn = twist * e / 2, half = std::sqrt(0.5);
-      // Product of three rotations, the right one first: the twist about z, a quarter turn about y that takes z to x,
-      // and `way` about z: (0, 0, sin way, cos way) (0, half, 0, half) (0, 0, sin turn, cos turn).
+      // Product of three rotations, the right one first: the twist about z, a rotation by π/2 about y that takes z to
+      // x, and twice `way` about z: (0, 0, sin way, cos way) (0, half, 0, half) (0, 0, sin turn, cos turn).
       const double x = half * std::sin(turn), y = half * std::cos(turn), z = half * std::sin(turn),
                    w = half * std::cos(turn);
       scene.orientations.push_back({static_cast<float>(std::cos(way) * x - std::sin(way) * y),

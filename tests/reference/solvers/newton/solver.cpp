@@ -115,8 +115,8 @@ TEST_CASE("Newton: a stiff sheet that one close vertex holds back leaves as fast
   const Run result = run(scene, 1);
   REQUIRE(clean(result));
   CHECK(double{result.end.positions[24].y} > 0.0099);
-  // 10⁻⁵ m · 1.45ᵏ reaches 1 cm at k = 18.6; a solve with full balls takes a few more iterations. If δ' is tried first,
-  // the step takes 36 iterations.
+  // 10⁻⁵ m · 1.45ᵏ reaches 1 cm at k = 18.6. Then no ball cuts the step, and the solve takes a few more iterations. If
+  // δ' is tried first, the step takes 36 iterations.
   CHECK(result.rows[0].iterations <= 19 + 8);
 }
 
@@ -289,7 +289,7 @@ TEST_CASE("Newton: a step that can't converge says so, keeps the state before it
 
 TEST_CASE("Newton: a number that is not finite ends the step and keeps the state before it", "[unit]") {
   compare::Scene scene = drop_scene();
-  // validate refuses this scene. A solver that gets it without validation must stop, too.
+  // `validate` refuses this scene, but a solver that gets it without validation must stop, too.
   scene.bodies[0].material.lame_mu = std::numeric_limits<double>::quiet_NaN();
   const auto simulation = reference::start_newton(scene, {});
   const auto rows = simulation->advance(3);

@@ -63,7 +63,6 @@ struct Asked {
   }
 };
 
-/// Returns two tilted sheets with a large radius.
 Asked askew_sheets() {
   compare::Scene scene = two_sheets();
   scene.settings.contact_radius = 8e-3;
