@@ -39,7 +39,7 @@ struct HingeKind : ElementKind<HingeRest, HingeIncidence> {
   using Beside = IsometricStencil;
   using RestBeside = HingeWeights;
   using Start = float;  ///< θᵗ [rad]; 0 for a collapsed hinge
-  /// The kind's part of SweepView.
+  /// The members of SweepView that this kind adds.
   struct View {
     StreamView<HingeIncidence, IsometricStencil, float, NoData, false> hinges;
   };
@@ -215,7 +215,8 @@ struct Hinges {
             {view, view.hinges.start, view.materials[vertex.body], view.models[vertex.body], own}};
   }
 
-  /// Returns whether add_packs can add the hinges of a vertex: they are discrete hinges with damping of strains.
+  /// Returns whether add_packs can add the hinges of a vertex, that is, whether they are discrete hinges with damping
+  /// of strains.
   template <class View>
   static bool is_packed(const View& view, const SweepVertex& vertex) {
     return has_default_bending(view.models[vertex.body]);

@@ -17,8 +17,7 @@ struct KindList {
   /// The streams of all kinds.
   struct Views : Kinds::View... {};
 
-  /// The bit of a kind among the features that a scene needs of a sum (sweep_view.hpp). The bits follow the order of
-  /// the list.
+  /// The bit of a kind in the features of a sum (sweep_view.hpp). The bits follow the order of the list.
   template <class Kind>
   static constexpr unsigned bit = [] {
     unsigned next = first_kind_bit, own = 0;

@@ -8,7 +8,7 @@ namespace ogc::fast {
 
 /// Implements BendingModel::discrete_hinge.
 struct DiscreteHinge {
-  static constexpr bool is_default = true;      ///< UsualHinges and the packs of the CPU compute it
+  static constexpr bool is_default = true;      ///< whether UsualHinges and the SIMD code of the CPU compute this model
   static constexpr bool reads_weights = false;  ///< whether it needs HingeWeights
 
   /// Adds −∂/∂x of energy and damping, and the block c (1 + k_d/h) ∇θ ∇θᵀ. `gradient` is ∂θ/∂x of the vertex,

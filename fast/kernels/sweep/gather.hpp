@@ -15,7 +15,8 @@ namespace ogc::fast {
 /// has the bits of the features that it computes (`gives`) and a function `part_of` that makes the part of a vertex.
 template <class Activation, class... Parts>
 struct Gather {
-  static constexpr int parts = sizeof...(Parts) + 2;  ///< warps of a block where teams are spread (fast/cuda/team.cuh)
+  /// number of parts of the sum; a block has a warp for each part if teams are spread (fast/cuda/team.cuh)
+  static constexpr int parts = sizeof...(Parts) + 2;
   /// Bits of all features that this sum computes. It computes models other than the usual ones only if all of its parts
   /// do.
   static constexpr unsigned gives = ((Parts::template gives<Kinds> | ...) & ~asks_any_model) |
