@@ -61,7 +61,8 @@ struct DetectEdgeEdge {
                                           : is_none(offer.primitive, search.owner);
   }
 
-  /// Computes the distance for both edges, and returns the new limit of the search.
+  /// Computes the distance of the pair, lowers the smallest distances of both edges, and returns the new limit of the
+  /// search.
   OGC_HD float meet(const Search& search, int other, float gap) const {
     const int e = search.owner, low = e < other ? e : other, high = e < other ? other : e;
     return gap_limit(larger(contact_radius, measure(low, high, gap)));

@@ -66,7 +66,6 @@ struct FeasibleRegions {
   bool is_off = false;                ///< true: regions are unbounded
   bool slides = true;                 ///< as in FeasibleRegion
 
-  /// Returns whether regions have half-spaces.
   OGC_HD bool has_planes() const { return counts != nullptr; }
   /// Returns the ball of a vertex, so that a kernel can load it early, together with other data.
   OGC_HD Ball ball(int v) const { return {centre[v], radius[v]}; }

@@ -146,7 +146,7 @@ struct FinishStep {
   ContactView contacts;  ///< their counts are reported
   /// the sums after the guess loop (guess_columns of them), then the sums at the end of the step, by SumColumn
   const double* sums;
-  StepRow* rows;     ///< by step of the frame, on the backend
+  StepRow* rows;     ///< by step since the last stored state, on the backend
   int segments = 0;  ///< segments of rods
   /// by LeftColumn, on the backend; null if forces were not measured
   const double* left = nullptr;

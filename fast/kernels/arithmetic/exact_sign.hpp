@@ -73,7 +73,6 @@ struct Filtered {
     const double d = sub(static_cast<double>(a), static_cast<double>(b));
     return {d, modulus(d)};
   }
-  /// Returns `a` without an error.
   OGC_HD static Filtered exact(double a) { return {a, modulus(a)}; }
   friend OGC_HD Filtered operator+(Filtered a, Filtered b) { return {add(a.value, b.value), add(a.scale, b.scale)}; }
   friend OGC_HD Filtered operator-(Filtered a, Filtered b) { return {sub(a.value, b.value), add(a.scale, b.scale)}; }

@@ -11,10 +11,8 @@
 
 namespace ogc::fast {
 
-/// A list of kinds.
 template <class... Kinds>
 struct KindList {
-  /// The streams of all kinds.
   struct Views : Kinds::View... {};
 
   /// The bit of a kind in the features of a sum (sweep_view.hpp). The bits follow the order of the list.
@@ -24,7 +22,6 @@ struct KindList {
     ((own |= std::is_same_v<Kind, Kinds> ? next : 0u, next *= 2), ...);
     return own;
   }();
-  /// The bits of all kinds.
   static constexpr unsigned bits = (bit<Kinds> | ...);
 
   /// Calls use(kind) for each kind, in order.
@@ -34,7 +31,7 @@ struct KindList {
   }
 };
 
-/// All kinds. A sum adds their parts in this order.
+/// A sum adds the parts of kinds in this order.
 using Kinds = KindList<TriangleKind, HingeKind, SpringKind, TetrahedronKind, SegmentKind>;
 
 /// Holds all data that the updates of a sweep read and write.

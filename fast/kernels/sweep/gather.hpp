@@ -22,7 +22,6 @@ struct Gather {
   static constexpr unsigned gives = ((Parts::template gives<Kinds> | ...) & ~asks_any_model) |
                                     (Parts::template gives<Kinds> & ... & asks_any_model) |
                                     (std::is_same_v<Activation, AnyActivation> ? asks_any_activation : 0u);
-  /// Whether the sum adds contacts with volumes.
   static constexpr bool has_volumes = (gives & asks_volumes) != 0;
 
   template <class Team>
