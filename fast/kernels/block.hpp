@@ -1,6 +1,6 @@
-// Decides whether a point lies in a block of Eq. 8, 9 or 15, apart from the condition on its distance. The polynomials
-// are the same that decide the closest face, so neighbouring faces agree. The file also rejects pairs of edges for
-// which single precision proves that they are no contact.
+// Decides whether a point lies in a block of Eq. 8, 9 or 15, apart from the condition on its distance. The same
+// polynomials decide the closest face, so that both decisions agree. The file also rejects pairs of edges for which
+// single precision proves that they are no contact.
 #pragma once
 
 #include "fast/kernels/predicates.hpp"

@@ -1,6 +1,6 @@
-// Runs Algorithm 2 once for each pair: the edge at place i of the tree order only searches later places, and the
-// distance counts for both edges. As in detect_vertex_facet.hpp, pairs may be skipped, and contacts are decided after
-// the searches. Pairs that block.hpp proves to be no contact are not noted.
+// Runs Algorithm 2 once for each pair: the edge at place i of the tree order only searches later places, and a distance
+// lowers the smallest distances of both edges. As in detect_vertex_facet.hpp, pairs may be skipped, and contacts are
+// decided after the searches. Pairs that block.hpp proves to be no contact are not noted.
 #pragma once
 
 #include "fast/kernels/arithmetic/atomic.hpp"

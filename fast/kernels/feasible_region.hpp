@@ -61,7 +61,7 @@ inline constexpr int most_planes = 16;
 struct FeasibleRegions {
   const Vec* centre = nullptr;        ///< X_prev by vertex [m]
   const float* radius = nullptr;      ///< b_v by vertex [m]
-  const HalfSpace* planes = nullptr;  ///< half-spaces; those of vertex v begin at v · most_planes
+  const HalfSpace* planes = nullptr;  ///< half-spaces; the half-spaces of vertex v begin at v · most_planes
   const int* counts = nullptr;        ///< half-spaces by vertex; null: there are only balls
   bool is_off = false;                ///< true: regions are unbounded
   bool slides = true;                 ///< as in FeasibleRegion

@@ -34,8 +34,8 @@ struct alignas(16) RawContact {
 /// A slot of the hash table: one contact. An empty slot is all zeros.
 struct alignas(16) ContactSlot {
   std::uint64_t key;  ///< bucket + 1 in the upper half, second in the lower
-  /// complement of both edges packed into one number, low in the upper half. So atomic_max keeps the lowest-numbered
-  /// edges, and no edges (−1, −1) give 0
+  /// complement of the numbers of both edges, packed into one integer with `low` in the upper half. So atomic_max keeps
+  /// the lowest-numbered edges, and a contact without edges (−1, −1) has 0
   std::uint64_t edges;
 };
 
@@ -314,8 +314,8 @@ struct WriteRecords {
   }
 
  private:
-  /// Returns the place of a contact: the number of contacts in earlier buckets, plus those in its own bucket that have
-  /// a smaller second face.
+  /// Returns the place of a contact: the number of contacts in earlier buckets, plus the number of contacts in its
+  /// bucket that have a smaller second face.
   OGC_HD int rank(const RawContact& own) const {
     const int begin = lists.record_offsets[own.bucket], end = lists.record_offsets[own.bucket + 1];
     int before = begin;

@@ -1,5 +1,5 @@
-// Combines the launches of a detection with work of the step that is due at the same time, because on a device a
-// separate launch would cost more than this work. The two parts of a launch are independent of each other.
+// Combines the launches of a detection with other work of the step that is due at the same time. On a device a separate
+// launch would cost more than this work. The two parts of a launch are independent of each other.
 #pragma once
 
 #include "fast/kernels/contact_stream.hpp"

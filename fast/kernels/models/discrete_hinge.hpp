@@ -1,5 +1,5 @@
 // Adds a discrete hinge as one vertex sees it. Its energy is c/2 (θ − θ₀)² with c = k_b 3‖ē‖²/(Ā₀ + Ā₁) (method.md
-// §4.7), its damping c k_d/(2h) (θ − θᵗ)². The block is that of Gauss–Newton.
+// §4.7), its damping c k_d/(2h) (θ − θᵗ)². The block is the Gauss–Newton approximation.
 #pragma once
 
 #include "fast/kernels/models/hinge.hpp"

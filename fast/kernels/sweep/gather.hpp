@@ -17,8 +17,8 @@ template <class Activation, class... Parts>
 struct Gather {
   /// number of parts of the sum; a block has a warp for each part if teams are spread (fast/cuda/team.cuh)
   static constexpr int parts = sizeof...(Parts) + 2;
-  /// Bits of all features that this sum computes. It computes models other than the usual ones only if all of its parts
-  /// do.
+  /// Bits of all features that this sum computes. It has the bit `asks_any_model` only if all of its parts have this
+  /// bit.
   static constexpr unsigned gives = ((Parts::template gives<Kinds> | ...) & ~asks_any_model) |
                                     (Parts::template gives<Kinds> & ... & asks_any_model) |
                                     (std::is_same_v<Activation, AnyActivation> ? asks_any_activation : 0u);

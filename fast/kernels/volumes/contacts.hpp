@@ -84,7 +84,7 @@ struct ListVolumeContacts {
   int capacity;                ///< contacts that fit in a row
   int* counts;                 ///< by row, at most `capacity`, written
   VolumeIncidence* stream;     ///< row by row, written
-  FoundVolumeContact* found;   ///< the same contacts before conversion, written
+  FoundVolumeContact* found;   ///< the contacts of `stream` before conversion, written
   int* unresolved;             ///< by row: number of sheets without a way (solids.hpp); written if there are solids
   int* longest;                ///< raised to the number of contacts of the longest row
   int* overflow;               ///< set if a row has more contacts than `capacity`
@@ -209,7 +209,7 @@ struct CountVolumeContacts {
   const int* unresolved;            ///< by row; null if there are no solids
   int capacity;                     ///< of a row
   float contact_radius;             ///< r [m]
-  StepControl* control;             ///< counts are added there
+  StepControl* control;             ///< on the backend; counts are added
 
   OGC_HD void operator()(int row) const {
     if (unresolved != nullptr && unresolved[row] > 0) atomic_add(&control->depth_unresolved, unresolved[row]);

@@ -45,7 +45,8 @@ OGC_HD inline SeenVolumeContact seen_from(const VolumeIncidence& incidence, int 
   return seen;
 }
 
-/// Loads contact k of a vertex. The vertex is the point of the first `points` contacts, and a corner in the others.
+/// Loads contact k of a vertex. The vertex is the point of the first `points` contacts, and a corner in the other
+/// contacts.
 struct LoadVolumeContact {
   VolumeStream volumes;
   int slot, points;
@@ -122,7 +123,7 @@ struct CountDeepInside {
   float contact_radius;  ///< r [m]
   const int* turn;       ///< as in SweepShared
   int iteration;
-  StepControl* control;  ///< counts are added there
+  StepControl* control;  ///< on the backend; counts are added
 
   OGC_HD void operator()(int row) const {
     if (turn != nullptr && *turn != iteration) return;
