@@ -1,6 +1,6 @@
-// Decides whether a point lies in a block of Eq. 8, 9 or 15, apart from the condition on its distance. The polynomials
-// are the same that decide the closest face, so neighbouring faces agree. The file also rejects pairs of edges for
-// which single precision proves that they are no contact.
+// Decides whether a point lies in a block of Eq. 8, 9 or 15, apart from the condition on its distance. The same
+// polynomials decide the closest face, so that both decisions agree. The file also rejects pairs of edges for which
+// single precision proves that they are no contact.
 #pragma once
 
 #include "fast/kernels/predicates.hpp"
@@ -41,8 +41,8 @@ OGC_HD inline bool in_vertex_block(const EdgeEnds& other, int v, const SurfaceVi
   return true;
 }
 
-// The functions below reject pairs of edges for which single precision proves that they are no contact, however near
-// they are. If edges are shorter than r, this is nearly every pair within r: in a rod, each edge with its second
+// The functions below reject pairs of edges for which single precision proves that they are no contact, even if they
+// are near. If edges are shorter than r, nearly every pair within r is rejected: in a rod, each edge with its second
 // neighbour; between two crossing rods, all pairs but the nearest.
 //
 // Let v be an end of an edge, v + g its other end, c the point of the other edge nearest to v, and d = c − v. The
@@ -85,7 +85,7 @@ OGC_HD inline bool is_passed_over(int v, int inner, const EdgeEnds& other, const
 }
 
 /// Returns whether two edges without a common vertex certainly have no contact; p is the lower-numbered one. If the
-/// result is false, they may still have none.
+/// result is false, it is not known whether they have a contact.
 OGC_HD inline bool is_surely_no_contact(const EdgeEnds& p, const EdgeEnds& q, const SurfaceView& surface,
                                         PaddedVecs x) {
   const Vec a = x[p.a], e = x[p.b] - a, f = x[q.b] - x[q.a], w = x[q.a] - a;

@@ -73,13 +73,11 @@ struct alignas(128) Quad {
   /// child k of node j is node 4 j + k of the level below, or in level 0 the primitive at place 4 j + k
   Child child[4];
 
-  /// Returns the box of all children.
   OGC_HD Box whole() const {
     Box all = child[0].box();
     for (int k = 1; k < 4; ++k) all.include(child[k].box());
     return all;
   }
-  /// Returns the largest reach of the children.
   OGC_HD float whole_reach() const {
     return larger(larger(child[0].reach, child[1].reach), larger(child[2].reach, child[3].reach));
   }
@@ -95,7 +93,6 @@ struct TreeView {
   int levels = 0;              ///< at least 2; the last has one node
   int start[max_levels] = {};  ///< number of each level's first node
 
-  /// Returns node j of a level.
   OGC_HD Quad& node(int level, int j) const { return nodes[start[level] + j]; }
 };
 

@@ -26,11 +26,12 @@ OGC_HD inline bool is_inside(const Real& u, const Real& w, const Real& e) {
   return perpendicular_product(u, w, e).value > mul(mul(mul(0x1p-48, norm_1(u)), norm_1(w)), squared(e));
 }
 
-/// Returns the distance of x and the closed triangle, with its slack. If the side of an edge is uncertain, the distance
-/// to the outline is returned. This distance is exact if x projects outside. If x projects inside, it is at most √3
-/// 2⁻⁴⁸ S L²/‖n‖ too large, with L the longest edge, n the normal and S = `size`. The normal's 4 roundings tilt the
-/// plane by less than 2⁻⁵¹ S L²/‖n‖, so the slack is 2⁻⁴⁷ S L²/‖n‖. A triangle lower than 2⁻²⁴ L is replaced by its
-/// outline: no point of the triangle is farther than 2⁻²⁴ L from the outline. In both cases the slack is under 2⁻²³ S.
+/// Returns the distance of x and the closed triangle, with its slack. If it is uncertain on which side of an edge x
+/// lies, returns the distance to the outline. This distance is exact if x projects outside. If x projects inside, it is
+/// at most √3 2⁻⁴⁸ S L²/‖n‖ too large, with L the longest edge, n the normal and S = `size`. The normal's 4 roundings
+/// tilt the plane by less than 2⁻⁵¹ S L²/‖n‖, so the slack is 2⁻⁴⁷ S L²/‖n‖. A triangle lower than 2⁻²⁴ L is replaced
+/// by its outline: no point of the triangle is farther than 2⁻²⁴ L from the outline. In both cases the slack is under
+/// 2⁻²³ S.
 OGC_HD inline Distance point_triangle_distance(const Vec& x, const Corners& t) {
   const Real u = difference<Rounded>(x, t.a), v = difference<Rounded>(x, t.b), e = difference<Rounded>(t.b, t.a),
              w = difference<Rounded>(t.c, t.a);

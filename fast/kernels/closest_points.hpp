@@ -106,8 +106,8 @@ struct EdgeParameters {
 
 /// Returns one end of the overlap of two nearly parallel edges, as parameters on p and on the line of q. This is end
 /// number `end` of q or, if that end projects beyond p, the nearest end of p. For an end of q, the parameter on q is
-/// computed relative to this end. Relative to an end of p it would have the rounding error of p's length, 10⁷ times as
-/// large if q is 10⁻⁷ times as long as p.
+/// computed relative to this end. Relative to an end of p, the parameter would have the rounding error of p's length.
+/// This error would be 10⁷ times as large if p is 10⁷ times as long as q.
 OGC_HD inline EdgeParameters overlap_end(const Ends& p, const Ends& q, int end) {
   const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), u = difference<Rounded>(q[end], p.a);
   const double along = dot(u, e).value, ee = squared(e), ff = squared(f);

@@ -243,9 +243,9 @@ OGC_HD ContactShapeOf<T> contact_shape(const Vector<T>& separation, float contac
 }
 
 /// Returns the distance at which slope and curvature are evaluated: d, clamped to 2⁻²³ r … r. At 2⁻²³ r the logarithmic
-/// stage has g'' = k_c r²/(4 d²) = 2⁴⁴ k_c (ipc_log 2⁴⁶ k_c), far above every other block and far below overflow.
-/// Beyond r there is no force, but the block keeps the curvature at r: without it, an update that begins beyond r ends
-/// far too deep, and sweeps cycle (method.md §4.2).
+/// branch of `ogc` has g'' = k_c r²/(4 d²) = 2⁴⁴ k_c (ipc_log 2⁴⁶ k_c), far above every other block and far below
+/// overflow. Beyond r there is no force, but the block keeps the curvature at r: without it, an update that begins
+/// beyond r ends far too deep, and sweeps cycle (method.md §4.2).
 template <class T>
 OGC_HD T activation_distance(const T& distance, float contact_radius) {
   const float least = 0x1p-23f * contact_radius;

@@ -17,7 +17,7 @@ namespace ogc::fast {
 struct ContactTables {
   const int* body = nullptr;                   ///< by vertex
   const ContactMaterial* materials = nullptr;  ///< for bodies a and b at a · body_count + b
-  int body_count = 0;                          ///< 0 in probes: then materials are indexed by body b alone
+  int body_count = 0;                          ///< bodies; 0 if `materials` has one row, indexed by body b alone
   const float* rest_squared = nullptr;  ///< ‖ē‖² by edge [m²]; 0 for an edge without triangles, which has no mollifier
   const Vec* previous = nullptr;        ///< X_prev by vertex, for e_k [m]
 };

@@ -1,5 +1,5 @@
 // Controls a step on the device: counters, flags that the host does not read inside a step, and kernels of one thread
-// that turn counters into flags.
+// that compute the flags from the counters.
 //
 //   BeginStep ─► detect, guess ─► EndRound ─► … ─► sweep ─► EndIteration ─► … ─► EndCheck ─► FinishStep
 //                     ▲── detect ────┘               ▲── detect ──┘     (a detection ends in EndDetection)
@@ -27,7 +27,6 @@ OGC_HD inline int float_bits(float a) {
   memcpy(&bits, &a, sizeof bits);
   return bits;
 }
-/// Returns the float that has these bits.
 OGC_HD inline float float_from_bits(int bits) {
   float a = 0;
   memcpy(&a, &bits, sizeof a);
@@ -52,7 +51,7 @@ struct ControlSettings {
   }
 };
 
-/// Holds the state of a frame, and of its current step, on the device.
+/// Holds the state of a frame (the steps between two stored states), and of its current step, on the device.
 struct StepControl {
   // State of the frame:
   int active = 0;      ///< 1: steps are computed; 0: they do nothing
@@ -109,7 +108,7 @@ OGC_HD inline bool take_request(StepControl& c, int least_cut) {
   return asks || lag_asks;
 }
 
-/// Stops the frame if the step failed; then the step is not committed.
+/// If the step failed, stops the step and all later steps of the frame. A stopped step is not committed.
 OGC_HD inline void stop_if_failed(StepControl& c) {
   if (c.not_finite > 0) c.status |= compare::step_not_finite;
   if (c.violations > 0) c.status |= compare::step_bound_violated;
@@ -154,7 +153,7 @@ struct ChooseQueryRadius {
   }
 };
 
-/// Ends a detection: counts it, and stops the frame if a list was too small (`overflow` is not 0).
+/// Ends a detection and counts it. If a list was too small (`overflow` is not 0), the step fails.
 struct EndDetection {
   StepControl* control;  ///< on the backend
   const int* overflow;   ///< on the backend

@@ -1,6 +1,6 @@
-// Runs Algorithm 2 once for each pair: the edge at place i of the tree order only searches later places, and the
-// distance counts for both edges. As in detect_vertex_facet.hpp, pairs may be skipped, and contacts are decided after
-// the searches. Pairs that block.hpp proves to be no contact are not noted.
+// Runs Algorithm 2 once for each pair: the edge at place i of the tree order only searches later places, and a distance
+// lowers the smallest distances of both edges. As in detect_vertex_facet.hpp, pairs may be skipped, and contacts are
+// decided after the searches. Pairs that block.hpp proves to be no contact are not noted.
 #pragma once
 
 #include "fast/kernels/arithmetic/atomic.hpp"
@@ -61,7 +61,8 @@ struct DetectEdgeEdge {
                                           : is_none(offer.primitive, search.owner);
   }
 
-  /// Computes the distance for both edges, and returns the new limit of the search.
+  /// Computes the distance of the pair, lowers the smallest distances of both edges, and returns the new limit of the
+  /// search.
   OGC_HD float meet(const Search& search, int other, float gap) const {
     const int e = search.owner, low = e < other ? e : other, high = e < other ? other : e;
     return gap_limit(larger(contact_radius, measure(low, high, gap)));

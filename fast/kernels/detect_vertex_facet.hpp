@@ -1,6 +1,6 @@
 // Runs Algorithm 1. A pair's distance is taken as the larger of its computed lower bound and the gap of its boxes,
 // which never exceeds the exact distance. If this gap reaches the smallest distances found so far, the pair cannot
-// lower them. So it may be skipped, whatever the order in which searches find smallest distances.
+// lower them, and may be skipped. So the order in which searches meet pairs changes no smallest distance.
 //
 // A search computes the smallest distances and notes each pair that may be nearer than r. Afterwards, one thread for
 // each noted pair decides whether it is a contact, and with which face (collect_contacts.hpp). Few pairs need this
@@ -65,7 +65,8 @@ struct DetectVertexFacet {
   /// Returns false, because the distance of each pair is needed.
   OGC_HD bool is_idle(const Search&, const Offer&, float) const { return false; }
 
-  /// Computes the distance for vertex and facet, and returns the new limit of the search.
+  /// Computes the distance of the pair, lowers the smallest distances of vertex and facet, and returns the new limit of
+  /// the search.
   OGC_HD float meet(const Search& search, int t, float gap) const {
     return gap_limit(larger(contact_radius, measure(search.owner, t, gap)));
   }

@@ -1,4 +1,4 @@
-// Prepares the data that the searches of a detection read; this is its first launch.
+// Prepares the data that the searches of a detection read, in the first launch of the detection.
 #pragma once
 
 #include "fast/kernels/bound.hpp"

@@ -61,12 +61,11 @@ inline constexpr int most_planes = 16;
 struct FeasibleRegions {
   const Vec* centre = nullptr;        ///< X_prev by vertex [m]
   const float* radius = nullptr;      ///< b_v by vertex [m]
-  const HalfSpace* planes = nullptr;  ///< half-spaces; those of vertex v begin at v · most_planes
+  const HalfSpace* planes = nullptr;  ///< half-spaces; the half-spaces of vertex v begin at v · most_planes
   const int* counts = nullptr;        ///< half-spaces by vertex; null: there are only balls
   bool is_off = false;                ///< true: regions are unbounded
   bool slides = true;                 ///< as in FeasibleRegion
 
-  /// Returns whether regions have half-spaces.
   OGC_HD bool has_planes() const { return counts != nullptr; }
   /// Returns the ball of a vertex, so that a kernel can load it early, together with other data.
   OGC_HD Ball ball(int v) const { return {centre[v], radius[v]}; }

@@ -26,8 +26,8 @@ OGC_HD inline Truncated held_on_path(const FeasibleRegion& region, const Vec& cu
   return scale_into(region, region.slides ? current : region.ball.centre, target, OneLane{});
 }
 
-/// Counts a prescribed vertex that did not reach its target: as cut, or with planes as lagging. `previous` is its
-/// X_prev.
+/// Counts a prescribed vertex that did not reach its target: as lagging if regions have half-spaces, else as cut.
+/// `previous` is its X_prev.
 OGC_HD inline void count_behind(StepControl& control, const Truncated& kept, const Vec& previous,
                                 const FeasibleRegions& regions) {
   if (!kept.cut) return;

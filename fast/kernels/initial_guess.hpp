@@ -18,8 +18,8 @@ namespace ogc::fast {
 struct BeginVertex {
   const Vec* start;               ///< xᵗ
   const Vec* velocity;            ///< vᵗ
-  const int* prescribed_number;   ///< by vertex: number among the prescribed ones; −1 free, −2 fixed
-  const Vec* prescribed_targets;  ///< [step of the frame][number of the prescribed vertex]
+  const int* prescribed_number;   ///< by vertex: index among the prescribed vertices; −1: free, −2: fixed
+  const Vec* prescribed_targets;  ///< [step since the last stored state][number of the prescribed vertex]
   int prescribed_count;           ///< prescribed vertices: length of a row of targets
   Vec acceleration;               ///< a [m/s²]
   float step;                     ///< h [s]
@@ -71,8 +71,8 @@ struct BeginRegions {
 };
 
 /// Sets x to y, truncated to the region. Before this, contacts may shorten the move of a free vertex. The truncation
-/// slides it along half-spaces with the metric of inertia. From the second round on, a prescribed vertex that touches
-/// others stays, because only the sweeps move its neighbours out of its way. Runs once for each vertex.
+/// slides a free vertex along half-spaces with the metric of inertia. From the second round on, a prescribed vertex in
+/// contact stays, because only the sweeps move its neighbours out of its way. Runs once for each vertex.
 struct GuessVertex {
   const Vec* target;        ///< y by vertex [m]
   FeasibleRegions regions;  ///< about X_prev
@@ -100,7 +100,7 @@ struct GuessVertex {
   }
 
  private:
-  /// Returns the position before truncation. If no contact shortens the move, this is y to the bit.
+  /// Returns the position before truncation; exactly y if no contact shortens the move.
   OGC_HD Vec proposal(int v, const Vec& stay) const {
     const bool is_odd = control->rounds % 2 != 0;
     GuessContacts here = contacts;

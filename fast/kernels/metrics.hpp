@@ -31,7 +31,7 @@ struct StepRow {
   /// with rods: smallest distance of contacts that exert a force [m], largest and mean ‖D‖/l − 1 of segments
   float smallest_contact = 0, largest_stretch = 0;
   double mean_stretch = 0;
-  double last_motion = 0;  ///< motion of the last sweep over that of the step, weighted by mass [1]
+  double last_motion = 0;  ///< motion of the last sweep divided by the motion of the step, weighted by mass [1]
   /// if forces were measured: residual of Eq. 29, the part of it that rounding may cause [1], and the number of
   /// vertices that a bound holds
   double left_residual = 0, left_rounding = 0;
@@ -44,7 +44,7 @@ struct CheckVertex {
   const Vec* position;             ///< x by vertex [m]
   FeasibleRegions regions;         ///< of the last detection
   const Vec* target;               ///< y by vertex [m]
-  const int* prescribed_number;    ///< by vertex: number among the prescribed ones; −1 free, −2 fixed
+  const int* prescribed_number;    ///< by vertex: index among the prescribed vertices; −1: free, −2: fixed
   StepControl* control;            ///< on the backend; counts and extremes are written
   const float* nearest = nullptr;  ///< by vertex: smallest distance [m]; set if there are planes
 
@@ -139,14 +139,14 @@ OGC_HD inline double momentum_lost(const double* sums) {
 /// Returns the quotient of two sums; 0 if `whole` is 0.
 OGC_HD inline double share_of(double part, double whole) { return whole > 0 ? part / whole : 0.0; }
 
-/// Writes the row of a step, even if the step failed; this is the last kernel of each step. A step that stopped because
-/// a list was full has no row, because it is repeated.
+/// Writes the row of a step, even if the step failed, as the last kernel of each step. A step that stopped because a
+/// list was full has no row, because it is repeated.
 struct FinishStep {
   StepControl* control;  ///< on the backend
   ContactView contacts;  ///< their counts are reported
   /// the sums after the guess loop (guess_columns of them), then the sums at the end of the step, by SumColumn
   const double* sums;
-  StepRow* rows;     ///< by step of the frame, on the backend
+  StepRow* rows;     ///< by step since the last stored state, on the backend
   int segments = 0;  ///< segments of rods
   /// by LeftColumn, on the backend; null if forces were not measured
   const double* left = nullptr;

@@ -102,7 +102,7 @@ OGC_HD inline Distance distance_of(const PairPoints<2, 2>& pair) {
   return edge_edge_distance({pair.first[0], pair.first[1]}, {pair.second[0], pair.second[1]});
 }
 
-/// Returns one half: the share of the first side if both sides together may approach by 2γ_p times the gap.
+/// Returns one half: each side may make half of the approach that the pair may make.
 struct Halved {
   OGC_HD double operator()(const Vec&) const { return 0.5; }
 };

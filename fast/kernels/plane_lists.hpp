@@ -1,4 +1,4 @@
-// Turns the pairs within r_q that a search noted into half-spaces and a ball for each vertex (method.md §5.6):
+// Converts the pairs within r_q that a search noted into half-spaces and a ball for each vertex (method.md §5.6):
 //
 //   MeasurePairs     for each pair: its distance, and its place in the row of each of its vertices
 //   (a scan of the rows' lengths)
@@ -58,7 +58,7 @@ struct PlaneListsView {
     const NotedPair raw = noted[i];
     return {raw.first, raw.second < 0 ? ~raw.second : raw.second};
   }
-  /// Holds the vertices of a pair. Those from index `second_from` on are its second side.
+  /// Holds the vertices of a pair. The vertices from index `second_from` on are its second side.
   struct Vertices {
     int at[4], second_from;
   };

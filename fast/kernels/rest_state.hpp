@@ -13,7 +13,6 @@ struct RestVector {
   double x, y, z;  ///< [m]
 };
 
-/// Returns a − b.
 inline RestVector rest_difference(const compare::Vec3& a, const compare::Vec3& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }

@@ -1,5 +1,5 @@
-// Combines the launches of a detection with work of the step that is due at the same time, because on a device a
-// separate launch would cost more than this work. The two parts of a launch are independent of each other.
+// Combines the launches of a detection with other work of the step that is due at the same time. On a device a separate
+// launch would cost more than this work. The two parts of a launch are independent of each other.
 #pragma once
 
 #include "fast/kernels/contact_stream.hpp"
@@ -8,8 +8,8 @@
 
 namespace ogc::fast {
 
-/// First launch: checks each vertex's old region, sets X_prev ← x, and begins the detection. Runs once for each index
-/// below count().
+/// Begins a detection in its first launch: checks each vertex's old region, and sets X_prev ← x. Runs once for each
+/// index below count().
 struct BeginStepDetection {
   BeginRegions regions;
   BeginDetection detection;
@@ -21,8 +21,8 @@ struct BeginStepDetection {
   }
 };
 
-/// First part of the last launch: counts the detection, and writes each slot's row of the contact stream. Runs once for
-/// each slot, and at least once.
+/// Counts the detection, and writes each slot's row of the contact stream, in the first part of the last launch. Runs
+/// once for each slot, and at least once.
 struct EndStepDetection {
   EndDetection end;
   CopyContactRows<LooseIncidence> rows;
@@ -34,8 +34,8 @@ struct EndStepDetection {
   }
 };
 
-/// Second part of the last launch: sorts the incidences, and writes the contact of each into the stream. Runs once for
-/// each incidence.
+/// Sorts the incidences, and writes the contact of each into the stream, in the second part of the last launch. Runs
+/// once for each incidence.
 struct RankAndResolve {
   RankIncidences rank;
   ResolveContact resolve;

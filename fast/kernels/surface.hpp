@@ -63,8 +63,8 @@ struct SurfaceView {
   /// by vertex: a pair is omitted if a vertex of one side is in the row of a vertex of the other side; null offsets: no
   /// rows
   Rows partners;
-  /// Numbers of the primitives that take part in searches: vertices, then edges, then facets; those of volumes are
-  /// missing. Null: all primitives, in order.
+  /// Numbers of the primitives that take part in searches: vertices, then edges, then facets, without the primitives of
+  /// volumes. Null: all primitives, in order.
   const int* searched = nullptr;
   int searched_vertices = 0, searched_edges = 0, searched_facets = 0;  ///< number of each
 

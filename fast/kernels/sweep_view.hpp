@@ -131,10 +131,10 @@ struct SweepShared {
   const Vec* target = nullptr;                 ///< y by vertex [m]
   FeasibleRegions regions;                     ///< regions around X_prev; every new position is truncated to its region
   PaddedVec* old = nullptr;                    ///< x before the iteration, by vertex [m]
-  int to_fresh = 0;                ///< distance of a vertex's place in the fresh buffer from its place in the old one
+  int to_fresh = 0;                ///< index of a vertex in the fresh buffer minus its index in the old buffer
   Vec* position = nullptr;         ///< fresh positions by vertex [m], for other kernels; the sweep only writes them
   StepControl* control = nullptr;  ///< on the backend: counts cut vertices and positions that are not finite
-  const int* turn = nullptr;       ///< number of the iteration that is next, on the device; null: this one
+  const int* turn = nullptr;       ///< number of the next iteration, on the device; null: this iteration is next
   int iteration = 0;               ///< number of this iteration; it does nothing if another one is next
   float contact_radius = 0;        ///< r [m]
   float friction_limit = 0;        ///< ε_v h [m]

@@ -19,7 +19,6 @@ struct Part {
   Add add;
 };
 
-/// Returns a Part with these members.
 template <class Load, class Add>
 OGC_HD Part<Load, Add> part(int count, Load load, Add add) {
   return {count, load, add};
@@ -42,7 +41,6 @@ struct PooledPart {
   Term term;
 };
 
-/// Returns a PooledPart with these members.
 template <class Load, class Term>
 OGC_HD PooledPart<Load, Term> pooled_part(int begin, int count, Load load, Term term) {
   return {begin, count, load, term};

@@ -76,7 +76,7 @@ OGC_HD inline bool is_within(const Ball& ball, const Vec& x) {
   return sign < 0 || (sign == 0 && is_exactly_within(ball, x));
 }
 
-/// Returns the float nearest to q = p + s (x − p) among those that are not farther from p than q.
+/// Returns, among the floats that are not farther from p than q = p + s (x − p), the float nearest to q.
 OGC_HD inline float towards(float p, float x, double s) {
   const double step = mul(s, sub(static_cast<double>(x), static_cast<double>(p))),
                place = add(static_cast<double>(p), step);

@@ -69,9 +69,9 @@ OGC_HD inline std::uint64_t atomic_compare_exchange(std::uint64_t* target, std::
 #endif
 }
 
-/// Adds 1 to a counter, and returns whether it was the last of `count` additions. The counter is 0 before the first and
-/// after the last. The thread that gets `true` sees what the others wrote before they arrived. Only this thread
-/// executes an acquire fence, because such a fence empties the first-level cache.
+/// Adds 1 to a counter, and returns whether this was the last of `count` additions. The counter is 0 before the first
+/// addition and after the last one. The thread that gets `true` sees all that other threads wrote before their
+/// additions. Only this thread executes an acquire fence, because such a fence empties the first-level cache.
 OGC_HD inline bool arrives_last(int* counter, int count) {
 #if defined(__CUDA_ARCH__)
   int before;

@@ -21,7 +21,7 @@ namespace ogc::fast {
 struct Rounded {
   double value = 0;
 
-  /// Return the difference of two coordinates, rounded once, and a constant: the two inputs of polynomials.
+  /// Return the two inputs of polynomials: the difference of two coordinates, rounded once, and a constant.
   OGC_HD static Rounded difference(float a, float b) { return {sub(static_cast<double>(a), static_cast<double>(b))}; }
   OGC_HD static Rounded exact(double a) { return {a}; }
   friend OGC_HD Rounded operator+(Rounded a, Rounded b) { return {add(a.value, b.value)}; }
@@ -73,7 +73,6 @@ struct Filtered {
     const double d = sub(static_cast<double>(a), static_cast<double>(b));
     return {d, modulus(d)};
   }
-  /// Returns `a` without an error.
   OGC_HD static Filtered exact(double a) { return {a, modulus(a)}; }
   friend OGC_HD Filtered operator+(Filtered a, Filtered b) { return {add(a.value, b.value), add(a.scale, b.scale)}; }
   friend OGC_HD Filtered operator-(Filtered a, Filtered b) { return {sub(a.value, b.value), add(a.scale, b.scale)}; }
@@ -81,7 +80,7 @@ struct Filtered {
 
   /// Returns the sign, which is certain if |value| exceeds 2⁻⁴⁷ of the scale. A term of a polynomial of degree d ≤ 6
   /// has at most d differences, d − 1 products and 8 sums (2 for degree 2, 5 for degree 4). These are under 32
-  /// roundings of 2⁻⁵³. The scale has as many, so 2⁻⁴⁷ exceeds both errors together.
+  /// roundings of 2⁻⁵³. The scale has as many roundings, so 2⁻⁴⁷ exceeds the errors of value and scale together.
   OGC_HD Sign sign() const { return {sign_of(value), modulus(value) > mul(scale, 0x1p-47)}; }
 };
 

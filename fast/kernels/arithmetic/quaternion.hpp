@@ -32,7 +32,6 @@ OGC_HD QuatOf<T> select(const M& condition, const QuatOf<T>& a, const QuatOf<T>&
   return {select(condition, a.x, b.x), select(condition, a.y, b.y), select(condition, a.z, b.z),
           select(condition, a.w, b.w)};
 }
-/// Returns the product of quaternions a b.
 template <class T>
 OGC_HD QuatOf<T> operator*(const QuatOf<T>& a, const QuatOf<T>& b) {
   return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y + a.y * b.w + a.z * b.x - a.x * b.z,

@@ -1,6 +1,6 @@
 // Defines operations that are each rounded separately, never contracted to fused multiply-adds. The host never
-// contracts operations (-ffp-contract=off). nvcc does, except with the intrinsics used here. So detection gives the
-// same bits on host and device in every build, not only in a `strict` one.
+// contracts operations (-ffp-contract=off). nvcc may contract any operations except the intrinsics used here. So
+// detection gives the same bits on host and device in every build, not only in a `strict` one.
 #pragma once
 
 #include <bit>
@@ -27,7 +27,7 @@ OGC_HD inline double square_root(double a) { OGC_ROUNDED(__dsqrt_rn(a), std::sqr
 /// Returns a·b + c with one rounding.
 OGC_HD inline double fused(double a, double b, double c) { OGC_ROUNDED(__fma_rn(a, b, c), std::fma(a, b, c)); }
 
-/// Compute the same operations in single precision.
+/// Each function computes one IEEE operation in single precision, rounded to nearest and never contracted.
 OGC_HD inline float add(float a, float b) { OGC_ROUNDED(__fadd_rn(a, b), a + b); }
 OGC_HD inline float sub(float a, float b) { OGC_ROUNDED(__fsub_rn(a, b), a - b); }
 OGC_HD inline float mul(float a, float b) { OGC_ROUNDED(__fmul_rn(a, b), a * b); }

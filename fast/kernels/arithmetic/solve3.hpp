@@ -8,8 +8,9 @@
 namespace ogc::fast {
 
 /// Returns x of H x = f by LDLᵀ without pivoting, for a symmetric positive definite H. H counts as indefinite if a
-/// pivot is NaN or at most 4 · 2⁻²⁴ of its diagonal entry: the products subtracted from this entry err by as much. Then
-/// the result is f · `fallback`, a step down the gradient. With fallback = h²/m this is the step of inertia alone.
+/// pivot is NaN or at most 4 · 2⁻²⁴ of its diagonal entry: the products subtracted from this entry err by as much. For
+/// an indefinite H the result is f · `fallback`, a step down the gradient. With fallback = h²/m this is the step of
+/// inertia alone.
 OGC_HD inline Vec solve_symmetric(const Symmetric3& h, const Vec& f, float fallback) {
   constexpr float noise = 4 * 0x1p-24f;
   const Vec gradient_step = fallback * f;

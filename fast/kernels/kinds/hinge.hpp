@@ -39,7 +39,7 @@ struct HingeKind : ElementKind<HingeRest, HingeIncidence> {
   using Beside = IsometricStencil;
   using RestBeside = HingeWeights;
   using Start = float;  ///< θᵗ [rad]; 0 for a collapsed hinge
-  /// The kind's part of SweepView.
+  /// The members of SweepView that this kind adds.
   struct View {
     StreamView<HingeIncidence, IsometricStencil, float, NoData, false> hinges;
   };
@@ -66,8 +66,8 @@ struct HingeKind : ElementKind<HingeRest, HingeIncidence> {
     incidence.stencil = {rest.stiffness, rest.angle};
     return incidence;
   }
-  /// Returns the weights of the vertex and of the others, in the order of the incidence. The weight of x0 is minus the
-  /// sum of the stored ones, rounded once.
+  /// Returns the weight of the vertex, and the weights of the other vertices in the order of the incidence. The weight
+  /// of x0 is minus the sum of the stored weights, rounded once.
   static IsometricStencil beside(const HingeRest&, const HingeWeights& rest, int role) {
     const float* w = rest.weight;
     const float all[4] = {
@@ -121,7 +121,7 @@ struct AddHinge {
     Model::add(hinge, damping, sum);
   }
 };
-/// Adds the damping that the model's `add` does not include. Its members are those of AddHinge.
+/// Adds the damping that the model's `add` does not include. It has the members of AddHinge.
 struct AddHingeDamper {
   const HingeSeen& hinge;
   float damping;
@@ -215,7 +215,8 @@ struct Hinges {
             {view, view.hinges.start, view.materials[vertex.body], view.models[vertex.body], own}};
   }
 
-  /// Returns whether add_packs can add the hinges of a vertex: they are discrete hinges with damping of strains.
+  /// Returns whether add_packs can add the hinges of a vertex, that is, whether they are discrete hinges with damping
+  /// of strains.
   template <class View>
   static bool is_packed(const View& view, const SweepVertex& vertex) {
     return has_default_bending(view.models[vertex.body]);

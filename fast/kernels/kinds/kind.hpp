@@ -13,7 +13,7 @@
 //   seen, beside      the incidence and its Beside data, by the role of the vertex (its index among the vertices)
 //   begin             computes Start of an element from xᵗ
 //   add_energy        adds an element's energy
-//   flop, damping_flop  operations of an incidence, and how many damping adds (fast/work.cpp)
+//   flop, damping_flop  operations of an incidence, and operations that damping adds to them (fast/work.cpp)
 #pragma once
 
 #include "fast/kernels/models/damping.hpp"

@@ -11,21 +11,17 @@
 
 namespace ogc::fast {
 
-/// A list of kinds.
 template <class... Kinds>
 struct KindList {
-  /// The streams of all kinds.
   struct Views : Kinds::View... {};
 
-  /// The bit of a kind among the features that a scene needs of a sum (sweep_view.hpp). The bits follow the order of
-  /// the list.
+  /// The bit of a kind in the features of a sum (sweep_view.hpp). The bits follow the order of the list.
   template <class Kind>
   static constexpr unsigned bit = [] {
     unsigned next = first_kind_bit, own = 0;
     ((own |= std::is_same_v<Kind, Kinds> ? next : 0u, next *= 2), ...);
     return own;
   }();
-  /// The bits of all kinds.
   static constexpr unsigned bits = (bit<Kinds> | ...);
 
   /// Calls use(kind) for each kind, in order.
@@ -35,7 +31,7 @@ struct KindList {
   }
 };
 
-/// All kinds. A sum adds their parts in this order.
+/// A sum adds the parts of kinds in this order.
 using Kinds = KindList<TriangleKind, HingeKind, SpringKind, TetrahedronKind, SegmentKind>;
 
 /// Holds all data that the updates of a sweep read and write.

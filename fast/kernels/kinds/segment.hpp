@@ -27,7 +27,7 @@ using Segments = AnySegments<false>;
 struct SegmentKind : ElementKind<SegmentRest, RodIncidence> {
   using Whole = Segments;
   using ByBody = float;
-  /// The kind's part of SweepView.
+  /// The members of SweepView that this kind adds.
   struct View {
     RodStream rods;
   };

@@ -73,10 +73,10 @@ struct SpringIncidence {
 
 struct Springs;
 
-/// The kind.
+/// The kind of springs.
 struct SpringKind : ElementKind<SpringRest, SpringIncidence> {
   using Whole = Springs;
-  /// The kind's part of SweepView.
+  /// The members of SweepView that this kind adds.
   struct View {
     StreamView<SpringIncidence, NoData, NoData, NoData, true> springs;
   };

@@ -144,13 +144,13 @@ struct alignas(16) TetrahedronIncidence {
 
 struct Tetrahedra;
 
-/// The kind.
+/// The kind of tetrahedra.
 struct TetrahedronKind : ElementKind<TetrahedronRest, TetrahedronIncidence> {
   using Whole = Tetrahedra;
   using Beside = TetrahedronGradients;
   using Start = SolidStrain;  ///< Gᵗ of damping
   using ByBody = SolidMaterial;
-  /// The kind's part of SweepView.
+  /// The members of SweepView that this kind adds.
   struct View {
     StreamView<TetrahedronIncidence, TetrahedronGradients, SolidStrain, SolidMaterial, true> tetrahedra;
   };
@@ -244,7 +244,7 @@ OGC_HD void add_tetrahedra(const TetrahedronReadsOf<N>& reads, const SolidMateri
   add_tetrahedron(reads.stencil, material, reads.a, reads.b, reads.c, sum);
 }
 
-/// A tetrahedron as one of its corners sees it, with its place in the stream.
+/// A tetrahedron as one of its corners sees it, with the index of its gradients.
 struct LoadedTetrahedron {
   TetrahedronIncidence incidence;
   int place;  ///< index of its gradients in view.tetrahedra.beside
@@ -252,7 +252,7 @@ struct LoadedTetrahedron {
 /// Loads tetrahedron k of a vertex.
 struct LoadTetrahedron {
   const TetrahedronIncidence* first;  ///< row of the vertex
-  int begin;                          ///< place of the row in the stream
+  int begin;                          ///< index of the row's first incidence in the stream
 
   OGC_HD LoadedTetrahedron operator()(int k) const { return {first[k], begin + k}; }
 };
@@ -326,8 +326,8 @@ struct Tetrahedra {
              own.moved}};
   }
 
-  /// Returns whether add_packs can add the tetrahedra of a vertex: the scene has none, or they are undamped and their
-  /// form of damping is that of strains.
+  /// Returns whether add_packs can add the tetrahedra of a vertex. It can if the scene has no tetrahedra, or if the
+  /// body has no damping and its DampingForm is `strain`.
   template <class View>
   static bool is_packed(const View& view, const SweepVertex& vertex) {
     return view.tetrahedra.rows == nullptr ||

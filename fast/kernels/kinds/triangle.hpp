@@ -30,17 +30,17 @@ struct MembraneEnergy {
 
 struct Triangles;
 
-/// The kind.
+/// The kind of triangles.
 struct TriangleKind : ElementKind<TriangleRest, MembraneIncidence> {
   using Whole = Triangles;
   using Start = Symmetric2;  ///< Gᵗ
-  /// The kind's part of SweepView.
+  /// The members of SweepView that this kind adds.
   struct View {
     StreamView<MembraneIncidence, NoData, Symmetric2, NoData, false> triangles;
   };
   static constexpr int row_in_vertex = 0;
-  /// Operations by term (fast/kernels/models/st_venant_kirchhoff.hpp): differences 6, F 18, ∇N_a 2, G 20, S 10, its
-  /// rate 3 + 10, pulls 14, force 9 + 6, F∇N_a 9, weights 7, blocks 17 + 30, geometric 9 + 4.
+  /// Operations by term (fast/kernels/models/st_venant_kirchhoff.hpp): differences 6, F 18, ∇N_a 2, G 20, S 10, stress
+  /// of damping 3 + 10, pulls 14, force 9 + 6, F∇N_a 9, weights 7, blocks 17 + 30, geometric 9 + 4.
   static constexpr double flop = 174;
 
   template <class AnyView>
@@ -186,7 +186,7 @@ struct Triangles {
             {view, view.triangles.start, view.materials[vertex.body], view.models[vertex.body], own}};
   }
 
-  /// Returns whether add_packs can add the triangles of a vertex: their damping is of strains.
+  /// Returns whether add_packs can add the triangles of a vertex, that is, whether their damping is of strains.
   template <class View>
   static bool is_packed(const View& view, const SweepVertex& vertex) {
     return has_default_membrane(view.models[vertex.body]);

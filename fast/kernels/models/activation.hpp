@@ -1,6 +1,6 @@
 // Defines the activations g(d), one functor each (method.md §4.2). The default has two stages, Eq. 18 and Eq. 20. Its
-// stiffness Eq. 19 is corrected to k'_c = τ k_c (r − τ), which is k_c r²/4 for τ = r/2 (method.md §1.1). The others are
-// variants for the ablation.
+// stiffness k'_c is τ k_c (r − τ) instead of the printed Eq. 19; for τ = r/2 this is k_c r²/4 (method.md §1.1). The
+// other activations are variants for the ablation.
 #pragma once
 
 #include <cmath>
@@ -133,8 +133,8 @@ struct AnyActivation {
   OGC_HD ActivationSlope slope(float d, float r, float k) const {
     return d < r ? slope_within(d, r, k) : ActivationSlope{};
   }
-  /// Returns g' and g'' for 0 < d ≤ r. At d = r they are the limits from below: a contact beyond r uses that g'' in its
-  /// block (contact_force.hpp).
+  /// Returns g' and g'' for 0 < d ≤ r. At d = r they are the limits from below. The block of a contact with d > r uses
+  /// this g'' (contact_force.hpp).
   OGC_HD ActivationSlope slope_within(float d, float r, float k) const {
     return with_activation(activation, SlopeWithin{d, r, k});
   }

@@ -1,5 +1,5 @@
 // Adds damping by vertex: k_d/h times an element's block at the vertex, times the vertex's motion since the start of
-// the step (method.md §4.9). Damping of strains, the other form, is part of each model.
+// the step (method.md §4.9). The other DampingForm, damping of strains, is computed by each model.
 #pragma once
 
 #include "fast/kernels/arithmetic/accumulator.hpp"

@@ -1,5 +1,5 @@
 // Adds a discrete hinge as one vertex sees it. Its energy is c/2 (θ − θ₀)² with c = k_b 3‖ē‖²/(Ā₀ + Ā₁) (method.md
-// §4.7), its damping c k_d/(2h) (θ − θᵗ)². The block is that of Gauss–Newton.
+// §4.7), its damping c k_d/(2h) (θ − θᵗ)². The block is the Gauss–Newton approximation.
 #pragma once
 
 #include "fast/kernels/models/hinge.hpp"
@@ -8,7 +8,7 @@ namespace ogc::fast {
 
 /// Implements BendingModel::discrete_hinge.
 struct DiscreteHinge {
-  static constexpr bool is_default = true;      ///< UsualHinges and the packs of the CPU compute it
+  static constexpr bool is_default = true;      ///< whether UsualHinges and the SIMD code of the CPU compute this model
   static constexpr bool reads_weights = false;  ///< whether it needs HingeWeights
 
   /// Adds −∂/∂x of energy and damping, and the block c (1 + k_d/h) ∇θ ∇θᵀ. `gradient` is ∂θ/∂x of the vertex,

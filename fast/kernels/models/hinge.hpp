@@ -5,8 +5,8 @@
 //         /  \        equal normals would cancel. It uses b⊥ instead of b, because for two needles the errors of b
 //       x0 ── x1      along e would be large
 //         \  /        ∂θ/∂o0 = −‖e‖ n_a/‖n_a‖²,  ∂θ/∂o1 = −‖e‖ n_b/‖n_b‖²
-//          o1         ∂θ/∂x0 = −(1 − s_a) ∂θ/∂o0 − (1 − s_b) ∂θ/∂o1, with s_a = a·e/‖e‖² the place of o0's foot on the
-//                     edge; ∂θ/∂x1 with s instead of 1 − s
+//          o1         ∂θ/∂x0 = −(1 − s_a) ∂θ/∂o0 − (1 − s_b) ∂θ/∂o1, with s_a = a·e/‖e‖², s_b = b·e/‖e‖²;
+//                     ∂θ/∂x1 has s instead of 1 − s
 //
 // If x0 is exchanged with x1 and o0 with o1, θ does not change. So two formulas serve all four vertices: one for an end
 // of the edge, one for an opposite vertex.
@@ -81,7 +81,7 @@ OGC_HD HingeShapeOf<T> hinge_shape(const Vector<T>& edge, const Vector<T>& a, co
 }
 
 /// Returns ∂θ/∂o0 [1/m] if `opposite`, else ∂θ/∂x0. One formula with selected numerators serves both, because the
-/// threads of a warp have both kinds of vertices at the same time.
+/// vertices of a warp's threads may be of both types.
 template <class T>
 OGC_HD Vector<T> hinge_gradient(const HingeShapeOf<T>& shape, const Mask<T>& opposite) {
   const T a = select(opposite, -shape.length_squared, shape.beyond_a), b = select(opposite, T{}, shape.beyond_b);
@@ -104,8 +104,8 @@ struct HingeStencilOf {
 };
 using HingeStencil = HingeStencilOf<float>;
 
-/// Holds a hinge's weights in the isometric model [1/m]: `own` of the vertex that sees the hinge, `other` of the others
-/// in the order of HingeIncidence.
+/// Holds a hinge's weights in the isometric model [1/m]: `own` is the weight of the vertex that sees the hinge, `other`
+/// has the weights of the other vertices in the order of HingeIncidence::index.
 struct IsometricStencil {
   float own = 0, other[3] = {};
 };

@@ -9,7 +9,7 @@ namespace ogc::fast {
 
 /// Implements BendingModel::isometric_quadratic.
 struct IsometricQuadratic {
-  /// UsualHinges and the packs of the CPU do not compute this model, and it needs HingeWeights.
+  /// UsualHinges and the SIMD code of the CPU do not compute this model, and it needs HingeWeights.
   static constexpr bool is_default = false;
   static constexpr bool reads_weights = true;
 

@@ -43,7 +43,7 @@ struct AddDampedMembrane {
   }
 };
 
-/// Returns whether UsualTriangles computes the body's membrane: its damping is of strains; the model may be any.
+/// Returns whether UsualTriangles computes the body's membrane. It computes any model with damping of strains.
 OGC_HD inline bool has_default_membrane(const SurfaceModels& models) { return damps_strain(models.damping); }
 
 }  // namespace ogc::fast

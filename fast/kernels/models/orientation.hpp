@@ -1,6 +1,6 @@
 // Computes, for a segment, the quaternion that minimises the energy, given the neighbours' quaternions
-// (compare/rods.md, The stage `orientation`, defines M, b, μ and σ). The unknown is ν = μ − σ: for a stiff stretch, μ
-// would be so large that rounding loses the part of the neighbours.
+// (compare/rods.md, The stage `orientation`, defines M, b, μ and σ). The unknown is ν = μ − σ. For a stiff stretch μ is
+// so large that rounding would lose the contribution of the neighbours.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace ogc::fast {
 
-/// A neighbour of a segment across one end.
+/// The neighbour at one end of a segment.
 struct NeighbourRest {
   float weight = 0;  ///< w = 4 k_b/l̄ [N m]; 0: no neighbour
   /// relative rotation at rest: p° = q̄° q°_f if neighbour f follows the segment, q̄°_f q° if it precedes it
@@ -75,8 +75,8 @@ struct ReflectedFrameOf {
   QuatOf<T> apart, direction;  ///< D/‖D‖, c/‖c‖
 
   OGC_HD QuatOf<T> operator()(const QuatOf<T>& q) const { return T(-1.0f) * (apart * q * direction); }
-  /// Returns the part of q in the eigenspace of eigenvalue 1, whose directors are along D. It projects twice: one
-  /// projection leaves a rounding error of the whole q outside the eigenspace, which could exceed a small part.
+  /// Returns the part of q in the eigenspace of eigenvalue 1, whose directors are along D. It projects twice. After one
+  /// projection, the rounding error outside the eigenspace is relative to all of q, and could exceed a small part.
   OGC_HD QuatOf<T> upper(const QuatOf<T>& q) const {
     const QuatOf<T> once = T(0.5f) * (q + (*this)(q));
     return T(0.5f) * (once + (*this)(once));
@@ -89,9 +89,9 @@ using ReflectedFrame = ReflectedFrameOf<float>;
 /// twice as much.
 inline constexpr float lost_part = 0x1p-19f;
 
-/// Returns the unit vector of the eigenspace of eigenvalue 1 nearest to the old q. If the old q is perpendicular to
-/// this space, returns the vector nearest to 1, i or j instead. The vector 1 is perpendicular, too, if c is
-/// antiparallel to D.
+/// Returns the unit vector of the eigenspace of eigenvalue 1 that is nearest to the old q. If the old q is
+/// perpendicular to this space, the first of the quaternions 1, i and j that is not perpendicular to it replaces the
+/// old q.
 OGC_HD inline Quat nearest_upper(const ReflectedFrame& frame, const Quat& old) {
   constexpr float lost = lost_part * lost_part;
   Quat part = frame.upper(old);
@@ -128,7 +128,7 @@ OGC_HD inline Quat rod_orientation(float stretch, const Vec& apart, const Vec& d
   if (!(sigma > 0)) return pull > 0 ? unit((1.0f / pull) * b) : old;
   const ReflectedFrame frame{pure((1.0f / length) * apart), pure((1.0f / size) * direction)};
   if (!(pull > 0)) return nearest_upper(frame, old);
-  // b has no part in the eigenspace of eigenvalue 1: the neighbours favour a reversed director
+  // b has no part in the eigenspace of eigenvalue 1: the neighbours pull the director towards −D
   const Quat lower = b - frame.upper(b);
   const float beta_lower = sqrtf(dot(lower, lower));
   if (beta_lower > 2.0f * sigma) return unit((1.0f / beta_lower) * lower);

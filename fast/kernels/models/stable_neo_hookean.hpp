@@ -4,8 +4,8 @@
 //
 //   J = q ‖b × c‖,   ∂J/∂x = g = q (b − c) × n,   ∂²J/∂x² = ‖g‖²/J n nᵀ
 //
-// These formulas avoid F, where terms cancel in a thin triangle. The block μ ‖∇N‖² I + (λ + μ) g gᵀ + ((λ + μ)(J − 1) −
-// μ) ‖g‖²/J n nᵀ has n as an eigenvector, and only along n can it be negative.
+// These formulas avoid F, where terms cancel in a thin triangle. The block is μ ‖∇N‖² I + (λ + μ) g gᵀ + ((λ + μ)(J −
+// 1) − μ) ‖g‖²/J n nᵀ. It has n as an eigenvector, and only the eigenvalue of n can be negative.
 #pragma once
 
 #include <cmath>

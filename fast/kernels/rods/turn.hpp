@@ -1,4 +1,5 @@
-// Turns the frames of segments after the guess loop of a step, and commits them at the step's end (compare/rods.md).
+// Rotates the orientations of segments after the guess loop of a step, and commits them at the end of the step
+// (compare/rods.md).
 #pragma once
 
 #include "fast/kernels/control.hpp"
@@ -6,12 +7,12 @@
 
 namespace ogc::fast {
 
-/// Returns q after half a turn about the frame's own first axis, which reverses its director.
+/// Returns q after a rotation by π about the first axis of q's frame, which reverses the director.
 OGC_HD inline Quat turned_round(const Quat& q) { return {q.w, q.z, -q.y, -q.x}; }
 
-/// Returns q after the smallest rotation that takes the direction `from` to `to`. For opposite directions this is half
-/// a turn about the first axis of q. Returns q if a direction is 0. With unit vectors a, b at the angle θ, (a × b, 1 +
-/// a·b) is the quaternion of this rotation times 2 cos θ/2.
+/// Returns q after the smallest rotation that takes the direction `from` to `to`. For opposite directions this is a
+/// rotation by π about the first axis of q. Returns q if a direction is 0. With unit vectors a, b at the angle θ, (a ×
+/// b, 1 + a·b) is the quaternion of this rotation times 2 cos θ/2.
 OGC_HD inline Quat turned_along(const Vec& from, const Vec& to, const Quat& q) {
   const float first = sqrtf(dot(from, from)), second = sqrtf(dot(to, to));
   if (!(first > 0 && second > 0)) return q;
@@ -38,19 +39,20 @@ struct SetDirection {
   }
 };
 
-/// Sets q after the guess loop: turns each frame from qᵗ with its segment, or with its prescribed motion. Runs once for
-/// each segment.
+/// Sets q after the guess loop: rotates each orientation from qᵗ with its segment, or with its prescribed motion. Runs
+/// once for each segment.
 struct TurnSegment {
   const SegmentRest* segments;  ///< by segment
   const int* motion;            ///< by segment: motion, as in segments.hpp
-  /// [step of the frame][motion]: rotation of a prescribed motion in the step; w = 2: the motion has no rotation
+  /// [step since the last stored state][motion]: rotation of a prescribed motion in the step; w = 2: the motion has no
+  /// rotation
   const Quat* motion_turns;
   int motions;                    ///< prescribed motions: length of a row of motion_turns
   const Vec* start;               ///< xᵗ by vertex [m]
   const Vec* position;            ///< x by vertex [m], after the guess loop
   const Quat* orientation_start;  ///< qᵗ by segment
   Quat* orientation;              ///< q by segment, written
-  bool turns;                     ///< false: free frames keep qᵗ (rod_start=kept)
+  bool turns;                     ///< false: free segments keep qᵗ (rod_start=kept)
   const StepControl* control;     ///< on the backend; `steps_done` is read
 
   OGC_HD void operator()(int e) const {

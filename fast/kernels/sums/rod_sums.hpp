@@ -18,7 +18,7 @@ struct RodSums {
   const int *vertex_facet_count, *edge_edge_count;
   StepControl* control;  ///< on the backend: longest_segment and nearest_contact are written
 
-  /// Adds the terms i = chunk, chunk + chunks, … of each kind.
+  /// Adds the terms i = chunk, chunk + chunks, … of each sum.
   OGC_HD void add(int chunk, int chunks, double* sums) const {
     others.add(chunk, chunks, sums);
     float longest = 0, nearest = 3.40282347e38f;

@@ -15,13 +15,13 @@ namespace ogc::fast {
 /// has the bits of the features that it computes (`gives`) and a function `part_of` that makes the part of a vertex.
 template <class Activation, class... Parts>
 struct Gather {
-  static constexpr int parts = sizeof...(Parts) + 2;  ///< warps of a block where teams are spread (fast/cuda/team.cuh)
-  /// Bits of all features that this sum computes. It computes models other than the usual ones only if all of its parts
-  /// do.
+  /// number of parts of the sum; a block has a warp for each part if teams are spread (fast/cuda/team.cuh)
+  static constexpr int parts = sizeof...(Parts) + 2;
+  /// Bits of all features that this sum computes. It has the bit `asks_any_model` only if all of its parts have this
+  /// bit.
   static constexpr unsigned gives = ((Parts::template gives<Kinds> | ...) & ~asks_any_model) |
                                     (Parts::template gives<Kinds> & ... & asks_any_model) |
                                     (std::is_same_v<Activation, AnyActivation> ? asks_any_activation : 0u);
-  /// Whether the sum adds contacts with volumes.
   static constexpr bool has_volumes = (gives & asks_volumes) != 0;
 
   template <class Team>

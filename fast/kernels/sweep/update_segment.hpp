@@ -23,7 +23,7 @@ struct UpdateSegment {
   /// Holds data that are read before the preceding launch has ended, because that launch does not write them.
   struct Ahead {
     SegmentSlot slot;
-    bool is_off = false;  ///< whether another iteration is next
+    bool is_off = false;  ///< whether this iteration must do nothing, because another one is next
   };
 
   SweepView view;

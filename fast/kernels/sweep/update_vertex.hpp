@@ -76,8 +76,8 @@ struct UpdatePrescribed {
   }
 };
 
-/// Measures the force on each free vertex at the current positions. One team runs for each slot. In `view` the fresh
-/// buffer is the old one (to_fresh = 0), and neither is written.
+/// Measures the force on each free vertex at the current positions. One team runs for each slot. In `view` the old and
+/// the fresh positions are one buffer (to_fresh = 0), which is not written.
 template <class Gather>
 struct MeasureVertex {
   static constexpr int parts = Gather::parts;  ///< number of parts of the vertex's sum

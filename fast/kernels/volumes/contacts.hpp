@@ -7,7 +7,7 @@
 //                       also store a ball of far points: a vertex in it is not tested until the volumes move
 //   ListVolumeContacts  for each row: lists its contacts, part by part, in a row of fixed length. If a row is too
 //                       short, the step is repeated with longer rows (fast/stages/lists.hpp)
-//   FillCorners         for each row, if volumes are free: enters its contacts in the rows of their corners
+//   FillCorners         for each row, if volumes are free: adds its contacts to the rows of their triangles' corners
 //   SortCorners         for each slot: sorts its row of corners, so that the order of filling has no effect
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace ogc::fast {
 
-/// Packs the nearest facet of a part and the side of a point into one integer, an answer: facet · 4 + VolumeSide.
+/// Packs the nearest facet of a part and the VolumeSide of a point into one integer, the *answer*: facet · 4 + side.
 OGC_HD inline int answer_of(const NearestFacet& nearest) { return nearest.facet << 2 | static_cast<int>(nearest.side); }
 /// Returns the facet and the side that answer_of packed.
 OGC_HD inline NearestFacet nearest_in(int answer) { return {answer >> 2, static_cast<VolumeSide>(answer & 3)}; }
@@ -31,10 +31,10 @@ struct PlaceVolumes {
   OGC_HD void operator()(int v) const { padded[v] = PaddedVec(position[v]); }
 };
 
-/// Discards all known balls of far points (ClearBall), because driven volumes have moved. Runs once for each item of
-/// AskVolumes.
+/// Discards all known balls of far points (ClearBall), because driven volumes have moved. Runs once for each pair of a
+/// part and a row.
 struct ForgetClearBalls {
-  ClearBall* clear;  ///< by item
+  ClearBall* clear;  ///< by pair of part and row, as in AskVolumes
 
   OGC_HD void operator()(int i) const { clear[i].radius = ClearBall::unasked; }
 };
@@ -47,8 +47,11 @@ struct AskVolumes {
   int rows;
   const Vec* position;         ///< x at the detection, by vertex [m]
   const StepControl* control;  ///< if it is not active nothing is searched
-  int* answers;                ///< by item: answer of the last detection, or any facet of the part; replaced
-  ClearBall* clear;  ///< by item: ball of far points; null if volumes are free, because they move in every iteration
+  /// by pair of part and row (index part · rows + row): answer of the last detection, or any facet of the part;
+  /// replaced
+  int* answers;
+  /// by pair of part and row: ball of far points; null if volumes are free, because they move in every iteration
+  ClearBall* clear;
 
   OGC_HD void operator()(int i) const {
     if (control->active == 0) return;
@@ -76,12 +79,12 @@ struct ListVolumeContacts {
   int rows;
   const Vec* position;         ///< x at the detection, by vertex [m]
   const StepControl* control;  ///< if it is not active the old rows stay
-  const int* answers;          ///< by item, from AskVolumes
+  const int* answers;          ///< by pair of part and row, from AskVolumes
   ContactTables tables;        ///< k and μ by pair of bodies
   int capacity;                ///< contacts that fit in a row
   int* counts;                 ///< by row, at most `capacity`, written
   VolumeIncidence* stream;     ///< row by row, written
-  FoundVolumeContact* found;   ///< the same contacts before conversion, written
+  FoundVolumeContact* found;   ///< the contacts of `stream` before conversion, written
   int* unresolved;             ///< by row: number of sheets without a way (solids.hpp); written if there are solids
   int* longest;                ///< raised to the number of contacts of the longest row
   int* overflow;               ///< set if a row has more contacts than `capacity`
@@ -150,8 +153,8 @@ struct ForgetCorners {
   }
 };
 
-/// Enters each contact in the rows of those corners that are free and have a weight other than 0. Runs once for each
-/// row.
+/// Adds each contact to the rows of those corners of its triangle that are free and have a weight other than 0. Runs
+/// once for each row.
 struct FillCorners {
   const StepControl* control;       ///< as in ForgetCorners
   const int* counts;                ///< by row, from ListVolumeContacts
@@ -206,7 +209,7 @@ struct CountVolumeContacts {
   const int* unresolved;            ///< by row; null if there are no solids
   int capacity;                     ///< of a row
   float contact_radius;             ///< r [m]
-  StepControl* control;             ///< counts are added there
+  StepControl* control;             ///< on the backend; counts are added
 
   OGC_HD void operator()(int row) const {
     if (unresolved != nullptr && unresolved[row] > 0) atomic_add(&control->depth_unresolved, unresolved[row]);

@@ -56,7 +56,7 @@ class SolidQuestion {
 
   /// Calls visit(contact) for each contact with a part. If x lies in sheets, there is one contact for each sheet with a
   /// way. Otherwise there is one contact for each face in whose outward block x lies nearer than r. The search begins
-  /// at facet `first`, or without a start if it is −1; this only changes the time.
+  /// at facet `first` (−1: at no facet), which only changes the time.
   template <class Visit>
   OGC_HD SolidAnswer visit_contacts(int part, int first, Visit visit) const {
     SolidAnswer answer;
@@ -95,8 +95,8 @@ class SolidQuestion {
     int face = -1, facet = -1;
   };
 
-  /// Holds the heights of a segment's ends c and x over each side of a tetrahedron: inward, times twice the side's
-  /// area. `zero`: limit below which a height counts as zero.
+  /// Holds the heights of a segment's ends c and x over each side of a tetrahedron: positive inward, times twice the
+  /// side's area. `zero`: limit below which a height counts as zero.
   struct Passage {
     double at_foot[4], at_x[4], zero[4];
 
@@ -168,7 +168,7 @@ class SolidQuestion {
 
   OGC_HD Way shortest_way(int part, int element, int first) const {
     Way way;
-    int failed = -1;  // face whose segment cannot be traversed
+    int failed = -1;  // face at the end of a segment that cannot be traversed
     if (first < 0) {
       const Way nearest = search(part, element, way, first, false, failed);
       if (nearest.facet < 0) return way;

@@ -45,7 +45,8 @@ OGC_HD inline SeenVolumeContact seen_from(const VolumeIncidence& incidence, int 
   return seen;
 }
 
-/// Loads contact k of a vertex. The vertex is the point of the first `points` contacts, and a corner in the others.
+/// Loads contact k of a vertex. The vertex is the point of the first `points` contacts, and a corner in the other
+/// contacts.
 struct LoadVolumeContact {
   VolumeStream volumes;
   int slot, points;
@@ -92,8 +93,8 @@ OGC_HD inline bool is_deep(const VolumeContact& contact, const Vec* x, float con
   return dot(contact.normal, volume_separation(contact, x)) < -deep_share * contact_radius;
 }
 
-/// Returns whether x lies deep inside a driven volume, whose corners do not move; x is the position of the slot's
-/// vertex. Returns false if volumes are free: CountDeepInside tests them after the iteration.
+/// Returns whether x, the position of the slot's vertex, lies deep inside a driven volume, whose corners do not move.
+/// Returns false if volumes are free: then CountDeepInside tests the vertices after the iteration.
 OGC_HD inline bool lies_deep_in_volume(const SweepShared& view, int slot, const Vec& x) {
   const VolumeStream& volumes = view.volumes;
   if (volumes.counts == nullptr || volumes.colour != nullptr) return false;
@@ -122,7 +123,7 @@ struct CountDeepInside {
   float contact_radius;  ///< r [m]
   const int* turn;       ///< as in SweepShared
   int iteration;
-  StepControl* control;  ///< counts are added there
+  StepControl* control;  ///< on the backend; counts are added
 
   OGC_HD void operator()(int row) const {
     if (turn != nullptr && *turn != iteration) return;

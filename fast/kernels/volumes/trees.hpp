@@ -13,7 +13,7 @@ struct RefitVolumes {
   SolidView solids;                        ///< is_positive is written
   const Vec* positions;                    ///< by vertex [m]
   const PartTree* trees;                   ///< trees of facets, then trees of tetrahedra; their boxes are written
-  int facet_trees, count_of_trees, items;  ///< `items`: places of all trees, each tree padded to whole warps
+  int facet_trees, count_of_trees, items;  ///< `items`: indices of all trees, each tree padded to whole warps
 
   OGC_HD int count() const { return items; }
 
