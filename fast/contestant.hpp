@@ -36,7 +36,7 @@ BackendInfo backend_info(Backend backend);
 struct SweepWork {
   int vertices = 0, colours = 0;  ///< `vertices`: free vertices
   double flop = 0, bytes = 0;     ///< without contacts
-  /// for each further contact, if all of its vertices are free
+  /// work that each contact adds if all of its vertices are free
   double flop_vertex_facet = 0, flop_edge_edge = 0, bytes_contact = 0;
 };
 /// Returns the work for a scene at rest.

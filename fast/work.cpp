@@ -151,7 +151,7 @@ void add_quaternions(const RestState& rest, SweepWork& work) {
   if (segments == 0) return;
   work.colours += colouring.count;
   work.flop += segments * orientation_flop + damped * orientation_damping_flop;
-  // q is read and written; qᵗ and c are read if damped
+  // q is read and written; damping also reads qᵗ and the vector c of rod_rest_direction
   work.bytes += segments * (sizeof(SegmentSlot) + 2 * sizeof(Quat)) + damped * (sizeof(Quat) + sizeof(Vec));
 }
 

@@ -44,7 +44,7 @@ class CpuBuffer {
   const T* data() const { return items_.get(); }
   std::size_t size() const { return size_; }
 
-  /// Keeps no content and never shrinks; a new allocation is zero.
+  /// Sets the number of items. Does not keep the content, and never shrinks the memory. New memory is zero.
   void resize(std::size_t n) {
     if (n > capacity_) {
       items_ = std::make_unique<T[]>(n);
@@ -79,7 +79,8 @@ inline UpdateVertex<GatherPacked> on_packs(const UpdateVertex<GatherAll>& f) {
 }
 inline MeasureVertex<GatherPacked> on_packs(const MeasureVertex<GatherAll>& f) { return {f.view, f.left, f.is_end}; }
 
-/// Prefetches data of f(i, team) that the processor does not prefetch by itself: nothing, unless F has an overload.
+/// Prefetches data that f(i, team) reads and that the processor does not foresee. Does nothing unless F has an
+/// overload.
 template <class F>
 void look_ahead(const F&, int) {}
 /// Prefetches a vertex's contacts. The processor does not foresee them, because contacts are stored vertex by vertex
@@ -132,7 +133,7 @@ class CpuBackend {
     });
   }
 
-  /// Runs each row in one thread, which keeps the row's smallest numbers in order.
+  /// Calls f(i, smallest number, number of rank F::rank) for each row i of `values`. One thread reads a row.
   template <class F>
   void for_each_row(int n, const int* offsets, const float* values, F f) {
     for_each(n, [f, offsets, values](int i) {
@@ -164,7 +165,7 @@ class CpuBackend {
     exclusive_scan(second);
   }
 
-  /// Sorts in parallel. Ties are ordered by the original number, so the result is that of a stable sort.
+  /// Sorts in parallel. Equal keys keep their order, as in a stable sort.
   void sort_pairs(std::uint64_t* keys, int* values, int n, KeyBits bits = {}) {
     std::vector<Item> items(static_cast<std::size_t>(n));
     for_each(n, [&](int i) { items[static_cast<std::size_t>(i)] = {keys[i], i, values[i]}; });
@@ -202,7 +203,7 @@ class CpuBackend {
     void clear() {}
   };
 
-  /// Runs the body and measures its time, `times` times.
+  /// Runs the body `times` times and measures the time of each run.
   template <class Body>
   void replay(Recording&, int times, Body body) {
     for (int k = 0; k < times; ++k) {

@@ -1,6 +1,6 @@
-// Defines lists of one thread. A thread collects what it finds in its own list and moves many items at once to the
-// common list. Otherwise all threads would wait for the common counter, which each found item would increase. They
-// would also wait for the flags beside the counter in memory, which all threads read.
+// Defines lists of one thread. A thread collects items in its own list and moves many at once to the common list.
+// Otherwise each item would increase the common counter, and all threads would wait for the counter. Threads would also
+// wait for the flags beside the counter in memory, which all threads read.
 #pragma once
 
 #include <algorithm>

@@ -162,8 +162,8 @@ typename P::Mask first_of(int count) {
   (std::make_integer_sequence<int, P::width>());
 }
 
-/// Returns a pack whose block k of 16 B (four numbers) holds numbers p, q, r and s of blocks k of a and b. An index i <
-/// N means number i of a's block, and N + i means number i of b's block.
+/// Shuffles each block of 16 B (four numbers) separately. Block k of the result has the four numbers with indices p, q,
+/// r and s. Index i < 4 means number i of block k of a, and index N + i means number i of block k of b.
 template <int p, int q, int r, int s, int N>
 PackOf<N> mixed(const PackOf<N>& a, const PackOf<N>& b) {
   return [&]<int... k>(std::integer_sequence<int, k...>) {

@@ -23,9 +23,8 @@ inline constexpr bool has_packs = requires(const SweepView& view, const SweepVer
   Part::is_packed(view, vertex);
 };
 
-/// Computes the sum of GatherAll with a SerialTeam and the activation `ogc`. `alone` has, by part, the sums of parts
-/// that packs do not compute. The sums are null for parts that packs compute, and for parts that the vertex does not
-/// have.
+/// Computes the sum of GatherAll with a SerialTeam and the activation `ogc`. `alone` has one element for each part. Its
+/// sums are null if packs compute the part, or if the vertex has no items of the part.
 using GatherInPacks = ForceAndBlock (*)(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                                         const TeamLaneSums* alone);
 /// The kernels that run in packs: sums of vertices, and updates of rods' segments.

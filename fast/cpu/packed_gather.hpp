@@ -1,5 +1,5 @@
-// Sums over a vertex's stencils, a pack of team lanes at a time. Team lanes, their items and the order of all additions
-// are those of SerialTeam, so the bits are the same (tests/fast/stages/sweep.cpp).
+// Computes the sum over a vertex's stencils, a pack of team lanes at a time. Team lanes, their items and the order of
+// all additions are those of SerialTeam, so the bits are the same (tests/fast/stages/sweep.cpp).
 #pragma once
 
 #include "fast/cpu/pack_kernels.hpp"

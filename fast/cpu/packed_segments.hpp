@@ -26,7 +26,8 @@ template <class P>
   return {all.x, all.y, all.z, all.w};
 }
 
-/// Adds to b the undamped terms of the neighbours at one side of each segment.
+/// Adds to b the undamped terms of the segments' neighbours. side: 0 for the neighbour at each segment's begin, 1 for
+/// the neighbour at its end.
 template <class P>
 void add_neighbours(const UpdateSegment& f, const SegmentSlot* slots, int side, const QuatOf<P>& old, QuatOf<P>& b) {
   const Quat *now[P::width], *rest[P::width];

@@ -89,7 +89,7 @@ __global__ void __launch_bounds__(cuda_block_size) run_each_ahead(int n, F f) {
   }
 }
 
-/// Runs f(i) for i < *n, at most `capacity`. The device reads *n.
+/// Runs f(i) for i < min(*n, capacity). The device reads *n.
 template <class F>
 __global__ void __launch_bounds__(cuda_block_size, resident_blocks<F>())
     run_each_counted(const int* n, int capacity, F f) {
@@ -99,7 +99,7 @@ __global__ void __launch_bounds__(cuda_block_size, resident_blocks<F>())
   for (int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x); i < count; i += stride) f(i);
 }
 
-/// Runs f(i) for i < m, and g(i) for i < *n, at most `capacity`. The items of both are dealt to the threads in turn.
+/// Runs f(i) for i < m, and g(i) for i < min(*n, capacity). The threads of the launch share the items of both loops.
 template <class F, class G>
 __global__ void __launch_bounds__(cuda_block_size, resident_blocks<G>())
     run_both(int m, F f, const int* n, int capacity, G g) {

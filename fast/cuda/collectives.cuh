@@ -36,7 +36,7 @@ class Scratch {
 /// see launch_kernel.
 void exclusive_scans(cudaStream_t stream, Scratch& scratch, bool early, const Scan& first, const Scan& second);
 
-/// Sorts in place by these bits of the keys: stable, ascending.
+/// Sorts keys and values in place by the given bits of the keys: stable, ascending.
 void sort_pairs(cudaStream_t stream, Scratch& scratch, std::uint64_t* keys, int* values, int n, KeyBits bits);
 
 }  // namespace ogc::fast

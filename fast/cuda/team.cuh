@@ -93,7 +93,7 @@ struct Pool {
   typename Scan::TempStorage scan;
   /// by team: begin of its items in their array; offset of its items in the block
   int begins[teams], offsets[teams + 1];
-  /// two buffers in turn, because threads write the next terms while others still read
+  /// two buffers, used alternately, because threads write the next terms while others still read
   unsigned memory[2][serial_block_size][words<Accumulator>()];
 };
 

@@ -14,7 +14,7 @@ namespace ogc::fast {
 static_assert(sizeof(Vec) == sizeof(compare::Vec3f) && std::is_standard_layout_v<Vec>,
               "positions are copied, not converted");
 
-/// Returns the face that SurfaceView gives this number.
+/// Returns the face with this number; SurfaceView defines the numbers of faces.
 inline compare::Face face_of(int number, const compare::Topology& topology) {
   const int edges = static_cast<int>(topology.edges.size());
   if (number < topology.vertex_count) return {compare::FaceKind::vertex, number};

@@ -1,4 +1,4 @@
-// Lets the judge test the blocks with the predicates of the detections, called in the same order as there.
+// Lets the judge test the blocks. Calls the predicates of a detection, in the order of a detection.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // Lets the judge test the initial guess with the kernels of the guess loop, one vertex for each case. Acceleration and
-// step are constants of these kernels, so each case gets its own kernels. Each case also gets its own control, which
-// counts the cut. Vertices have no contacts: the stage `step` tests how contacts shorten a move.
+// time step are constants of these kernels, so each case gets its own kernels. Each case also gets its own control,
+// which counts cut vertices. Vertices have no contacts: the stage `step` tests how contacts shorten a move.
 #pragma once
 
 #include <cstdint>
@@ -45,7 +45,7 @@ std::vector<T> column(const compare::InitialGuessIn& in, T compare::InitialGuess
   return all;
 }
 
-/// Turns the orientation of a segment as its vector turns from `before` to `now`. Runs once for each case.
+/// Rotates the orientation of a segment as its vector rotates from `before` to `now`. Runs once for each case.
 struct ProbeTurn {
   const Vec *before, *now;  ///< by case [m]
   const Quat* orientation;  ///< by case

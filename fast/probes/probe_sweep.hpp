@@ -38,7 +38,8 @@ class ProbeContacts {
     fill(facets, edges);
   }
 
-  /// Returns a sufficient capacity for the contacts: the number of incidences, since each contact has two to four.
+  /// Returns a capacity that suffices for the contacts: the number of incidences. Each contact has at least two
+  /// incidences.
   int capacity() const { return count_; }
   /// Returns the number of contacts, on the backend.
   const int* count() const { return counts_.data() + 1; }

@@ -66,7 +66,7 @@ struct VolumeAsker {
   int own;       ///< the vertex at the point, or −1
 };
 
-/// Counts the contacts of each point, and stores the nearest facets, where the next search begins.
+/// Counts the contacts of each point. Stores the nearest facets, where the searches of FindAtPoint begin.
 struct CountAtPoint {
   VolumeView volume;
   const VolumeAsker* askers;
@@ -102,7 +102,7 @@ struct FindAtPoint {
   VolumeView volume;
   const VolumeAsker* askers;
   const int* nearest;         ///< the results of CountAtPoint
-  const int* first;           ///< by point: place of its first contact
+  const int* first;           ///< by point: index of its first contact in `found`
   FoundVolumeContact* found;  ///< written
 
   OGC_HD void operator()(int i) const {

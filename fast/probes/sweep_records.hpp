@@ -23,7 +23,7 @@ struct ContactRecords {
 /// Returns the contacts of a case.
 ContactRecords contact_records(const compare::SweepIn& in);
 
-/// Returns the contacts of a case with volumes, by row, with the materials of `rest`.
+/// Returns, by row, the contacts between vertices of the case and volumes. `rest` has the materials.
 std::vector<std::vector<VolumeIncidence>> volume_rows(const compare::SweepIn& in, const RestState& rest,
                                                       const AskerRows& asked);
 

@@ -172,8 +172,8 @@ bool dissolve_last_class(const compare::CompressedRows& graph, const std::vector
   return empty;
 }
 
-// Moves each vertex of a class above the mean size to the smallest class that none of its neighbours has, if that class
-// is smaller than its own.
+// Moves vertices to smaller colour classes. A vertex changes only to a class that contains none of its neighbours and
+// has at least two vertices fewer than the vertex's present class.
 void balance(const compare::CompressedRows& graph, const std::vector<int>& vertices, int count,
              std::vector<int>& colour) {
   std::vector<int> size(static_cast<std::size_t>(count));

@@ -1,4 +1,4 @@
-// Algorithm 2 as searches, one for each edge, in tree order (see detect_vertex_facet.hpp).
+// Makes the searches of Algorithm 2, one for each edge, in tree order (see detect_vertex_facet.hpp).
 #pragma once
 
 #include "fast/kernels/detect_edge_edge.hpp"

@@ -1,6 +1,6 @@
-// Algorithm 1 as searches, one for each vertex, in the order of a Hilbert curve. They share a launch with the searches
-// of Algorithm 2, since neither algorithm fills a device. They need refitted trees, prepared lists and reset minima
-// (fast/stages/detection.hpp).
+// Makes the searches of Algorithm 1, one for each vertex, in the order of a Hilbert curve. They share a launch with the
+// searches of Algorithm 2, since neither algorithm fills a device. They need refitted trees, prepared lists and reset
+// minima (fast/stages/detection.hpp).
 #pragma once
 
 #include "fast/kernels/detect_vertex_facet.hpp"

@@ -17,9 +17,9 @@ class LeftForces {
     left_.resize(static_cast<std::size_t>(slots));
     totals_.resize(left_columns);
   }
-  /// Measures after the guess loop. `view`: data of the first iteration (Step::view).
+  /// Measures the forces after the guess loop. `view`: data of the first iteration (Step::view).
   void begin(const Sweep<Backend>& sweep, SweepView view) { measure(sweep, view, false); }
-  /// Measures at the end of the step. `view`: data of the iteration that would follow the last one.
+  /// Measures the forces at the end of the step. `view`: data of the iteration that would follow the last one.
   void end(const Sweep<Backend>& sweep, SweepView view) {
     measure(sweep, view, true);
     reduction_.template add<0, left_columns>(LeftSums{left_.data(), slots_}, 0, Nothing{});

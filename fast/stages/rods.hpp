@@ -1,4 +1,4 @@
-// Holds the orientations qᵗ and q of a simulation's segments. Turns them at the start of a step, commits them at its
+// Holds the orientations qᵗ and q of a simulation's segments. Rotates them at the start of a step, commits them at its
 // end, and sums what the step's row reports on rods. Without rods, the arrays are empty and nothing is launched.
 #pragma once
 
@@ -15,8 +15,8 @@
 
 namespace ogc::fast {
 
-/// Returns the scene's orientations at the start. If the scene gives none, these are the orientations at rest, each
-/// turned from its segment's direction at rest to the direction at the start.
+/// Returns the scene's orientations at the start. If the scene gives none, each orientation at rest is rotated from its
+/// segment's direction at rest to the direction at the start.
 std::vector<Quat> start_orientations(const compare::Scene& scene, const RodsAtRest& rods);
 
 /// Returns the rotation of each motion in `steps` steps from step `first` on, counted from 0: [step][motion]. A
@@ -62,8 +62,8 @@ class Rods {
     motion_turns_.upload(turns.data(), turns.size());
   }
 
-  /// Returns the functor, over segments, that runs after the guess loop: q is qᵗ, turned as the segment has turned from
-  /// xᵗ to x.
+  /// Returns the functor, over segments, that runs after the guess loop. It sets q to qᵗ, rotated as the segment
+  /// rotates from xᵗ to x.
   TurnSegment begin(const Vec* start, const Vec* position, const StepControl* control) {
     return {.segments = segments_.data(),
             .motion = motion_.data(),

@@ -116,7 +116,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
   const Colouring& colouring() const { return colouring_; }
   const Colouring& segment_colouring() const { return segment_colouring_; }
   const RestState& rest_state() const { return rest_; }
-  /// W, the width of the sweep's sums.
+  /// Returns W, the width of the sweep's sums.
   int lanes() const { return sweep_.lanes(); }
 
   /// Sets the observer of the following steps; null removes it. It changes no bit of the results. An observed step is

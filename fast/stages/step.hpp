@@ -75,7 +75,7 @@ class StepObserver {
   virtual void after(compare::StepEventKind kind, const Vec* position) = 0;
   /// Called when contacts with volumes have been found at the positions of the guess loop's last detection.
   virtual void after_finding() = 0;
-  /// Called when the guess loop has ended and the segments' frames have been turned.
+  /// Called when the guess loop has ended and the segments' frames have been rotated.
   virtual void after_guess() = 0;
 };
 

@@ -101,7 +101,7 @@ class Sweep {
   }
 
   int colours() const { return colours_; }  ///< launches of an iteration, without the launch for prescribed vertices
-  /// W, the width of the sums.
+  /// Returns W, the width of the sums.
   int lanes() const { return lanes_; }
   ContactActivation activation() const { return activation_; }
   const int* colour() const { return colour_.data(); }  ///< by vertex; −1: not free; on the backend
@@ -118,10 +118,10 @@ class Sweep {
 
   /// Returns the number of free vertices, the items of a launch over contact_rows.
   int slots() const { return streams_.slots(); }
-  /// Returns the contact stream of the last detection, on the backend. A vertex's contacts are at the same places as
-  /// its incidences.
+  /// Returns the contact stream of the last detection, on the backend. Contacts have the indices of their incidences.
   const ContactIncidence* contacts() const { return contacts_.data(); }
-  /// Returns the free vertices by slot, on the backend.
+  /// Returns the functor that makes the rows of the contact stream after a detection. If *overflow is not 0, the old
+  /// stream stays, because it is complete.
   const SweepVertex* vertices() const { return streams_.vertices(); }
   /// Returns the functor that makes the rows of the contact stream after a detection. If *overflow is not 0, the old
   /// stream, which is complete, stays.
@@ -129,13 +129,13 @@ class Sweep {
   CopyContactRows<Item> contact_rows(const int* incidence_offsets, const Item* incidences, const int* overflow) {
     return {incidence_offsets, incidences, overflow, vertices(), contact_rows_.data()};
   }
-  /// Returns the functor that writes a contact to the place of its incidence in the contact stream. `previous`: the
+  /// Returns the functor that writes each contact at the index of its incidence in the contact stream. `previous`: the
   /// positions of the detection.
   ResolveContact resolve_contact(const ContactView& view, const Vec* previous) {
     return {view, tables(previous), colour_.data(), contacts_.data()};
   }
 
-  /// Makes the contact stream of given contacts.
+  /// Makes the contact stream from the contacts of `view`.
   void resolve_contacts(const ContactView& view, const Vec* previous) {
     backend_.for_both(slots(), contact_rows(view.incidence_offsets, view.incidences, nullptr),
                       view.incidence_offsets + vertex_count_, static_cast<int>(contacts_.size()),

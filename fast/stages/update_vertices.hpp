@@ -1,5 +1,5 @@
-// Defines the launches that depend on a sum over stencils. They take longest to compile, so each backend instantiates
-// them in a separate object for each sum.
+// Defines the launches whose kernels sum over a vertex's stencils. They take longest to compile, so each backend
+// instantiates them in a separate object for each sum.
 #pragma once
 
 #include "fast/kernels/sweep/sums.hpp"

@@ -13,7 +13,7 @@
 namespace ogc::fast {
 namespace {
 
-/// Computes places on the Hilbert curve through the box of all positions.
+/// Computes Hilbert keys in the box of all positions.
 class Curve {
  public:
   explicit Curve(std::span<const compare::Vec3f> positions) {
@@ -26,7 +26,7 @@ class Curve {
     if (extent > 0) scale_ = (0x1p20 - 1) / static_cast<double>(extent);
   }
 
-  /// Returns the place of the vertices' mean on the curve.
+  /// Returns the Hilbert key of the vertices' mean.
   template <std::size_t N>
   std::uint64_t operator()(const std::array<compare::Index, N>& vertices,
                            std::span<const compare::Vec3f> positions) const {
@@ -44,7 +44,7 @@ class Curve {
   double scale_ = 0;
 };
 
-/// Pairs of a place on the curve and a number.
+/// Hilbert key and number of each facet or tetrahedron.
 using Places = std::vector<std::pair<std::uint64_t, int>>;
 
 std::vector<int> in_order(Places& places) {
@@ -59,7 +59,7 @@ VolumeParts parts_of(const compare::Topology& topology, const std::vector<int>& 
                      std::span<const compare::Vec3f> positions) {
   const Curve curve(positions);
   const std::vector<compare::Index> component = compare::joined_components(topology, tetrahedra, cavities);
-  std::map<compare::Index, std::size_t> place;  // by component: the place of its part
+  std::map<compare::Index, std::size_t> place;  // by component: index of its part
   std::vector<std::pair<Places, Places>> sorted;
   for (const int t : triangles) {
     const compare::Triangle& corners = topology.triangles[static_cast<std::size_t>(t)];

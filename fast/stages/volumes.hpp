@@ -250,7 +250,7 @@ class Volumes {
   static constexpr int usual_capacity = 4;
   /// A vertex is a corner of about six triangles; each of them may have contacts with several vertices.
   static constexpr int usual_corner_capacity = 16;
-  /// A corner's code holds the place of a contact and, in two bits, the role. So a place has at most 29 bits.
+  /// A corner's code holds the index of a contact and, in two bits, the role. So an index has at most 29 bits.
   static constexpr std::int64_t most_places = (std::int64_t{1} << 29) - 1;
 
   template <bool has_solids>
@@ -319,7 +319,7 @@ class Volumes {
   std::vector<int> slot_of_host_;
   const int* colour_;
   Buffer<int> askers_, answers_, counts_, unresolved_, longest_;
-  Buffer<ClearBall> clear_;                             ///< by place in `answers_`; only if no volume is free
+  Buffer<ClearBall> clear_;                             ///< by index in `answers_`; only if no volume is free
   Buffer<int> slot_of_, corner_counts_, corner_codes_;  ///< only if some volumes are free
   Buffer<PaddedVec> padded_;  ///< only if some volumes are free: positions of the detection, by vertex [m]
   Buffer<VolumeIncidence> stream_;

@@ -28,7 +28,7 @@ RestVector unit_direction(const RestVector& a) {
 }
 RestVector opposite(const RestVector& a) { return {-a.x, -a.y, -a.z}; }
 
-/// A half turn about the first axis of a frame, which reverses its director.
+/// The rotation by 180° about the first axis of a frame. It reverses the director.
 constexpr RestFrame turned_round{1, 0, 0, 0};
 
 /// Returns the rotation from one unit direction to another: (a × b, 1 + a·b), normalised.
@@ -39,7 +39,7 @@ RestFrame turn_between(const RestVector& a, const RestVector& b) {
   return normal({axis.x, axis.y, axis.z, real});
 }
 
-/// The segments that meet at a vertex, each with the number of its end at this vertex.
+/// The segments that meet at a vertex: number of the segment, number of its end at this vertex.
 using Ends = std::vector<std::pair<int, int>>;
 
 /// Finds the neighbours of segments. Computes their rest frames by walks along the rods, which

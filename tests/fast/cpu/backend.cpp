@@ -11,7 +11,6 @@ using namespace ogc::fast;
 
 namespace {
 
-/// Counts the ranges and the items of a loop.
 struct Counted {
   std::atomic<int>*parts, *items;
 };

@@ -67,7 +67,6 @@ void drive(Scene& scene, std::size_t body, const Vec3& velocity, Is is) {
   scene.motions.push_back(motion);
 }
 
-/// Returns whether x is at the height of the lowest vertices.
 bool is_at_ground(const Vec3& x) { return x.y < 1e-6; }
 
 /// Returns two blocks. The first is held at its lowest vertices. The second is shifted sideways and begins 4 mm inside
@@ -88,7 +87,6 @@ compare::VolumePenetration penetration(const Scene& scene, const compare::Snapsh
   return compare::VolumeAuditor(scene).audit(compare::to_double(state.positions));
 }
 
-/// Returns the mean of a block's vertices.
 Vec3 mean(const std::vector<compare::Vec3f>& of, std::size_t block) {
   Vec3 sum;
   for (std::size_t v = block * in_block; v < (block + 1) * in_block; ++v)
@@ -182,7 +180,7 @@ TEST_CASE("a prescribed surface pushes a free volume along", "[property]") {
     CHECK(row.status == compare::step_clean);
     CHECK(row.largest_lag == 0);
   }
-  // the sheet has moved 6 cm; it began 1 cm minus r away
+  // The sheet began 1 cm above the block and has moved down by 6 cm.
   const compare::Snapshot end = simulation->snapshot();
   float highest = -1;
   for (std::size_t v = 81; v < end.positions.size(); ++v) highest = std::max(highest, end.positions[v].y);
@@ -237,7 +235,7 @@ TEST_CASE("free volumes: the same bits again, on any number of threads and acros
 }
 
 TEST_CASE("a body whose rest shape lies in itself is pushed out of itself", "[property]") {
-  // a U: a block of 27 cells without the upper two cells in the middle; one arm leans into the other
+  // A block in the shape of a U: 27 cells without the six upper cells in the middle. One arm leans into the other arm.
   compare::Mesh mesh = tests::block_mesh(side, spacing);
   std::vector<compare::Tetrahedron> kept;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {

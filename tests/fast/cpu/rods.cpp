@@ -73,8 +73,8 @@ double spin(const compare::Scene& scene, const compare::Snapshot& state) {
   return sum;
 }
 
-/// Returns the share of the angular momentum that a straight rod keeps: 100 segments of 1 mm that turn at 10 rad/s for
-/// 0.2 s.
+/// Returns the share of the angular momentum that a straight rod keeps: 100 segments of 1 mm that rotate at 10 rad/s
+/// for 0.2 s.
 double kept_spin(compare::RodStart frames) {
   compare::Scene scene = rod_scene(straight(100, 1e-3));
   for (std::size_t v = 0; v < scene.velocities.size(); ++v) {
@@ -121,7 +121,7 @@ TEST_CASE("a bent and twisted rod at rest stays, wherever it is turned to, and d
   const double angle = 0.7;
   for (Vec3& x : scene.mesh.positions)
     x = {std::cos(angle) * x.x - std::sin(angle) * x.z, x.y, std::sin(angle) * x.x + std::cos(angle) * x.z};
-  // Turns the orientations at rest like the rod.
+  // Rotates the orientations at rest like the positions.
   const RestState rest = rest_of(scene);
   const Quat turn{0, static_cast<float>(-std::sin(angle / 2)), 0, static_cast<float>(std::cos(angle / 2))};
   for (const Quat& q : rest.rods.orientations) scene.orientations.push_back(quaternion(unit(turn * q)));

@@ -56,8 +56,7 @@ TEST_CASE(
 TEST_CASE("a point far above a corner keeps its foot on the side where it is, though all distances agree", "[unit]") {
   const float d = 0.0127f;
   for (const float off : {1e-6f, 1e-5f, 1e-4f}) {
-    // The foot of the perpendicular lies on the side from the third corner to the first, at the distance `off` from the
-    // third.
+    // The point projects onto the edge from the third corner to the first, at the distance `off` from the third corner.
     const Vec x[4] = {{off, 0, d}, {0.01f, 0, 0}, {-0.005f, 0.01f, 0}, {0, 0, 0}};
     const ContactWeights w = contact_weights(ContactKind::point_triangle, x);
     CHECK(-w.slot[1] == Approx(off / 0.01).margin(2 * u));  // the complement of a parameter near 1

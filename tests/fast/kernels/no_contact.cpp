@@ -53,7 +53,7 @@ float rung(std::mt19937& random) {
 }
 
 /// Returns rods of unit steps on a lattice, with or without a sheet. Each step is changed by ±2⁻ᵏ or 0, so that the
-/// rods have nearly or exactly right angles, half turns, parallel and straight parts, and ends above ends.
+/// rods have nearly or exactly right angles, reversals, parallel and straight parts, and ends above ends.
 tests::TestMesh rods(std::mt19937& random) {
   tests::TestMesh mesh;
   const auto between = [&](int low, int high) {

@@ -326,7 +326,7 @@ TEST_CASE("plane: what goes along its half-space gets to the end, whichever coor
     const double height = static_cast<double>(along(n, x));
     const HalfSpace beside{n, height + 0x1p-49 * std::abs(height)};
     const Vec target = x + way;
-    // Skips moves that rounding turns out of the half-space, about half of all.
+    // Skips moves that leave the half-space by rounding, about half of all.
     if (!is_behind(beside, x) || along(n, target) > along(n, x) || !(std::sqrt(dot(way, way)) > 5e-3f)) continue;
     const FeasibleRegion region{{x, 4e-3f}, &beside, 1};
     const Truncated kept = held_on_path(region, x, target);

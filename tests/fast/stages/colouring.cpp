@@ -51,7 +51,8 @@ void require_valid(const RestState& rest, const Colouring& colouring) {
   }
 }
 
-// Returns a chain of hubs, each with a fan of random size. Edges are non-manifold where fans share triangles' edges.
+// Returns a mesh of 300 vertices. Each vertex adds up to two random triangles. An edge may have more than two
+// triangles.
 compare::Scene random_mesh(unsigned seed) {
   std::mt19937 random(seed);
   compare::Scene scene = test::empty_scene();

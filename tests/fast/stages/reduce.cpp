@@ -19,7 +19,6 @@ struct TwoKinds {
   }
 };
 
-/// Counts how often it is called for each index.
 struct Count {
   std::vector<int>* calls;
   void operator()(int i) const { ++(*calls)[static_cast<std::size_t>(i)]; }

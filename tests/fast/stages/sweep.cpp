@@ -295,7 +295,6 @@ int other_bits(const Fixture& f, const SweepView& view, const PackKernels& kerne
   return count;
 }
 
-/// Returns the kernels that this machine can run.
 std::vector<const PackKernels*> all_kernels() {
 #ifdef __x86_64__
   if (has_avx2()) return {&pack_kernels_baseline, &pack_kernels_avx2};

@@ -164,7 +164,6 @@ class Onlooker : public StepTrace<WatchedBackend> {
   }
 };
 
-/// Returns a sheet thrown at a fixed one.
 compare::Scene thrown_sheet() {
   compare::Scene scene = empty_scene();
   compare::Material material;
@@ -179,7 +178,6 @@ compare::Scene thrown_sheet() {
   return scene;
 }
 
-/// Returns a sheet without any force.
 compare::Scene still_sheet() {
   compare::Scene scene = empty_scene();
   scene.gravity = {};

@@ -64,7 +64,7 @@ TEST_CASE("the force of a segment is the slope of its energy, its block the slop
     for (std::size_t end = 0; end < 2; ++end) {
       ForceAndBlock sum;
       add_rod(segment, 0.25f, static_cast<int>(end), narrow(x[1] - x[0]), q, direction, sum);
-      // For a quadratic form the only error of central differences is rounding: 2⁻⁵³ of E over the step.
+      // The energy is quadratic, so central differences err only by rounding: 2⁻⁵³ of the energy, divided by the step.
       const D3 slope = force_by_differences(energy, x, end, 1e-3);
       REQUIRE(length(wide(sum.force) - slope) <= 3 * 100 * u * (1 + length(x[1] - x[0]) + length(before)));
       REQUIRE(sum.block.xx == Approx(3 * 1.25 / 0.5));
@@ -106,8 +106,8 @@ TEST_CASE("where nothing decides the old orientation does", "[unit]") {
   CHECK(size(stays - old) == 0);
   const Quat along = rod_orientation(1, {0, 2, 0}, axis, none, old);
   CHECK(length(director(along) - Vec{0, 1, 0}) <= 16 * u);
-  // Here c = e₃, the direction that q turns towards D, is opposite to D. All minimisers are then orthogonal to the old
-  // orientation, the quaternion 1, and the minimiser nearest to the quaternion i is returned.
+  // Here c = e₃, the direction that q rotates towards D, is opposite to D. All minimisers are then orthogonal to the
+  // old orientation, the quaternion 1, and the minimiser nearest to the quaternion i is returned.
   const Quat reversed = rod_orientation(1, {0, 0, -1}, axis, none, {0, 0, 0, 1});
   CHECK(length(director(reversed) - Vec{0, 0, -1}) <= 16 * u);
   // With damping, c may be opposite to D along x. Then all minimisers are orthogonal to i, too, and the minimiser
