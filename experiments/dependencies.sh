@@ -72,9 +72,9 @@ find_python() {
   python=/usr/bin/python3
 }
 
-seconds_between_lines=30  # of a build without a terminal
+seconds_between_lines=30  # between lines of progress if standard error is no terminal
 
-# Returns whether a build folder was configured with or without CUDA, as OGC_CUDA requires; true if OGC_CUDA is empty.
+# Returns whether the build folder's setting of CUDA equals OGC_CUDA; true if OGC_CUDA is empty.
 has_cuda_as_asked() {
   [ -z "${OGC_CUDA:-}" ] || grep -q "^OGC_CUDA:[A-Z]*=$OGC_CUDA\$" "$1/CMakeCache.txt"
 }

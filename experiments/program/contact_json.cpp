@@ -128,7 +128,7 @@ Json sets_by_primitive(const ContactReport& report) {
   return json;
 }
 
-/// Returns the place of each edge in the mesh, by the number of its triangles.
+/// Returns "loose", "boundary", "inner" or "non_manifold" for each edge: it has 0, 1, 2 or more triangles.
 std::vector<std::string> edge_places(const Topology& topology) {
   constexpr std::array<const char*, 3> places{"loose", "boundary", "inner"};
   std::vector<std::string> all;
@@ -139,7 +139,7 @@ std::vector<std::string> edge_places(const Topology& topology) {
   return all;
 }
 
-/// Returns the place of each vertex in the mesh: the first entry of the schema's list that applies. In a valid mesh
+/// Returns one of the same words for each vertex, from the words of its edges (contacts.schema.json). In a valid mesh
 /// each vertex has an edge.
 std::vector<std::string> vertex_places(const Topology& topology) {
   const std::vector<std::string> edges = edge_places(topology);

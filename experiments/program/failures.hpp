@@ -49,7 +49,8 @@ class Failures {
 
  private:
   compare::TestCase case_again(const compare::CaseName& name);
-  /// Returns the shrunk case and its message with the new sizes. Returns both unchanged if no time is left.
+  /// Returns the shrunk case, and the message with the numbers of primitives before and after. Returns both unchanged
+  /// if no time is left.
   std::pair<compare::TestCase, std::string> small(const compare::TestCase& test, const std::string& message);
   void explain(const compare::TestCase& test, const std::filesystem::path& file);
 

@@ -44,8 +44,8 @@ void add_commands(CLI::App& app, CommandContext& context) {
 }
 
 /// Makes the program parse its command line and run nothing, as the environment variable OGC_PARSE_ONLY requests. Tests
-/// use it to check the commands in documents. The program ends inside the parser, where the callbacks of commands would
-/// run, because these callbacks own the variables for the options.
+/// use it to check the commands in documents. The program ends before the callbacks of commands run. It ends inside the
+/// parser, because these callbacks own the variables for the options.
 void run_nothing(CLI::App& app) {
   experiments::log_line("ogc: OGC_PARSE_ONLY is set: the command line is parsed, and nothing is run");
   app.parse_complete_callback([] { throw CLI::Success(); });
@@ -89,7 +89,7 @@ int failure(const std::string& what, int status) {
   return status;
 }
 
-/// Reports a path that the system refuses, from any part of the program.
+/// Reports a path that the system refuses.
 int path_failure(const std::filesystem::filesystem_error& error) {
   try {
     compare::refuse_path(error.path1(), "use the path", error.code());

@@ -10,7 +10,7 @@ namespace ogc::experiments {
 
 namespace {
 
-/// More threads than machines have, but few enough to be created.
+/// Largest number of threads: more than machines have, but few enough to be created.
 constexpr std::uint64_t most_threads = 1024;
 
 template <class Number>

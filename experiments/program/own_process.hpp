@@ -9,9 +9,10 @@
 
 namespace ogc::experiments {
 
-/// Starts this program with these words and discards its standard output. Its standard error goes to the file `log`,
-/// and the terminal's interrupts do not reach it. If `log` is empty, standard error is ours, and interrupts reach it.
-/// The process is killed if this process ends first. Throws std::runtime_error.
+/// Starts this program with these words and discards its standard output. If `log` is not empty, standard error goes to
+/// this file, and the terminal's interrupts do not reach the new process. If `log` is empty, standard error is ours,
+/// and interrupts reach the new process. The new process is killed if this process ends first. Throws
+/// std::runtime_error.
 pid_t start_self(std::vector<std::string> words, const std::filesystem::path& log = {});
 
 /// Waits for the process and returns its exit status as a shell reports it.

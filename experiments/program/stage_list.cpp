@@ -36,7 +36,7 @@ std::string names_of(const Rows& rows) {
 }
 
 /// Launch shapes that imitate other devices: small blocks; one or seven multiprocessors, so that each block computes
-/// several teams in turn; a thousand multiprocessors, which get SpreadTeams (fast/cuda/team.cuh).
+/// several teams one after the other; a thousand multiprocessors, which get SpreadTeams (fast/cuda/team.cuh).
 constexpr std::array<fast::LaunchShape, 4> other_shapes{{{32, 0}, {96, 7}, {128, 1}, {64, 1000}}};
 
 std::string text_of(const fast::LaunchShape& shape) {
@@ -46,7 +46,7 @@ std::string text_of(const fast::LaunchShape& shape) {
              : blocks;
 }
 
-/// Returns a line of the report for each result that changes with other launches.
+/// Returns a line of the report for each launch shape and result that has other bits.
 std::vector<std::string> changed_by_shape(const compare::DeterminismReport& report, std::uint64_t cases,
                                           std::uint64_t seed, const compare::Authority& authority) {
   std::vector<std::string> changed;

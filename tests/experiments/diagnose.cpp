@@ -65,8 +65,8 @@ std::size_t failing_of_many(Stage stage, const Contestant& contestant, const Aut
   return judge_stage(stage, contestant, authority, options).tally.mismatched;
 }
 
-/// Checks on a few cases that each wrong form of the stages of this kind is recognised and fails. Returns the number of
-/// forms.
+/// Checks on a few cases that each wrong form is recognised and fails, for all stages with this CaseKind. Returns the
+/// number of forms.
 std::size_t check_forms(CaseKind kind) {
   const Authority authority = reference::authority();
   std::size_t forms = 0;

@@ -71,7 +71,7 @@ TEST_CASE("keys that begin away from their body get a word with the distance and
   for (auto p = keys.positions.begin(); p != keys.positions.begin() + vertices; ++p) p->y -= 0.25f;
   REQUIRE(warnings(scene).size() == 1);
   CHECK(contains(warnings(scene)[0], {"motion 'rise'", "0.25 m away from body 'plate'", "vertex 144"}));
-  // The start lies a third of the way from the key at −0.25 s to the key at 0.5 s.
+  // The start, t = 0, divides the time between the keys at −0.25 s and 0.5 s in the ratio 1 : 2.
   keys.times = {-0.25, 0.5};
   CHECK(warnings(scene).empty());
   keys.times = {-0.25, 0.25};

@@ -25,7 +25,7 @@ Quaternion single(const std::array<double, 4>& q) {
   return {static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2]), static_cast<float>(q[3])};
 }
 
-/// Returns force and block of each case, rounded; if several answers are accepted, those of the first.
+/// Returns force and block of each case, rounded. If several answers are accepted, takes the first.
 ForceOut rounded(const ForceTruth& truth) {
   ForceOut out;
   for (const auto& accepted : truth.accepted) {

@@ -8,8 +8,8 @@ using namespace compare;
 
 namespace {
 
-/// For contacts between two points, replaces the force by one along the whole relative motion: the normal part is not
-/// removed.
+/// Replaces the force of contacts between two points by a force along the whole relative motion, without removing the
+/// motion's normal part.
 void keep_normal_motion(const FrictionForceCase& c, Vec3f& force, const std::array<float, 6>& block) {
   if (c.contact.sides != ContactSides::point_point) return;
   const float strength = (block[0] + block[3] + block[5]) / 2, sign = c.contact.own == 0 ? -strength : strength;

@@ -128,8 +128,8 @@ std::vector<Fault> division_faults() {
   };
 }
 
-/// Imitates a limit of the number of planes at each vertex: removes the last plane of a vertex that has the most
-/// planes, but keeps the planes of the same pair at other vertices.
+/// Imitates a limit of the number of planes at each vertex: removes the last plane of each vertex that has
+/// planes_of_vertex planes. The planes of the same pair at other vertices stay.
 void asymmetric_cap(const PlaneIn&, Rows& rows) {
   for (auto& row : rows)
     if (row.size() == planes_of_vertex) row.pop_back();
@@ -145,7 +145,8 @@ std::vector<Fault> plane_by_plane() {
                   [](const PlaneIn&, Index, VertexPlane& plane) { plane.offset = static_cast<float>(plane.offset); }),
       plane_fault("one offset in the middle of a pair, which both sides may reach",
                   [](const PlaneIn& in, Index v, VertexPlane& plane) {
-                    // Each side may use γ_p g of a gap g. The fault allows g/2, up to the middle.
+                    // The vertices of each side may approach by γ_p g, where g is the pair's gap. The fault allows g/2,
+                    // up to the middle.
                     const auto& x = in.positions[static_cast<std::size_t>(v)];
                     const Vec3f& n = plane.normal;
                     const double room = plane.offset - (double{n.x} * x.x + double{n.y} * x.y + double{n.z} * x.z);

@@ -149,7 +149,8 @@ std::vector<OverlapEnd> ends_of_overlap(const DetectIn& in, const Edge& e, const
 
 bool is_loose(const DetectIn& in, Index e) { return in.topology->edge_triangles[e].empty(); }
 
-/// Applies the block test to loose edges, too: strands side by side with a negligible tilt lose nearly all contacts.
+/// Applies the block test to loose edges, too. Strands side by side with a negligible tilt then lose nearly all
+/// contacts.
 void strands_tested(const DetectIn& in, const Authority& authority, DetectEdgeEdgeOut& out) {
   std::erase_if(out.contacts, [&](const EdgeEdgeContact& c) {
     if (c.first.kind != FaceKind::edge || !is_loose(in, c.first_edge) || !is_loose(in, c.second_edge)) return false;

@@ -129,8 +129,8 @@ class Pair {
 
   double start_energy() const { return start_energy_; }  ///< energy at xᵗ [J]
 
-  /// Returns the largest possible distance of two final states: 2 h²/m Σ ‖f‖ over both, plus the rounding of the stored
-  /// positions.
+  /// Returns the largest possible distance of two final states: 2 h²/m Σ ‖f‖, summed over the vertices of both states,
+  /// plus the rounding of the stored positions.
   double farthest_apart(const End& a, const End& b) const {
     double lightest = std::numeric_limits<double>::infinity(), largest = 0;
     const auto free = static_cast<double>(potential_.free_count());

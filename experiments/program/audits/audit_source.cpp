@@ -145,8 +145,8 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
-/// Adds the path, or the files that match it as a pattern. A shell may not expand patterns, or may refuse so many
-/// words.
+/// Adds the path if it exists. Otherwise adds the files that match it as a pattern, because a shell may not expand
+/// patterns or may limit the number of words.
 void add_matching(const std::string& path, std::vector<fs::path>& files) {
   if (type_of(path) != fs::file_type::not_found || path.find_first_of("*?[") == std::string::npos) {
     files.emplace_back(path);

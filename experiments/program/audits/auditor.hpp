@@ -1,7 +1,7 @@
-// Judges the states of a run while it continues: exact intersections by the oracle, and the motion certificate against
-// exact bounds or planes of the reference (method.md §5.5, §5.6). If the simulation runs on a device, the audit runs
-// beside it on the CPU. If the simulation runs on the CPU, the two alternate, so that the audit does not disturb the
-// measured times of steps.
+// Judges the states of a run while the run continues. The oracle finds exact intersections. The certificate of each
+// motion is checked against exact bounds or planes of the reference (method.md §5.5, §5.6). If the simulation runs on a
+// device, the audit runs beside it on the CPU. If the simulation runs on the CPU, the two alternate, so that the audit
+// does not disturb the measured times of steps.
 #pragma once
 
 #include <condition_variable>
@@ -39,11 +39,11 @@ struct Verdict {
   std::int64_t step = 0;  ///< number of the state
   compare::AuditResult intersections;
   compare::MotionCertificate motion;        ///< certificate of the motion since the last detection
-  std::size_t unsafe_bounds = 0;            ///< vertices whose b_v is above the exact bound of X_prev
+  std::size_t unsafe_bounds = 0;            ///< number of vertices whose b_v exceeds the exact bound at X_prev
   compare::Index worst_vertex = -1;         ///< vertex with the largest ratio of b_v to its exact bound
   double worst_bound = 0, exact_bound = 0;  ///< b_v of worst_vertex, and its exact bound [m]
-  compare::PlaneGuarantee planes;           ///< guarantee of planes, which replaces the exact bounds
-  std::size_t broken_planes = 0;            ///< half-spaces that the state violates
+  compare::PlaneGuarantee planes;           ///< guarantee of planes; with planes it replaces the exact bounds
+  std::size_t broken_planes = 0;            ///< number of half-spaces that the state violates
   compare::VolumePenetration volumes;       ///< vertices and edges inside volumes; not part of the guarantee
   /// Returns whether the state keeps the guarantee.
   bool kept() const {

@@ -30,8 +30,8 @@ double to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   return length(minus(p, along(a, s, e)));
 }
 
-/// Returns the distance of two segments: between an end and a segment or, if both closest points lie inside, between
-/// the lines.
+/// Returns the distance of two segments. It is the least distance from an end point to the other segment or, if both
+/// closest points lie inside the segments, the distance of the lines.
 double of_segments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const double ends = std::min({to_segment(a, c, d), to_segment(b, c, d), to_segment(c, a, b), to_segment(d, a, b)});
   const Vec3 e = minus(b, a), f = minus(d, c), n = cross(e, f), r = minus(c, a);
@@ -51,9 +51,9 @@ double to_triangle(const Vec3& p, const std::array<Vec3, 3>& t) {
   return is_over ? std::min(nearest, std::abs(dot(minus(p, t[0]), n)) / length(n)) : nearest;
 }
 
-/// Returns the smallest motion of one vertex after which the edge no longer meets the triangle: an end of the edge
-/// moves back through the triangle, or the edge moves past a side. Vertices that edge and triangle share do not move.
-/// Double precision suffices, because its error of 1e-16 of the coordinates is below the digits of any text.
+/// Returns how far one vertex must move at least until the edge no longer meets the triangle. Either an end of the edge
+/// moves back through the triangle, or the edge passes an edge of the triangle. Vertices that edge and triangle share
+/// do not move. Double precision suffices, because its relative error of 1e-16 is below the digits of any text.
 double depth(const Intersection& pair, const compare::Topology& topology, std::span<const Vec3> positions) {
   if (pair.kind != compare::IntersectionKind::edge_triangle) return 0;
   const compare::Edge& edge = topology.edges[static_cast<std::size_t>(pair.first)];

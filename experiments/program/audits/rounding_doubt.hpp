@@ -13,7 +13,8 @@
 
 namespace ogc::experiments {
 
-/// √3: if each coordinate is off by at most half a unit, the distance of two points changes by at most this many units.
+/// √3: the largest change of the distance of two points, in units of the last printed digit. Rounding changes each
+/// coordinate by at most half a unit.
 inline constexpr double units_of_a_distance = 1.7320508075688773;
 
 /// Holds the results of an audit that the rounding of a file's coordinates may have caused.

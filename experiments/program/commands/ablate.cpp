@@ -199,7 +199,7 @@ std::string in_brackets(const Metric& metric) {
   return std::string(metric.name) + " [" + std::string(metric.unit) + "]";
 }
 
-/// Returns a table with one row for each run.
+/// Returns the table of runs with its head only; each run adds a row.
 std::vector<std::vector<std::string>> run_rows(const std::vector<Axis>& axes, bool has_seeds) {
   std::vector<std::string> names;
   for (const Axis& axis : axes) names.push_back(axis.key);
@@ -341,7 +341,7 @@ std::vector<std::string> words_again(const CLI::App& command, const std::vector<
   return words;
 }
 
-/// Returns the same command as text for a shell.
+/// Returns the words of words_again as a command line for a shell.
 std::string command_again(const CLI::App& command, const std::vector<std::string>& left_out) {
   std::string text = quoted(std::filesystem::read_symlink("/proc/self/exe").string());
   for (const std::string& word : words_again(command, left_out))
@@ -353,8 +353,8 @@ std::string counted_run(const std::string& name, std::size_t i, std::size_t coun
   return name + " (" + std::to_string(i + 1) + " of " + std::to_string(count) + ")";
 }
 
-/// Makes the missing runs of the grid in `folder`, each in a separate process. If a run fails there, it fails again or
-/// continues when the grid is tabulated.
+/// Makes the missing runs of the grid in `folder`, each in a separate process. A run that fails there is continued when
+/// the grid is tabulated, or fails again.
 void make_side_by_side(const AblateOptions& options, const std::vector<PlannedRun>& planned, const CLI::App& command,
                        const std::string& folder) {
   std::vector<OwnCommand> commands;

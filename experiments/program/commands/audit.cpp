@@ -200,7 +200,7 @@ Audits audit_all(AuditSource& source, const AuditOptions& options) {
   Progress progress(0, static_cast<std::int64_t>(source.size()), "frame");
   Reading reading(source);
   const auto judge = [&](const Handle& item) {
-    // after an interruption no state is begun, because a large state takes a minute
+    // After an interruption no further state is judged, because a large state takes a minute.
     if (!item->state || interrupted()) return item;
     source.judge(*item->state);
     item->judged = true;

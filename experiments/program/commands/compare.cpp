@@ -33,7 +33,8 @@ using compare::InputError;
 using compare::Stage;
 using compare::StageReport;
 
-// Mismatches printed for each generator, so that a generator that always fails does not hide the others.
+// Largest number of mismatches printed for each generator, so that a generator that always fails does not hide the
+// others.
 constexpr std::size_t printed_mismatches = 3;
 // Largest number of cases. At 10⁷ cases a second they would take more than a day.
 constexpr std::uint64_t most_cases = 1'000'000'000'000;
@@ -157,7 +158,6 @@ void write_report(const std::filesystem::path& folder, const std::vector<StageRe
   compare::write_bytes(folder / "report.html", compare::report_page(reports, judged + " against the reference"));
 }
 
-/// Lists the stages (--list).
 int list_stages(const CompareOptions& options) {
   print_result(options.markdown ? stage_list_markdown() : stage_list_text());
   return exit_success;
@@ -202,7 +202,7 @@ void print_reports(const std::vector<StageReport>& reports, const std::optional<
 int run_compare(CompareOptions options, const CommandContext& context) {
   if (options.list) return list_stages(options);
   if (!options.report.empty())
-    // created first, so that a wrong path is reported before the cases are judged
+    // The folder is created first, so that a wrong path is reported before the cases are judged.
     std::filesystem::create_directories(options.report);
   if (options.determinism) return judge_bits(options, context);
   const Judged judged = judged_of(options);

@@ -20,13 +20,12 @@ namespace ogc::experiments {
 
 namespace {
 
-/// Default of r_q in multiples of r: the ratio at which Settings caps it.
+/// Default of r_q in multiples of r: the default of `detection_radius_cap`.
 constexpr double default_query_ratio = 4;
-/// Limits of r [m], which are those of the setting, and the upper limit of r_q [m]. (The setting of r_q is in multiples
-/// of r.)
+/// Limits of r [m], equal to those of the setting `contact_radius`, and the upper limit of r_q [m].
 constexpr double least_radius = 0x1p-20, most_radius = 0x1p20, most_query_radius = 0x1p30;
-/// Default of r in edge lengths. The paper's cloth scenes lie between a fifth of an edge (twist) and a whole edge
-/// (large_radius_twist).
+/// Default of r in edge lengths. In the paper's cloth scenes, r lies between a fifth of an edge (twist) and a whole
+/// edge (large_radius_twist).
 constexpr double default_radius_ratio = 0.2;
 
 struct ContactsOptions {
@@ -38,7 +37,7 @@ struct ContactsOptions {
   bool schema = false, margins = true, squares = false;
 };
 
-/// Returns for each vertex and triangle, which the JSON numbers from 0, its number in the file.
+/// Returns the number in the file of each vertex and triangle. The JSON itself numbers them from 0.
 Json numbers_in_file(const MeshInput& input) {
   const compare::MeshSource& source = input.source;
   const auto listed = [&](const std::vector<compare::Index>& numbers, std::size_t count) {

@@ -23,7 +23,7 @@ std::string introduction(const RunRequest& request) {
          number(scene.settings.time_step) + " s; writes " + request.folder.string();
 }
 
-/// RunOptions that are allowed with --resume, because they change no bit.
+/// RunOptions that are allowed with --resume, because they change no bit of the results.
 constexpr std::array<std::string_view, 4> free_options{"--resume", "--threads", "--checkpoint", "--json"};
 
 ResumedRun resumed(const RunOptions& options, const std::string& folder, const CLI::App& command) {

@@ -12,7 +12,7 @@ struct Axis {
   std::vector<std::string> values;  ///< the values of --vary; empty if points are listed
 };
 
-/// One point of the grid: a value for each axis. An empty value keeps that of the scene.
+/// One point of the grid: a value for each axis. An empty value keeps the value of the scene.
 using Point = std::vector<std::string>;
 
 struct AblationGrid {

@@ -30,7 +30,7 @@ std::vector<double> values_of(const Rows& rows, const std::function<double(const
   return values;
 }
 
-/// Returns the median. Like the functions below, returns not-a-number if the values contain it.
+/// Returns the median. Like the functions below, returns not-a-number if one of the values is not-a-number.
 double median_of(const std::vector<double>& values) {
   return std::ranges::any_of(values, [](double value) { return std::isnan(value); }) ? nan : median(values);
 }

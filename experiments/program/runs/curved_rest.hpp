@@ -8,7 +8,7 @@
 namespace ogc::experiments {
 
 /// Largest rest angle of a hinge [degrees] at which a rest shape counts as flat. If a file rounds coordinates to 10⁻⁶
-/// m, a flat sheet whose triangles are 1 mm high gets angles of this size: 10⁻⁶ m over 10⁻³ m.
+/// m, a flat sheet whose triangles are 1 mm high gets angles of about this size: 10⁻⁶ m over 10⁻³ m.
 inline constexpr double flat_degrees = 0.1;
 
 /// Returns a warning about the least flat rest shape among bodies with `bending=isometric_quadratic` and a bending

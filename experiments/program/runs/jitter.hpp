@@ -1,5 +1,5 @@
-// Implements `ogc run --jitter`: starts a scene with random offsets that are smaller than every relevant length.
-// Results that runs with different seeds share are properties of the scene; their differences are chance.
+// Implements `ogc run --jitter`: starts a scene with random offsets that are smaller than every relevant length. What
+// runs with different seeds have in common is a property of the scene. Differences between them are chance.
 #pragma once
 
 #include <cstdint>

@@ -214,7 +214,7 @@ class MeasuredSimulation : public compare::Simulation {
   compare::Contestant contestant_;
   bool has_rows_;
   std::optional<StepRange> meetings_;
-  /// Notes name at most this many meetings, because a run without bounds may have thousands.
+  /// Largest number of meetings that notes name, because a run without bounds may have thousands of meetings.
   static constexpr std::size_t most_named = 10;
   std::size_t named_ = 0;  ///< number of meetings named so far
   std::optional<reference::ResidualMeter> meter_;

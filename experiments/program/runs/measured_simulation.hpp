@@ -35,17 +35,17 @@ struct Measured {
 ///
 /// The residual uses forces in double precision and contacts detected at the end of the step (method.md §6). Iteration
 /// rows and ledgers come from the trace of the contestant's own step (Contestant::step), which its simulation repeats
-/// bit by bit. The residual of such a row uses the contacts of the last detection. A trace that ends in another state
-/// than the step throws std::logic_error.
+/// bit by bit. The residual of an iteration row uses the contacts of the last detection. Throws std::logic_error if a
+/// trace ends in another state than the step.
 ///
-/// The times of rows begin with the time of the stages before the first event. Each detection then adds an equal share
-/// of the time of all detections, and each iteration an equal share of the time of all iterations. Without
+/// The times of iteration rows begin with the time of the stages before the first event. Each detection then adds an
+/// equal share of the time of all detections, and each iteration an equal share of the time of all iterations. Without
 /// SimulationOptions::profile the iterations share the whole time of the step.
 ///
 /// Meetings (compare/meetings.md) are counted from each X_prev to the next, and from the last X_prev to the end of the
 /// step. The states come from the simulation (compare::WayTeller) or from the trace. If a contestant has neither,
-/// meetings are counted from the begin of a step to its end. If the states are those of detections and the scene's
-/// bounds forbid meetings, the row's status becomes step_met, and its notes name pairs.
+/// meetings are counted from the begin of a step to its end. If the states come from detections and the scene's bounds
+/// forbid meetings, the row's status becomes step_met, and its notes name pairs.
 compare::Contestant measured(compare::Contestant contestant, const Measured& what);
 
 }  // namespace ogc::experiments

@@ -1,7 +1,7 @@
 // Continues an interrupted run (`ogc run --resume RUN`) with the bits of an uninterrupted one. The folder has all that
 // this needs: program and options in run.json, the scene with its settings in scene/, the state in checkpoint.h5.
-// Before anything is computed, everything that could change a bit is compared, the cheapest item first. A difference is
-// refused.
+// Before anything is computed, all data that could change a bit are compared with this program and device. A difference
+// is an error.
 #pragma once
 
 #include "experiments/program/runs/run_options.hpp"

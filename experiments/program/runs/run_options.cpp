@@ -32,7 +32,7 @@ std::string value_text(const compare::Settings& settings, const compare::Setting
 bool is_scene_file(const std::string& scene) { return scene.ends_with(".json"); }
 
 constexpr std::string_view data_key = "data=", contact_key = "body_contact=";
-/// one day
+/// One day.
 constexpr double most_checkpoint_seconds = 86400;
 
 void check_scene_options(const RunOptions& options, const std::string& data) {
@@ -94,7 +94,7 @@ void set(compare::Scene& scene, const std::string& key, const std::string& value
     compare::set_setting(scene.settings, key, value);
 }
 
-/// Sets the kind of contact. This precedes all settings, because it changes one of them.
+/// Sets body_contact. This precedes all settings, because it changes the setting detection_fraction.
 void apply_contact(compare::Scene& scene, const std::string& value) {
   const auto names = compare::choice_names<compare::BodyContact>;
   const auto found = std::ranges::find(names, value);

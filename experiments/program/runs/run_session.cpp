@@ -200,14 +200,15 @@ RunSummary RunSession::run() {
     try {
       writer_->give_up(summary_.status);
     } catch (const std::exception&) {
-      // The first error is the one to report. Finished frames are readable whatever run.json contains.
+      // The first error is reported. Finished frames are readable whatever run.json contains.
     }
     throw;
   }
   return summary_;
 }
 
-/// Returns the number of steps until the next frame, audit, end or pause. A pause changes no bit of the results.
+/// Returns the number of steps until the next frame, audit or end, at most pace_.steps(). The division into chunks
+/// changes no bit of the results.
 std::int64_t RunSession::chunk() const {
   const std::int64_t to_state = request_.audit == AuditMode::every ? 1 : frame_steps_ - step_ % frame_steps_;
   return std::min({to_state, settings_.steps - step_, pace_.steps()});

@@ -79,7 +79,7 @@ struct RunSummary {
   std::int64_t worst_step = 0;                 ///< step with the largest time
   /// largest number of contacts of both kinds in one step; contacts of each kind in the last step
   std::int64_t most_contacts = 0, last_vertex_facet_contacts = 0, last_edge_edge_contacts = 0;
-  /// broad phases, and the detections counted in StepMetrics
+  /// sums over the steps of StepMetrics::broad_phases, discrete_detections and continuous_detections
   std::int64_t detections = 0, discrete_detections = 0, continuous_detections = 0;
   std::int64_t guess_rounds = 0, iterations = 0, repeats = 0;
   double largest_share_cut = 0, largest_lag = 0, smallest_distance = 0;

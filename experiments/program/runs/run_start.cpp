@@ -87,7 +87,8 @@ void RunSession::tell_pairs() const {
            judge_->describe(listed));
 }
 
-/// Returns where a state's intersections are, and the file with them or the option that writes one.
+/// Returns in words where a state's intersections lie, and either the .vtp file that shows them or the option that
+/// writes it.
 std::string RunSession::show(const std::string& name, const Snapshot& state, const compare::AuditResult& result) const {
   const compare::Topology topology = build_topology(request_.scene);
   const std::vector<compare::Vec3> positions = compare::to_double(state.positions);

@@ -1,4 +1,5 @@
-// Suggests settings for a mesh. For each number a function solves a condition and rounds the solution to the safe side.
+// Suggests settings for a mesh. One function for each number solves an equation or inequality and rounds the solution
+// to the safe side.
 #include "experiments/program/runs/suggestion.hpp"
 
 #include <algorithm>
@@ -35,11 +36,11 @@ constexpr double most_excess = 0.01;
 /// Factor on the exponent of method.md §7.7. Measured rates are 0.9 to 1.2 times that exponent, because modes are not
 /// quite smooth, and a sweep goes colour by colour, not row by row (tests/experiments/program/runs/suggestion.cpp).
 constexpr double least_rate = 0.9;
-/// Sweeps that a resting stack needs in each step: for each layer `sweeps_a_layer_and_radius` · g h²/r, at most
-/// `most_sweeps_a_layer`. A step begins after all layers have fallen by g h², and each sweep passes the ground's
-/// support up. With 16 in place of the first number, stacks of 10 to 50 aligned sheets keep their gaps for g h² from
-/// r/64 to r/4; with 12 they are squeezed until they tremble. If a layer falls by r or more, contacts stop it at the
-/// start of the step, and 8 sweeps a layer suffice (tests/experiments/stacks.cpp).
+/// Number of sweeps in each step that a resting stack needs for each layer: `sweeps_a_layer_and_radius` · g h²/r, at
+/// most `most_sweeps_a_layer`. A step begins after all layers have fallen by g h², and each sweep transmits the
+/// ground's support upwards. With 16 in place of the first number, stacks of 10 to 50 aligned sheets keep their gaps
+/// for g h² from r/64 to r/4; with 12 they are squeezed until they tremble. If a layer falls by r or more, contacts
+/// stop it at the start of the step, and 8 sweeps a layer suffice (tests/experiments/stacks.cpp).
 constexpr double sweeps_a_layer_and_radius = 20, most_sweeps_a_layer = 8;
 
 struct Measures {
@@ -102,8 +103,8 @@ std::size_t surface_vertices(const compare::Topology& topology) {
   return count;
 }
 
-/// Returns Σ size ‖∇N‖² over the corners of a simplex. ‖∇N‖ = G/(dimension · size), where G is the size of the face
-/// opposite to the corner.
+/// Returns Σ size ‖∇N‖² over the linear shape functions N of a simplex. ‖∇N‖ = face/(dimension · size), where `face` is
+/// the size of the face opposite to the corner.
 template <std::size_t n>
 double gradients(double size, const std::array<double, n>& opposite) {
   constexpr double dimension = n - 1;
@@ -112,9 +113,9 @@ double gradients(double size, const std::array<double, n>& opposite) {
   return sum;
 }
 
-/// Returns q = Σ size ‖∇N‖² (μ + (λ + μ)/dimension) divided by the mass [1/s²]. This is the stiffness of a vertex with
-/// fixed neighbours over its mass, averaged over directions. Stiffness and mass are summed over all vertices before the
-/// division, because sweeps average a smooth mode in this way.
+/// Returns the stiffness of a vertex with fixed neighbours over its mass, averaged over directions [1/s²]: q = Σ size
+/// ‖∇N‖² (μ + (λ + μ)/dimension) / mass, with the Lamé constants μ and λ. Stiffness and mass are summed over all
+/// vertices before the division, because sweeps average a smooth mode in this way.
 double stiffness_by_mass(const compare::Mesh& mesh, const compare::Material& material) {
   const auto at = [&](compare::Index v) { return mesh.positions[static_cast<std::size_t>(v)]; };
   const auto over = [](double mu, double lambda, double dimension) { return mu + (lambda + mu) / dimension; };
@@ -132,8 +133,8 @@ double stiffness_by_mass(const compare::Mesh& mesh, const compare::Material& mat
   return over(material.lame_mu, material.lame_lambda, 2) * sum / mass_of(mesh, material);
 }
 
-/// Returns ω² of a strip with one end held, whose length L is the mesh's largest extent along an axis: ω = π/(2L)
-/// √(E/ρ). E is Young's modulus in plane stress, or in space for a solid.
+/// Returns ω² of the slowest stretch of a strip with one fixed end [1/s²]: ω = π/(2L) √(E/ρ). L is the mesh's largest
+/// extent along an axis. E is Young's modulus, for cloth in plane stress.
 double slowest_stretch(const compare::Mesh& mesh, const compare::Material& material) {
   Vec3 low = mesh.positions[0], high = low;
   for (const Vec3& p : mesh.positions) {
@@ -232,7 +233,6 @@ SuggestedNumber stiffness_of(const Measures& mesh, double contact_radius) {
                                            " m/s, the end of the fall, is stopped within half of r: k_c (r/2)² ≥ m v²"};
 }
 
-/// Returns the number of sweeps that the layers require.
 double layer_sweeps(const Measures& mesh, double contact_radius, double step) {
   const double fallen = gravity * step * step / contact_radius;
   return mesh.layers * std::min(sweeps_a_layer_and_radius * fallen, most_sweeps_a_layer);

@@ -39,7 +39,7 @@ TEST_CASE("laws' elastic energy: a stretched triangle, a bent hinge, both by han
   const double s = 1.2, strain = (s * s - 1) / 2;
   x[3] = {s, 0, 0};
   CHECK(elastic(scene, x, none).energy == Approx(4 * strain * strain / 2));
-  // The second triangle turns by θ about the edge. Then E = c θ²/2 and dE/dθ = c θ, with c = 3 k_b · 1/(1/2 + 1/2)
+  // The second triangle rotates by θ about the edge. Then E = c θ²/2 and dE/dθ = c θ, with c = 3 k_b · 1/(1/2 + 1/2)
   // (method.md §4.7).
   const double angle = 0.7;
   x[3] = {std::cos(angle), std::sin(angle), 0};

@@ -49,7 +49,8 @@ std::vector<Intersection> all_pairs(const Topology& topology, const std::vector<
     test(Kind::edge_triangle, static_cast<Index>(e), topology.edges[e]);
   for (Index v = 0; v < topology.vertex_count; ++v)
     if (topology.vertex_edges[static_cast<std::size_t>(v)].size() > 0) test(Kind::vertex_triangle, v, {v, v});
-  // Adds intersections of an edge with the side of a triangle opposite to their only common vertex.
+  // Adds intersections of an edge and a triangle with one common vertex, if the edge meets the opposite edge of the
+  // triangle.
   std::vector<Intersection> sides;
   for (std::size_t e = 0; e < topology.edges.size(); ++e)
     for (const Triangle& t : topology.triangles) {
@@ -149,7 +150,7 @@ TEST_CASE("triangles that are folded onto each other along an edge are listed by
   const Topology topology = build_topology(4, std::array{Triangle{0, 1, 2}, Triangle{1, 0, 3}});
   const auto edge = [&](Index a, Index b) { return find_edge(topology, a, b); };
   // Vertex 2 lies on triangle 1, which does not contain it, and vertex 3 lies on triangle 0. At this point, (0, 1, 0),
-  // sides of both triangles meet.
+  // edges of both triangles meet.
   CHECK(audit(topology, folded).intersections == std::vector{Intersection{Kind::vertex_triangle, 2, 1},
                                                              Intersection{Kind::vertex_triangle, 3, 0},
                                                              Intersection{Kind::edge_edge, edge(0, 2), edge(1, 3)},

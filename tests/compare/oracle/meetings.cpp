@@ -104,7 +104,7 @@ TEST_CASE("meetings: a state without intersections and a motion without meetings
   int clean = 0, passed = 0;
   for (unsigned seed = 100; seed < 400; ++seed) {
     Heap heap(seed, 0.3);
-    for (std::size_t v = 0; v < heap.from.size(); ++v) {  // each face is in its own slice, apart from its neighbours
+    for (std::size_t v = 0; v < heap.from.size(); ++v) {  // every four vertices have their own range of z
       heap.from[v].z = coarse(heap.from[v].z * 0.02 + 0.1 * double(v / 4));
       heap.to[v].z = coarse(heap.from[v].z + (heap.to[v].x - heap.from[v].x) * (seed % 2 == 0 ? 0.1 : 1));
     }

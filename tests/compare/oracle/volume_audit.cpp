@@ -58,7 +58,7 @@ TEST_CASE("a vertex on the surface is outside, whichever face, edge or corner it
 }
 
 TEST_CASE("a ray through edges and corners counts as one beside them", "[unit]") {
-  // Along +x the ray hits the diagonal of the far face, or corners of a second cube.
+  // The oracle's ray from the vertex along +x hits the diagonal of the far face, or corners of a second cube.
   for (const Vec3& x : {Vec3{0.5, 0.5, 0.5}, {0.25, 0.25, 0.75}, {0.5, 0.75, 0.25}}) {
     CHECK(audited(scene_of({{x, {0, -5, 5}, {0, -5, 6}}}, {cube({})})).vertices_inside == 1);
     CHECK(audited(scene_of({{x, {0, -5, 5}, {0, -5, 6}}}, {cube({3, 0.5, 0.5}), cube({})})).vertices_inside == 1);
@@ -135,8 +135,8 @@ Scene free_cubes(double back, bool apart) {
 TEST_CASE("vertices of free volumes inside each other, and inside their own body, are counted", "[unit]") {
   for (const bool apart : {true, false}) {
     const VolumePenetration found = audited(free_cubes(0.125, apart));
-    // Inside are (0.875, 0.25, 0.25) of the second cube and (1, 1, 1) of the first. Their distances from x = 1 and x =
-    // 0.875 are 0.125.
+    // Vertex (0.875, 0.25, 0.25) of the second cube and vertex (1, 1, 1) of the first are inside. Their distances from
+    // x = 1 and x = 0.875 are 0.125.
     CHECK(found.vertices_inside == 2);
     CHECK(found.deepest == 0.125);
     CHECK(found.edges_meeting > 0);

@@ -27,7 +27,7 @@ TEST_CASE("coordinates with millimetres come back to their digits through single
           "[property]") {
   std::mt19937_64 random(13);
   std::vector<Vec3> positions;
-  const auto draw = [&](double centre) {  // rounds to three digits, within 50 m
+  const auto draw = [&](double centre) {  // returns multiples of 0.001 within 50 m of the centre
     return std::round(1000 * centre + std::uniform_int_distribution<int>(-50000, 50000)(random)) / 1000;
   };
   for (int i = 0; i < 2000; ++i) positions.push_back({draw(512345), draw(150), draw(-5403210)});

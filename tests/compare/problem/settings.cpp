@@ -117,7 +117,7 @@ TEST_CASE("a name that a setting had before is refused with the one that it has 
   for (const ogc::tests::Renamed& setting : ogc::tests::renamed_settings) {
     Settings settings;
     CHECK_THROWS_WITH(set_setting(settings, setting.before, "1"), Equals(setting.refusal()));
-    // body_contact is a property of bodies
+    // body_contact is a property of bodies, not a setting.
     if (setting.now != "body_contact") CHECK_NOTHROW(get_setting(settings, setting.now));
   }
 }

@@ -57,7 +57,7 @@ TEST_CASE("orientation is exact: it tells one unit in the last place from none",
   const Vec3 a{1, 0, 0}, b{0, 1, 0}, c{0, 0, 1};
   CHECK(orientation({}, a, b, c) == 1);
   CHECK(orientation({}, b, a, c) == -1);
-  // The points lie in the plane x + y + z = 3·2²⁰, whose terms do not cancel in rounded arithmetic.
+  // The points lie in the plane x + y + z = 3·2²⁰. The terms of their determinant do not cancel in rounded arithmetic.
   const double big = 0x1p20, small = 0x1p-3;
   const Vec3 p{big, big, big}, q{big + 1, big - small, big + small - 1}, r{big - small, big + 2, big + small - 2};
   Vec3 s{big + 3, big - 7, big + 4};

@@ -1,5 +1,5 @@
-// Declarations of the plug-in that offers the fast path's kernels: the contestant that answers, and the fault that the
-// environment variable OGC_BROKEN names.
+// Declares the contestant and the fault of the plug-in that offers the fast path's kernels. The environment variable
+// OGC_BROKEN names the fault.
 #pragma once
 
 #include <cstdlib>

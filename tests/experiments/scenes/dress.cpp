@@ -122,7 +122,7 @@ TEST_CASE("dress: panels are cut so that only straps are strained at the start",
     double& largest = body.name.starts_with("strap") ? straps : others;
     largest = std::max(largest, largest_edge_strain(scene, body));
   }
-  CHECK(others < 3e-3);  // chords replace arcs of 1/120 of a turn
+  CHECK(others < 3e-3);  // chords replace arcs of 3°
   CHECK(straps < 0.023);
 }
 

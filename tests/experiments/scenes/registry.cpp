@@ -152,13 +152,13 @@ TEST_CASE("twist turns its two end columns against each other, a relative turn i
     CHECK(motion.vertices.size() == 100);
     for (const Index v : motion.vertices) CHECK(std::abs(scene.mesh.positions[static_cast<std::size_t>(v)].x) == 0.5);
   }
-  // After 2 s both columns have rotated by a quarter turn in opposite directions. A vertex at z = −0.5 has moved to y =
-  // 0.5 in one column and to y = −0.5 in the other.
+  // After 2 s both columns have rotated by 90° in opposite directions. A vertex at z = −0.5 has moved to y = 0.5 in one
+  // column and to y = −0.5 in the other.
   const Vec3f left = at_vertex(scene, scene.motions[0], 0, 2), right = at_vertex(scene, scene.motions[1], 0, 2);
   CHECK(left.y == Approx(0.5));
   CHECK(right.y == Approx(-0.5));
   CHECK(left.x == -0.5f);
-  // After 4 s both have rotated by half a turn, in opposite directions, to the same place.
+  // After 4 s both have rotated by 180°, in opposite directions, to the same position.
   CHECK(at_vertex(scene, scene.motions[0], 0, 4).z == Approx(0.5));
   CHECK(at_vertex(scene, scene.motions[1], 0, 4).z == Approx(0.5));
 }
@@ -181,7 +181,7 @@ TEST_CASE("mat_twist has the size of Fig. 19, and all of its vertices are on the
     for (const Index v : motion.vertices) CHECK(std::abs(scene.mesh.positions[static_cast<std::size_t>(v)].x) == 0.5);
   }
   CHECK(scene.motions[0].angular_velocity == -scene.motions[1].angular_velocity);
-  // After 1 s the ends have rotated by a quarter turn in opposite directions.
+  // After 1 s the ends have rotated by 90° in opposite directions.
   CHECK(at_vertex(scene, scene.motions[0], 0, 1).y == Approx(0.5).epsilon(1e-6));
   CHECK(at_vertex(scene, scene.motions[1], 0, 1).y == Approx(-0.5).epsilon(1e-6));
 }
@@ -192,7 +192,7 @@ TEST_CASE("large_radius_twist has the paper's numbers, and a radius of one edge 
   CHECK(scene.bodies[0].triangle_count == 79202);
   CHECK(scene.settings.contact_radius == static_cast<double>(5e-3f));
   CHECK(get_setting(scene.settings, "ipc_distance") == scene.settings.contact_radius);
-  // A relative half turn: the handles rotate by a quarter turn each, in opposite directions.
+  // The handles rotate by 90° each, in opposite directions.
   const double end = scene.settings.time_step * static_cast<double>(scene.settings.steps);
   CHECK(std::abs(scene.motions[0].angular_velocity - scene.motions[1].angular_velocity) * end ==
         Approx(std::numbers::pi));

@@ -116,7 +116,7 @@ TEST_CASE("arrays are read by the names that people give them", "[unit]") {
                                      {name + ".npy", x}});
       check_frames(*npz_sequence(written(scratch / "named.npz", bytes), nullptr));
     }
-  // SMPL's file contains the rest shape among other arrays.
+  // The file of SMPL, a model of bodies, contains the rest shape among other arrays.
   const std::string smpl = zip({{"J_regressor.npy", one}, {"v_template.npy", one}, {"f.npy", f}});
   check_frames(*npz_sequence(written(scratch / "smpl.npz", smpl), nullptr), 1);
 }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int points = 12;
 
-/// Returns coordinate k of point i, at most 3.6 in size.
+/// Returns coordinate k of point i, at most 3.6 in modulus.
 double coordinate(int i, int k) { return 3.6 * std::sin(1 + 3.0 * i + k); }
 
 std::string text(const char* format, double x) {

@@ -115,7 +115,7 @@ TEST_CASE("glTF is read with its nodes, in one file, beside its buffer and in ba
   for (const char* name : {"beside.gltf", "whole.glb", "text.gltf"}) {
     const Mesh mesh = read_mesh(scratch / name);
     CHECK(mesh.triangles == two_triangles);
-    // The node turns by 90° about z, doubles x, then moves by 3 along z.
+    // The nodes rotate the square by 90° about z, double its y, then move it by 3 along z.
     CHECK(mesh.positions == std::vector<Vec3>{{0, 0, 3}, {0, 2, 3}, {-1, 2, 3}, {-1, 0, 3}});
   }
   const std::string strip = replaced(replaced(square_gltf(), "\"indices\":1,", "\"mode\":5,"), "\"scene\":0,", "");

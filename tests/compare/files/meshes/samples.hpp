@@ -37,8 +37,8 @@ std::string binary_stl(std::uint32_t announced);
 std::string gltf_data();
 /// Returns the "uri" of a buffer with these bytes.
 std::string base64_uri(const std::string& bytes);
-/// Returns the square, turned about z by 90°, stretched along x and moved up by 3 m. `uri` is the "uri" of the square's
-/// buffer, in base64 by default.
+/// Returns the square, rotated about z by 90°, then stretched along y by a factor of 2 and moved along z by 3 m. `uri`
+/// is the "uri" of the square's buffer, in base64 by default.
 std::string square_gltf(const std::string& uri = base64_uri(gltf_data()));
 std::string square_glb();
 

@@ -107,7 +107,7 @@ TEST_CASE("tetrahedra that are inverted, all of them, are turned with a word; st
   }
   CHECK_THROWS_WITH(make_mesh(turned, {.strict = true}),
                     Contains("m.mesh: all 6 tetrahedra are inverted; leave --strict"));
-  // Only five of six tetrahedra are inverted, so no tetrahedron is turned.
+  // Only five of six tetrahedra are inverted, so none is reoriented.
   std::swap(turned.tetrahedra[2][0], turned.tetrahedra[2][1]);
   CHECK(make_mesh(turned).mesh.tetrahedra == turned.tetrahedra);
 }

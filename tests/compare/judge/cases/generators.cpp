@@ -162,7 +162,8 @@ TEST_CASE("each model that has a name is among the cases of the stages that read
     INFO(stage_name(stage));
     const bool has_scene = stage == Stage::sweep || stage == Stage::step;
     const auto wanted = [&](std::span<const std::string_view> names) {
-      return stage == Stage::sweep ? all(names) : without_none(names);  // bodies of a step have both energies
+      // bodies of a step have membrane and bending energy
+      return stage == Stage::sweep ? all(names) : without_none(names);
     };
     if (has_scene || stage == Stage::membrane) CHECK(seen.membrane == wanted(choice_names<MembraneModel>));
     if (has_scene || stage == Stage::bending) CHECK(seen.bending == wanted(choice_names<BendingModel>));
@@ -190,7 +191,7 @@ TEST_CASE("each degeneracy has the ladders that compare/judge/README.md names", 
   const auto table = readme.substr(readme.find("<!-- ladders -->"),
                                    readme.find("<!-- end of the ladders -->") - readme.find("<!-- ladders -->"));
   REQUIRE(std::count(table.begin(), table.end(), '\n') > 10);
-  // The table alternates: `stage` `ladder.x` `ladder.y`, `stage` …
+  // In the table, the names of a stage's ladders follow the name of the stage.
   std::optional<Stage> stage;
   int named = 0;
   for (std::size_t begin = table.find('`'); begin != std::string::npos;) {

@@ -53,8 +53,8 @@ std::filesystem::path write_solid_run(const std::filesystem::path& folder) {
   return folder;
 }
 
-/// Returns three squares of four cells a side: two at a distance of half of r, one above the other, and a third far
-/// away. The upper one falls at 1 mm/s and is turned, because contacts of parallel edges have no stiffness.
+/// Returns three square sheets of 4 × 4 cells. The second sheet is half of r above the first and falls at 1 mm/s. It is
+/// rotated against the first, because contacts of parallel edges have no stiffness. The third sheet is far away.
 Scene facing_sheets() {
   Scene scene;
   scene.name = "facing_sheets";

@@ -48,9 +48,9 @@ inline std::string numbers(const Seen& seen) {
 /// Returns one message for each tolerance that is loose without a reason in MetricInfo::loose_because, or has a reason
 /// without being loose. Reports of one stage count together.
 ///
-/// A longer run with the same seed repeats these cases, so a tolerance that is not loose here is not loose in it
-/// either. A tolerance may be loose here only because the run is short. So reports must include the cases of longer
-/// runs with the largest errors (tests/experiments/nearest.txt).
+/// A longer run with the same seed repeats these cases. So a tolerance that is not loose here is not loose in the
+/// longer run either. A tolerance may be loose here only because the run is short. So reports must include the cases of
+/// longer runs with the largest errors (tests/experiments/nearest.txt).
 inline std::vector<std::string> loose_problems(std::span<const StageReport> reports) {
   std::vector<std::string> problems;
   for (const auto& [name, seen] : loose::seen_in(reports)) {

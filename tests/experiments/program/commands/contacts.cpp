@@ -18,8 +18,8 @@ nlohmann::json contacts(const TemporaryFolder& folder, const std::string& engine
 
 }  // namespace
 
-// In two equal right triangles 1 mm apart, each corner is above a corner of the other triangle: three pairs from either
-// side. Nothing else is near it.
+// In two equal right triangles 1 mm apart, each corner is above or below a corner of the other triangle. The three
+// corners of each triangle have one contact each.
 TEST_CASE("ogc contacts finds the corners of parallel triangles, with distances and bounds", "[unit]") {
   const TemporaryFolder folder;
   const nlohmann::json json = contacts(folder, "exact");

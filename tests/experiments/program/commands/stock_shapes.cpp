@@ -97,7 +97,7 @@ StockShape moebius() {
     return Vec3{(1 + across * std::cos(turn / 2)) * std::cos(turn), (1 + across * std::cos(turn / 2)) * std::sin(turn),
                 across * std::sin(turn / 2)};
   });
-  // The strip is twisted by half a turn, so its end is joined upside down to its beginning.
+  // The strip is twisted by 180°, so its end is joined upside down to its beginning.
   for (std::size_t f = shape.faces.size() - 3; f < shape.faces.size(); ++f) {
     for (Index& v : shape.faces[f]) v = v < 4 ? 3 - v : v;
   }

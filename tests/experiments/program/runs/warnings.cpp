@@ -189,7 +189,7 @@ TEST_CASE("a run whose handles fall behind by more than r warns with the lag", "
 TEST_CASE("a run with r above two median edges warns, and names the body with the shortest", "[unit]") {
   compare::Scene scene = sheet();
   append_body(scene, {.name = "fine", .fixed = true, .material = {}},
-              grid(11, 0.06, 1));  // 60 sides of 6 mm and 40 diagonals each way
+              grid(11, 0.06, 1));  // 10 × 10 cells; the median edge is 6 mm
   scene.settings.contact_radius = 0.0119;
   CHECK(Warnings(scene).list().empty());
   scene.settings.contact_radius = 0.0121;

@@ -195,7 +195,7 @@ TEST_CASE("yarn: of a smooth curve with segments of a tenth of r neighbours are 
   CHECK(count_of(line, 10 * r, false) == 0);
   CHECK(count_of(ring, 2 * pi * 1.2 * r, true) == 0);
   CHECK(count_of(helix, 30 * r, false) == 0);
-  // In this helix adjacent turns are closer than r, so they are in contact.
+  // In this helix adjacent windings are closer than r, so they are in contact.
   const auto narrow = [](double t) { return Vec3{1.2 * r * std::cos(t), 1.2 * r * std::sin(t), 0.1 * r * t}; };
   CHECK(count_of(narrow, 30 * r, false) > 0);
 }
