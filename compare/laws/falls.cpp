@@ -5,7 +5,6 @@
 // which differs from Galileo's parabola by g h t/2, an error of first order that halves with h. Vertices do not move
 // relative to each other, so no elastic forces act, and only rounding remains (flight_rounding). Newton's method ends
 // where it begins, since no force acts at the target y.
-// where it begins, since no force acts at y.
 #include <cmath>
 
 #include "compare/laws/groups.hpp"

@@ -58,7 +58,7 @@ Scene sheet_on(const char* name, const Slope& slope, std::int64_t steps) {
   return scene;
 }
 
-/// Returns a block of soft rubber with 27 vertices, nine of which are on the floor.
+/// Returns a block of soft rubber with 27 vertices; nine vertices are on the floor.
 Scene block_on(const char* name, const Slope& slope, std::int64_t steps) {
   Scene scene = empty_scene(name, 0.005, steps, 40);
   scene.gravity = tilted(slope.angle);

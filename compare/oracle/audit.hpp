@@ -49,14 +49,14 @@ struct AuditResult {
 AuditResult audit(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions = {},
                   const AuditOptions& options = {});
 
-/// Returns, for each listed intersection, all pairs of a vertex of one face and a vertex of the other, the smaller
-/// vertex first, in ascending order. If a scene excludes these pairs (Scene::excluded_pairs), audits leave out all
-/// faces of which one contains the first and the other the second vertex of a pair.
+/// Returns, for each listed intersection, all pairs of a vertex of one face and a vertex of the other face, the smaller
+/// vertex first, in ascending order. If a scene excludes these pairs (Scene::excluded_pairs), audits skip two faces if
+/// one contains the first vertex of a pair and the other contains the second vertex.
 std::vector<Edge> vertex_pairs(const AuditResult& result, const Topology& topology);
 
 /// Returns "edge of body 'cloth' (vertices 3, 7) meets face 40 of body 'floor' (…)".
 std::string describe(const Intersection& pair, const Topology& topology, const ElementNames& names = {});
-/// Returns one line for each listed intersection, and the number of further ones.
+/// Returns one line for each listed intersection, then a line with the number of further ones.
 std::string describe(const AuditResult& result, const Topology& topology, const ElementNames& names = {});
 
 }  // namespace ogc::compare

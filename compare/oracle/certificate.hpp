@@ -9,7 +9,7 @@
 
 namespace ogc::compare {
 
-/// Holds whether stored positions satisfy Eq. 27. The certificate is kept if no vertex moved farther than its bound.
+/// Holds whether stored positions satisfy Eq. 27, that is, whether no vertex moved farther than its bound.
 struct MotionCertificate {
   /// number of vertices with ‖x − x_prev‖ > b_v, with a number that is not finite, or with b_v < 0
   std::size_t violations = 0;

@@ -103,7 +103,7 @@ void offer_distance(const std::array<DistanceVector<N>, 1>& point, const std::ar
   for (std::size_t k = 0; k < 3; ++k) offer_point_segment(point[0], corners[k], corners[(k + 1) % 3], least);
 }
 
-/// Offers the squared distance of two closed segments, each of which may be a point.
+/// Offers the squared distance of two closed segments; a segment may be a point.
 template <class N, class Least>
 void offer_distance(const std::array<DistanceVector<N>, 2>& first, const std::array<DistanceVector<N>, 2>& second,
                     Least& least) {

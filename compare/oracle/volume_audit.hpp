@@ -37,9 +37,9 @@ class VolumeAuditor {
   /// of a body of tetrahedra. Each rim is closed by a fan of triangles about the mean of the rim's vertices. A vertex
   /// on the surface is outside.
   ///
-  /// A vertex of a body of tetrahedra lies on the body's own surface. It is inside the body if it lies in a closed
-  /// tetrahedron of positive volume of which it is no corner. Its depth is then its distance from the triangles that
-  /// share no vertex with the triangles around it. Pairs with a common vertex do not meet.
+  /// A vertex of a body of tetrahedra lies on the body's own surface. It is inside the body if a closed tetrahedron of
+  /// positive volume contains it, and it is no corner of this tetrahedron. Its depth is then its distance from the
+  /// triangles that share no vertex with the triangles around it. Pairs with a common vertex do not meet.
   ///
   /// The answer does not depend on the number of threads. Throws InputError if the number of positions is not that of
   /// the scene, or a position is not finite.

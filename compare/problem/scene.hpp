@@ -132,7 +132,7 @@ struct TetrahedraOfMesh {
 /// All lists of elements that a mesh has. Triangles, among them the surface of the tetrahedra, come first.
 using MeshLists = std::tuple<TrianglesOfMesh, LooseEdgesOfMesh, TetrahedraOfMesh>;
 
-/// Is true for lists of elements of which a body has a range.
+/// Is true for lists of elements in which each body has a range.
 template <class List>
 concept HasRange = requires {
   List::first;

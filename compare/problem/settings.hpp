@@ -94,7 +94,7 @@ struct DeclaredSetting {
 struct SettingInfo {
   std::string_view name, unit, meaning;  ///< "contact_radius", "m", one line
   double minimum, maximum;               ///< inclusive
-  /// where the value is kept
+  /// member that holds the value
   std::variant<double Settings::*, std::int64_t Settings::*, ContactActivation Settings::*, DampingForm Settings::*,
                Bounds Settings::*, RodOrientation Settings::*, RodStart Settings::*, DeclaredSetting>
       field;

@@ -69,7 +69,7 @@ std::string listed(const std::vector<std::string>& items) {
   return text;
 }
 
-/// Visits the lists of a mesh of which bodies have ranges: visit.operator()<List, number>().
+/// Visits the mesh's lists in which each body has a range: visit.operator()<List, number>().
 template <class Visit>
 void each_range(Visit visit) {
   for_each_of<MeshLists>([&]<class List, std::size_t number>() {

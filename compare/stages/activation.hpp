@@ -39,8 +39,10 @@ struct ActivationTruth {
 /// - Quadratic branch: r − d (1), its square (2), k_c/2 (1).
 /// - Logarithmic branch: r − τ (1), k' (2), logarithm (library, 2), product and sum (2), constant term (4).
 /// - `cubic`: 2k_c/(3r) (2), three factors r − d (3), their products (3).
-/// - `ipc_log`: r − d, twice (2), ln(r/d) from r − d (three in a quotient, two in a polynomial), its products (4). In
-///   g'' the sum with (d − r)/d (2 + 2) and its square (1) replace the second r − d.
+/// - `ipc_log`, where ln(r/d) has 5: (r − d)/(r + d) (3) and a series in this quotient (2).
+///   g: two factors r − d (2), ln(r/d) (5), products (3).
+///   g' = −k_c (r − d) (2 ln(r/d) + s), s = (r − d)/d: ln(r/d) (5), the sum (1), r − d (1), products (2).
+///   g'' = k_c (2 ln(r/d) + s (4 + s)): s twice (4), 4 + s (1), their product (1), the sum (1), product with k_c (1).
 inline constexpr double activation_tolerance = 12;
 
 }  // namespace ogc::compare

@@ -29,8 +29,8 @@ struct BarrierOut {
   std::vector<float> energy, slope, curvature;  ///< by case [m⁴], [m²], [1]
 };
 
-/// Values in double, and the units of their errors. A unit is the sum of |∂/∂D| D, |∂/∂ξ²| ξ², |∂/∂H| H and the moduli
-/// of the value's terms. It is at least 2⁻¹⁰² for g < H, as in stage activation.
+/// Values in double precision, and the units of their errors. A unit is the sum of |∂/∂D| D, |∂/∂ξ²| ξ², |∂/∂H| H and
+/// the moduli of the value's terms. It is at least 2⁻¹⁰² for g < H, as in stage activation.
 struct BarrierTruth {
   std::vector<double> energy, slope, curvature;                    ///< by case
   std::vector<double> energy_scale, slope_scale, curvature_scale;  ///< units of their errors

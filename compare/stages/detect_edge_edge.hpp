@@ -10,8 +10,8 @@ namespace ogc::compare {
 
 /// Nearly parallel edges that overlap (compare/stages/closest_points.hpp) are a contact of their interiors if they are
 /// nearer than r and their closest points lie in each other's blocks. If they are exactly parallel, the closest points
-/// at either end of the overlap count. Two edges without triangles are a contact if they are nearer than r, whatever
-/// the blocks.
+/// at one end of the overlap suffice, whichever end. Two edges without triangles are a contact if they are nearer than
+/// r, whatever the blocks.
 ///
 /// A contact is an unordered pair {p, q}, each a vertex or the interior of an edge, first < second as faces.
 /// `first_edge` contains `first`, and `second_edge` contains `second`. If several pairs of edges generate the contact,

@@ -63,8 +63,8 @@ struct OrientationAnswer {
   double energy_scale = 0;  ///< 2 k_s ‖D‖ (1 + k ‖Dᵗ‖/l) + Σ w (1 + k), the unit of energy and residual [N m]
 };
 
-/// accepted[i][0] has the exact signs; case i has more answers if a t·q is within orientation_sign_grey of 0. near[i]
-/// is 1 if a sign, or the uniqueness of the minimiser, is within near_factor.
+/// accepted[i][0] has the exact signs. Case i has more answers if a scalar product t·q is within orientation_sign_grey
+/// of 0. near[i] is 1 if a sign, or the uniqueness of the minimiser, is within near_factor.
 struct OrientationTruth {
   std::vector<std::vector<OrientationAnswer>> accepted;  ///< by case, the exact one first
   std::vector<std::uint8_t> near;                        ///< by case

@@ -40,7 +40,8 @@ struct PlaneIn {
 };
 
 /// Returns the displacements that divide the gaps (method.md §5.6): `to` − `from` by vertex, rounded once to single
-/// precision. In the guess loop they lead from X to the target, after it from the previous detection's X_prev to X.
+/// precision. In the guess loop they lead from X, the positions of the detection, to the target. After the guess loop
+/// they lead from the previous detection's X_prev to X.
 inline std::vector<Vec3f> displacements(std::span<const Vec3f> from, std::span<const Vec3f> to) {
   std::vector<Vec3f> all;
   all.reserve(from.size());

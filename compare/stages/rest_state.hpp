@@ -92,9 +92,9 @@ struct RestStateOut {
   std::vector<RestSegment> segments{};  ///< of all rods, in the order of rod_segments (compare/problem/rods.hpp)
 };
 
-/// Values in double, and the unit of each error: Σ ‖∂f/∂q‖ ‖q‖ over the inputs q, where coordinates are vectors
-/// relative to one vertex. `gradient` has one unit for ∇N₁ and one for ∇N₂; `weight` has one unit for all three. The
-/// unit of a mass is the sum of the units of its elements; the unit of a meeting material is its value.
+/// Values in double precision, each with the unit of its error: Σ ‖∂f/∂q‖ ‖q‖ over the inputs q, where coordinates are
+/// vectors relative to one vertex. `gradient` has one unit for ∇N₁ and one for ∇N₂; `weight` has one unit for all
+/// three. The unit of a mass is the sum of the units of its elements; the unit of a meeting material is its value.
 struct RestStateTruth {
   RestStateOut exact;                    ///< correctly rounded
   std::vector<double> mass, mass_scale;  ///< by vertex [kg]

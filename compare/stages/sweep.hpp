@@ -44,8 +44,9 @@ struct SweepIn {
   std::span<const EdgeEdgeContact> edge_edge;
   /// Half-spaces of the vertices from the detection at X_prev; null if bounds are balls
   const VertexPlanes* planes = nullptr;
-  /// `point` is the vertex, `triangle` and `face` are numbers of the scene; canonical order. Forces act with the frozen
-  /// weights and direction on the point and on free corners; `inside`, `face` and `depth` are not read.
+  /// Contacts with volumes in canonical order: ascending by point, inside, triangle, face. `point` is the vertex;
+  /// `triangle` and `face` are numbers of the scene. Forces act on the point and on free corners, with the frozen
+  /// weights and direction. `inside`, `face` and `depth` are not read.
   std::span<const VolumeContact> volumes{};
   /// Colour by segment, in the order of RestStateOut::segments, from 0; −1: fixed or prescribed. Neighbours have
   /// different colours

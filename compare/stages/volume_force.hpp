@@ -37,9 +37,9 @@ struct VolumeForceIn {
 /// sums plus the last item decides:
 ///
 /// - Through the slip: a difference (1), its product with a weight and three sums (4), the scalar product with n (3), a
-///   product, a difference: 10. Its length (a square: 10 + 3, halved with those of the slip by the root, the root: 1;
-///   together 12.5, of which 10 are the slip's own): 4 more. f₁/‖u‖ (a quotient, a difference, a quotient): 3; μ λ and
-///   its product with f₁/‖u‖ (2); the products with weight and slip (2); the sum with the normal force (1): 22 in all.
+///   product, a difference: 10. The slip's length: square and sums (3, halved by the root), the root (1): 2.5, counted
+///   as 4. f₁/‖u‖ (a quotient, a difference, a quotient): 3; μ λ and its product with f₁/‖u‖ (2); the products with
+///   weight and slip (2); the sum with the normal force (1): 22 in all.
 /// - Through λ: a difference, a product and two sums (4), the product with n (3), r − φ and k (2), then 7: 16.
 /// - If ‖n‖² is off by 2⁻²², the slip keeps a part along n that the energy's slope lacks: 4.
 inline constexpr double volume_force_tolerance = 26;

@@ -55,12 +55,12 @@ struct OutputInfo {
   List list = List::none;  ///< unless `none`: each entry of this list has these groups
 };
 
-/// Return the size of one element, and of one group [bytes].
+/// Returns the size of one element [bytes]. `group_bytes` returns the size of one group [bytes].
 constexpr std::size_t bytes_of(Element element) {
   return element == Element::byte ? 1 : element == Element::real ? 8 : 4;
 }
 constexpr std::size_t group_bytes(const OutputInfo& info) { return bytes_of(info.element) * info.elements; }
-/// Returns the number of groups.
+/// Returns the number of groups in the output (see Per and OutputInfo::list).
 std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, const ListSizes& lists);
 /// Returns the room for the lists at the first call.
 ListSizes first_capacities(const QuestionSizes& sizes);

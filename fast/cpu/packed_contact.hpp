@@ -18,8 +18,8 @@ inline namespace OGC_PACKS {
 
 namespace packed {
 
-/// Return the weights of two segments, and of a point and a triangle. `usual`: lanes in which the formula of the usual
-/// case is valid.
+/// `segment_weights` returns the weights of two segments, `triangle_weights` those of a point and a triangle. `usual`:
+/// lanes in which the formula of the usual case is valid.
 template <class P>
 ContactWeightsOf<P> segment_weights(const Vector<P>* x, typename P::Mask& usual) {
   const TwoSegments<P> at(x[1] - x[0], x[3] - x[2], x[2] - x[0]);
@@ -64,7 +64,8 @@ ContactWeightsOf<P> weights(const Items<ContactIncidence, P>& items, const Vecto
 
 }  // namespace packed
 
-/// Return the closest points' weights, the vertex's own weight, and the majorant of a pack of contacts.
+/// For a pack of contacts, `closest_weights` returns the weights of the closest points, `own_weight` the weight of the
+/// vertex, and `majorant_of` the majorant.
 template <PairKind, class P>
 ContactWeightsOf<P> closest_weights(const packed::Items<ContactIncidence, P>& items, const Vector<P>* x) {
   return packed::weights(items, x);

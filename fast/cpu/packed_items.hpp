@@ -19,7 +19,7 @@ struct Items {
   }
   using Number = P;  ///< number type of the formulas
 
-  /// Return number(item) of each item, and a mask of the items for which condition(item) holds.
+  /// `each` returns number(item) of each item, `which` a mask of the items for which condition(item) holds.
   template <class F>
   P each(F number) const {
     return P::of_each([&](int k) { return number(*at[k]); });

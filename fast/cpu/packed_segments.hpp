@@ -39,7 +39,7 @@ void add_neighbours(const UpdateSegment& f, const SegmentSlot* slots, int side, 
   add_undamped_neighbour(weight, side == 1, transposed_quats<P>(now), transposed_quats<P>(rest), old, b);
 }
 
-/// Updates P::width segments, the first of which has number `first` in the colour.
+/// Updates the P::width segments of the colour from number `first` on.
 template <class P>
 void update_pack(const UpdateSegment& f, int first) {
   const SweepView& view = f.view;

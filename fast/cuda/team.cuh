@@ -158,7 +158,7 @@ class NeighbourLanes {
   }
 
  protected:
-  /// Return the number of this thread in its team, and the lane in the warp of the team's first thread.
+  /// `lane` returns the number of this thread in its team, `begin` the number of the team's first thread in the warp.
   __device__ static int lane() { return static_cast<int>(threadIdx.x) & (W - 1); }
   __device__ static int begin() { return static_cast<int>(threadIdx.x) & 31 & ~(W - 1); }
 

@@ -1,6 +1,6 @@
-// Decides whether a point lies in a block of Eq. 8, 9 or 15, apart from the condition on its distance. The same
-// polynomials decide the closest face, so that both decisions agree. The file also rejects pairs of edges for which
-// single precision proves that they are no contact.
+// Decides whether a point meets the conditions of a block of Eq. 8, 9 or 15, except the condition on its distance. The
+// same polynomials decide the closest face, so that both decisions agree. The file also rejects pairs of edges for
+// which single precision proves that they are no contact.
 #pragma once
 
 #include "fast/kernels/predicates.hpp"
@@ -9,8 +9,8 @@
 
 namespace ogc::fast {
 
-/// Returns whether x lies in U_v, apart from its distance: it lies beyond v along every edge at v (Eq. 8; Eq. 15 if x
-/// is a vertex).
+/// Returns whether x meets the conditions of U_v; the distance is not tested. x must lie beyond v along every edge at v
+/// (Eq. 8; Eq. 15 if x is a vertex).
 OGC_HD inline bool in_vertex_block(const Vec& x, int v, const SurfaceView& surface, PaddedVecs positions) {
   const Rows& rows = surface.neighbours;
   for (int k = rows.offsets[v]; k < rows.offsets[v + 1]; ++k) {
@@ -19,8 +19,8 @@ OGC_HD inline bool in_vertex_block(const Vec& x, int v, const SurfaceView& surfa
   return true;
 }
 
-/// Returns whether x lies in U_e, apart from its distance: on the far side of every triangle at e (Eq. 9). x must
-/// project into the interior of e.
+/// Returns whether x meets the conditions of U_e (Eq. 9); the distance is not tested. x must lie on the far side of
+/// every triangle at e. Precondition: x projects into the interior of e.
 OGC_HD inline bool in_edge_block(const Vec& x, int e, const SurfaceView& surface, PaddedVecs positions) {
   const EdgeEnds& ends = surface.edges[e];
   const Rows& rows = surface.opposites;
@@ -30,8 +30,8 @@ OGC_HD inline bool in_edge_block(const Vec& x, int e, const SurfaceView& surface
   return true;
 }
 
-/// Returns whether the point of edge `other` nearest to v lies in U_v, apart from its distance (Eq. 15). This point
-/// must be in the interior of the edge.
+/// Returns whether the point of edge `other` nearest to v meets the conditions of U_v (Eq. 15); the distance is not
+/// tested. Precondition: this point is in the interior of the edge.
 OGC_HD inline bool in_vertex_block(const EdgeEnds& other, int v, const SurfaceView& surface, PaddedVecs positions) {
   const Rows& rows = surface.neighbours;
   for (int k = rows.offsets[v]; k < rows.offsets[v + 1]; ++k) {

@@ -241,7 +241,7 @@ struct RefitTrees {
   float* vertex_limit;                  ///< by vertex: gap limit of its reach [m²], written
   int vertex_count;
 
-  /// Return `count` rounded up to whole warps, and the number of items of the launch.
+  /// `filled_up` returns `count` rounded up to whole warps, count() the number of items of the launch.
   OGC_HD static int filled_up(int count) { return (count + 31) / 32 * 32; }
   OGC_HD int count() const { return filled_up(facets.count) + filled_up(edges.count) + filled_up(vertex_count); }
 

@@ -186,7 +186,7 @@ struct ContactWeightsOf {
 };
 using ContactWeights = ContactWeightsOf<float>;
 
-/// Return the weights by vertex for two segments, and for a point and a triangle.
+/// Return the weights by vertex: for two segments; for a point and a triangle.
 template <class T>
 OGC_HD ContactWeightsOf<T> weights_of(const SegmentParametersOf<T>& at) {
   return {{1.0f - at.first, at.first, at.second - 1.0f, -at.second}};

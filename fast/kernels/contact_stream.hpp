@@ -22,7 +22,7 @@ struct ContactTables {
   const Vec* previous = nullptr;        ///< X_prev by vertex, for e_k [m]
 };
 
-/// Returns a contact of which only k_c [N/m] and μ are set, from the bodies of two vertices (method.md §4.5).
+/// Returns a contact with k_c [N/m] and μ from the bodies of two vertices (method.md §4.5); all else is not set.
 OGC_HD inline ContactIncidence meeting(const ContactTables& tables, int first, int second) {
   const ContactMaterial material = tables.materials[tables.body[first] * tables.body_count + tables.body[second]];
   ContactIncidence contact;

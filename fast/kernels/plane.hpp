@@ -127,10 +127,10 @@ struct ByApproach {
 };
 
 /// Returns the plane of a pair at its positions. `share` is γ_p, `below` a lower bound of the pair's distance. Together
-/// both sides may approach by 2γ_p of the gap, of which division(n) is the first side's share. If one side is fixed,
-/// the other side has the whole approach. The fixed side's offset is then half way between the fixed side and the other
-/// side's offset. Offsets are computed from the points themselves, so n need not be exact. All points must pass the
-/// test that truncation uses; otherwise the pair has no plane.
+/// both sides may approach by 2γ_p of the gap; division(n) is the first side's share of this approach. If one side is
+/// fixed, the other side has the whole approach. The fixed side's offset is then half way between the fixed side and
+/// the other side's offset. Offsets are computed from the points themselves, so n need not be exact. All points must
+/// pass the test that truncation uses; otherwise the pair has no plane.
 template <int m, int n, class Division = Halved>
 OGC_HD PairPlane plane_of(const PairPoints<m, n>& pair, float below, float share, const Division& division = {}) {
   PairPlane plane;

@@ -12,7 +12,7 @@ using Real = Vector<Rounded>;
 struct Distance {
   double value = 0, slack = 0;  ///< [m]: the exact distance lies within value ± slack
 
-  /// Return whether the exact distance may be below r, and whether it certainly is.
+  /// `may_be_within` returns whether the exact distance may be below r, `is_surely_within` whether it certainly is.
   OGC_HD bool may_be_within(float r) const { return sub(value, slack) < static_cast<double>(r); }
   OGC_HD bool is_surely_within(float r) const { return add(value, slack) < static_cast<double>(r); }
   /// Returns a lower bound of the exact distance.

@@ -9,8 +9,8 @@
 
 namespace ogc::fast {
 
-/// Records the detections of a simulation's last step. If the step was repeated because a list grew, only the last
-/// attempt is kept.
+/// Records the detections of a simulation's last step. If the step was repeated because a list grew, only the
+/// detections of the last attempt remain.
 template <class Backend>
 class WayRecorder : public StepObserver {
  public:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 SCENE, TURNED, YARN = "yarn_twist", "lower", "yarn"
 BIGHT = 0.4 / 33  # [m] between two bights of a row (experiments/scenes/yarn.cpp)
 STIFFNESS = 10  # N/m: 33 of them side by side bear the cloth, 0.7 N, and lengthen by 2 mm each
-LOOP = 49  # segments of a loop, the first of which begins with the yarn (experiments/scenes/yarn.cpp)
+LOOP = 49  # segments of a loop; the first loop begins where the yarn begins (experiments/scenes/yarn.cpp)
 NECK, NECK_WIDTH = 7, 2.95e-3  # vertices from a loop's ends to where its legs are nearest, and their distance there [m]
 NECK_STIFFNESS = 100  # N/m, of a segment of the yarn: k_s/l
 # Damping by vertex resists with k_d times the stiffness of the segments at the vertex, 2 k_s/l, against a mass of ρ l:

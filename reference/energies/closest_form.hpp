@@ -1,6 +1,6 @@
-// Computes the contact points of two closed faces in double, and their distance over any number type. Newton's
-// positions are doubles between two detections, so the exact predicates of reference/geometry do not apply. They are
-// not needed either: the distance and its slope are continuous across the features.
+// Computes the contact points of two closed faces in double precision; their distance may have any number type.
+// Newton's positions are doubles between two detections, so the exact predicates of reference/geometry do not apply.
+// They are not needed either: the distance and its slope are continuous across the features.
 #pragma once
 
 #include <array>

@@ -117,10 +117,10 @@ inline double units_of_whole(double tolerance) { return 1 / (compare::unit_round
 /// Returns an upper limit of the answer's norm: its value plus its error.
 double reach(const Inputs& inputs, std::span<const Input> answer);
 
-/// Adds to the scales the error that each weight has beyond the errors of its inputs. Weights are computed as in
-/// closest_face. So each weight, even a weight of 0, has an error of u = 2⁻²⁴ times the largest condition of all
-/// weights. `force` and `curvature` are the largest force and curvature for w = 1. If n vertices are updated together,
-/// the block has the factor |w| Σ |w_u|, whose error has the terms
+/// Adds the rounding errors of the weights themselves to the scales; they come on top of the errors of the inputs.
+/// Weights are computed as in closest_face. So each weight, even a weight of 0, has an error of 2⁻²⁴ times the largest
+/// condition of all weights. `force` and `curvature` are the largest force and curvature for w = 1. If n vertices u are
+/// updated together, the block has the factor |w| Σ |w_u|, whose error has the terms
 ///
 ///  - the error of |w| times the sum,
 ///  - |w| times n errors of weights,

@@ -56,7 +56,7 @@ double length_of(const Triple<Input>& v) { return std::hypot(v[0].value, v[1].va
 ///   corner to a corner of the face.
 /// - If J − 1 (12 roundings) and the normal (6) nearly vanish together, the product of their errors remains
 ///   (compare/stages/tetrahedron.hpp).
-/// With damping by vertex, `resisted` is k ‖moved‖, and the block is `grown` times the elastic block.
+/// With damping by vertex, `resisted` is k_d/h ‖x − xᵗ‖, and the block is `grown` = 1 + k_d/h times the elastic block.
 compare::ForceAnswer with_rounded_edges(const Elastic& elastic, compare::ForceAnswer answer, double resisted = 0,
                                         double grown = 1) {
   constexpr double u = compare::unit_roundoff, ratio_units = 12, normal_units = 6;

@@ -8,7 +8,7 @@ namespace ogc::reference {
 /// Computes b_v = γ_p min(d_min,v, d_min,e of v's edges, d_min,t of v's triangles), rounded down.
 compare::BoundTruth bound(const compare::BoundIn& in);
 
-/// Returns a b, rounded down; a, b ≥ 0.
+/// Returns a · b, rounded down; a, b ≥ 0.
 float product_below(float a, float b);
 
 }  // namespace ogc::reference

@@ -121,7 +121,7 @@ std::array<double, 3> exact_weights(const Corners& t, int f, const Vec3f& p) {
   return weights;
 }
 
-/// Weights in double, and the limit of their error.
+/// Weights in double precision, with the limit of their error.
 struct Weights {
   std::array<double, 3> values{};
   double error = 0;

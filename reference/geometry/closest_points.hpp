@@ -35,9 +35,12 @@ inline EdgeFeatures edge_features(int number) {
 /// length zero counts as its end_0.
 EdgeFeatures closest_features(const EdgePair& pair);
 
-/// Returns whether the features are the closest ones: in exact numbers, possibly (if grey conditions may flip), and
-/// certainly (even if they flip). If they are certain, no other pair of features is possible. The only exception is the
-/// other end of the overlap of exactly parallel edges.
+/// Returns whether the features are the closest ones:
+///
+/// - `exact`: in exact numbers
+/// - `possible`: if grey conditions may flip
+/// - `certain`: even if grey conditions flip. Then no other pair of features is possible, except the other end of the
+///   overlap of exactly parallel edges.
 Membership are_closest(const EdgePair& pair, EdgeFeatures features);
 
 /// Returns whether ‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖² and the projection of the second edge on the line of the first overlaps the

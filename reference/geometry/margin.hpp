@@ -65,7 +65,7 @@ struct MarginAnswer {
   int sign = 0;                 ///< exact: −1, 0 or 1
   bool grey = false;            ///< the result of grey(margin)
   bool near = false;            ///< whether |m| ≤ 2¹¹ · 2⁻²⁴ Σ|∂m/∂δᵢ||δᵢ| (compare::near_factor)
-  double value = 0, error = 0;  ///< m in double, and an upper limit of its error
+  double value = 0, error = 0;  ///< m in double precision, and an upper limit of its error
 };
 
 /// Examines a margin. Coordinates must be finite.

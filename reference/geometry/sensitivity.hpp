@@ -40,9 +40,10 @@ struct Dual {
   }
 };
 
-/// A value in double, and its modulus: the value of the formula with every term replaced by its absolute value. For a
-/// homogeneous polynomial m of degree k, Σ|∂m/∂δᵢ||δᵢ| ≤ k · modulus, because each monomial has k factors. If at most n
-/// roundings lie between an input and the value, the value has an error of at most n 2⁻⁵³ · modulus, to first order.
+/// A value in double precision, with its modulus: the value of the formula with every term replaced by its absolute
+/// value. For a homogeneous polynomial m of degree k, Σ|∂m/∂δᵢ||δᵢ| ≤ k · modulus, because each monomial has k factors.
+/// If at most n roundings lie between an input and the value, the value has an error of at most n 2⁻⁵³ · modulus, to
+/// first order.
 struct Measured {
   double value = 0, modulus = 0;
 

@@ -33,8 +33,8 @@ double largest_lag(const State& x, const State& target, const std::vector<Mobili
 /// Fills the energies; sets them to not-a-number if `wanted` is false.
 void measure_energies(compare::StepMetrics& metrics, const StepStates& states, const Potential& potential,
                       const compare::Scene& scene, bool wanted);
-/// Checks whether all vertices keep their bounds: ‖x − X_prev‖ ≤ b_v in double, and all half-spaces exactly (method.md
-/// §5.5, §5.6).
+/// Checks whether all vertices keep their bounds (method.md §5.5, §5.6). ‖x − X_prev‖ ≤ b_v is checked in double
+/// precision, the half-spaces exactly.
 bool keeps_bounds(const std::vector<compare::Vec3f>& position, const Detected& detected);
 
 }  // namespace ogc::reference

@@ -10,8 +10,8 @@
 namespace ogc::reference {
 
 /// Counts the prescribed vertices at x that bounds keep behind their targets; zero if bounds are not planes. `stays`
-/// holds for each vertex whether a contact keeps it in place in a round of the guess loop; an empty list means that no
-/// vertex is kept. A vertex that stays at `previous` for this reason is not counted, because it triggers no detection.
+/// holds for each vertex whether a contact keeps it in place in a round of the guess loop; if empty, contacts keep no
+/// vertex in place. A vertex that stays at `previous` for this reason is not counted, because it triggers no detection.
 StepLag lag_of(const std::vector<compare::Vec3f>& x, const std::vector<compare::Vec3f>& previous,
                const std::vector<compare::Vec3f>& target, const std::vector<compare::Index>& groups,
                const compare::Settings& settings, const std::vector<bool>& stays = {});

@@ -1,4 +1,4 @@
-// Computes one vertex update in double, and the error that is accepted in a right single-precision update.
+// Computes one vertex update in double precision, and the largest accepted error of a single-precision update.
 #pragma once
 
 #include <array>

@@ -40,7 +40,7 @@ class StandingStill(unittest.TestCase):
                 self.assertTrue(any(abs(c) == 2.0 ** np.round(np.log2(abs(c))) for c in x))
 
     def test_a_collapsed_triangle_is_found_and_what_is_beside_it(self):
-        """A strip of five triangles, of which the first has its third corner on its first edge."""
+        """A strip of five triangles. The first one has its third corner on its first edge."""
         positions = np.array([[0, 0, 0], [0, 1, 0], [0, 0.5, 1e-6], [1, 1, 0], [2, 0, 0], [2, 1, 0], [3, 0, 0]])
         triangles = np.array([[0, 1, 2], [1, 2, 3], [2, 3, 4], [3, 4, 5], [4, 5, 6]])
         area = standing_still.areas(positions, triangles)

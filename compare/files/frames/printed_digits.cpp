@@ -196,7 +196,7 @@ void of_msh(std::string_view text, Digits& digits) {
   }
 }
 
-/// Reads the number after `keyword`, then that many vertices of `each` words, the first three of which are coordinates.
+/// Reads the number after `keyword`, then that many vertices of `each` words. The first three words are coordinates.
 void of_counted(std::string_view text, std::string_view keyword, std::size_t each, Digits& digits) {
   std::size_t count = 0;
   for (std::string_view word = next_word(text); !word.empty() && word != keyword;) word = next_word(text);

@@ -21,8 +21,8 @@ PolygonMesh read_polygon_mesh(const std::filesystem::path& path);
 /// it.
 PolygonMesh parse_polygon_mesh(std::string_view bytes, const std::string& name);
 
-/// Reads a file and makes it a mesh of triangles and loose edges. Coordinates are those of the file; dust
-/// (compare/problem/dust.hpp) is kept.
+/// Reads a file and makes it a mesh of triangles and loose edges. Coordinates are those of the file, dust
+/// (compare/problem/dust.hpp) included.
 LoadedMesh load_mesh(const std::filesystem::path& path, const MeshOptions& options = {});
 
 /// Reads a file and returns the mesh alone.

@@ -1,5 +1,7 @@
 // Makes cases of contact_force and friction_force. In the canonical frame the contact point of the second side is near
-// the origin and the normal along z, so distance and slip along the normal are single coordinates. Ladders approach
+// the origin, and the normal points along z. So the distance is one coordinate, and so is the motion along the normal.
+// Ladders approach
+//
 // - the boundaries between closest features, and collapsed triangles and edges as far as they are legal,
 // - parallel edges and the limit of nearly parallel ones,
 // - d = r, d ≫ r, d = τ = r/2 (where the activation changes) and d = 0,
@@ -116,8 +118,8 @@ Shape near_feature(Random& random) {
   return shape;
 }
 
-/// Returns a contact of two edges of which one is short, or of a point with a triangle that has a small height or a
-/// short edge. `thinness` is the small length relative to `shape.size`.
+/// Returns a contact of two edges, one of them short, or of a point and a triangle with a small height or a short edge.
+/// `thinness` is the small length relative to `shape.size`.
 Shape thin_by(Random& random, double thinness) {
   Shape shape = sized(random, random.one_in(4) ? ContactSides::edge_edge : ContactSides::point_triangle,
                       random.between(0.05, 1));
@@ -137,8 +139,8 @@ Shape thin_by(Random& random, double thinness) {
   return shape;
 }
 
-/// Return contacts of a thinness of 0 or 10^−2.4 … 10^−0.5, and contacts of a thinness of 10⁻⁹ … 10^−2.4, most of them
-/// needles (compare/stages/contact_force.hpp).
+/// `thin` returns contacts of a thinness of 0 or 10^−2.4 … 10^−0.5. `needle` returns contacts of a thinness of 10⁻⁹ …
+/// 10^−2.4, most of them needles (compare/stages/contact_force.hpp).
 Shape thin(Random& random) { return thin_by(random, random.one_in(4) ? 0.0 : random.magnitude(-2.4, -0.5)); }
 Shape needle(Random& random) { return thin_by(random, random.magnitude(-9, -2.4)); }
 

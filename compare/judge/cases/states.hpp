@@ -39,7 +39,7 @@ class States {
   const RestStateOut& rest() const { return rest_; }
   bool has_contact() const { return frame_with_contact(0).has_value(); }
 
-  /// Return the frame for a case of this index; the second one skips frames without contacts.
+  /// Returns the frame for a case of this index; `contact_frame` skips frames without contacts.
   std::size_t frame(std::uint64_t index) const { return index % states_.size(); }
   std::size_t contact_frame(std::uint64_t index) const { return *frame_with_contact(frame(index)); }
 
@@ -63,7 +63,8 @@ class States {
   FrictionForceCase contact(std::size_t frame, Random& random) const;
   /// Returns the distance of a contact of the frame, but at least 2⁻²³ r (compare/stages/contact_force.hpp).
   ActivationCase contact_distance(std::size_t frame, Random& random) const;
-  /// Return a vertex on its way from this frame to the next one, and a vertex at the start of the step after the frame.
+  /// `moved_vertex` returns a vertex on its way from this frame to the next one. `guessed_vertex` returns a vertex at
+  /// the start of the step after the frame.
   TruncateCase moved_vertex(std::size_t frame, Random& random) const;
   InitialGuessCase guessed_vertex(std::size_t frame, Random& random) const;
   /// Return an element with its rest data. Its vertices are where the frame's velocities take them in one step.

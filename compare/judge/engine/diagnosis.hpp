@@ -32,7 +32,7 @@ struct Diagnosis {
   std::vector<SecondMistake> seconds{};  ///< forms that fit failing cases which the first form does not fit
 };
 
-/// Return the diagnosis as a paragraph, and as JSON.
+/// Return the diagnosis: as a paragraph; as JSON.
 std::string diagnosis_text(const Diagnosis& diagnosis);
 nlohmann::ordered_json diagnosis_json(const Diagnosis& diagnosis);
 

@@ -37,7 +37,7 @@ class VolumeQuestion {
   const Topology& topology_;
   VolumeSurface surface_;
   std::shared_ptr<const Topology> own_;
-  /// tested vertices; for each of them its own index if it belongs to a volume, otherwise −1
+  /// tested vertices; for each, its index as a vertex of a volume, or −1 if it belongs to no volume
   std::vector<Index> asking_, asking_as_;
   float contact_radius_;
 };

@@ -75,8 +75,8 @@ inline Quantity labelled(Quantity quantity, std::vector<std::string> labels) {
   return quantity;
 }
 
-/// Return the arrays of a mesh, and the quantities of a scene: settings that a stage reads, gravity, bodies with their
-/// materials.
+/// `mesh_quantities` returns the arrays of a mesh. `scene_quantities` returns settings that a stage reads, gravity, and
+/// bodies with their materials.
 std::vector<Quantity> mesh_quantities(const Topology& topology);
 std::vector<Quantity> scene_quantities(const Scene& scene);
 /// Returns a mesh with positions [m] and rigid groups by vertex, and excluded pairs if there are any.

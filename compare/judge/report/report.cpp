@@ -48,7 +48,8 @@ std::string print_rows(const std::vector<ReportRow>& rows) {
   return text;
 }
 
-/// Returns the names of the generators of all mismatches if these are few; otherwise an empty text.
+/// Returns text that names the generators with mismatches. The text is empty if too many generators have mismatches or
+/// too few cases pass (Tally::confined_to).
 std::string confinement(const Tally& tally) {
   const std::vector<std::string> names = tally.confined_to();
   std::string text;

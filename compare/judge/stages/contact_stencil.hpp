@@ -60,7 +60,7 @@ void add_contact(std::vector<WrongForm>& forms, ForceMember<In> stage, Contact c
     });
   changed("ogc_for_every_activation", "`ogc`, whichever activation is asked for",
           [](ContactForceCase& c) { c.activation = ContactActivation::ogc; });
-  // A negative square means that there is no length: neither mollifier nor overlap applies, and e_k is 1.
+  // A negative squared rest length switches off mollifier and overlap share: e_k is 1.
   changed("mollifier_missing", "e_k is 1: nearly parallel edges act in full", [](ContactForceCase& c) {
     if (c.rest_squared[0] > 0) c.rest_squared = {-1, -1};
   });

@@ -164,7 +164,7 @@ struct DetectionStage : MeshStage<S, contestant, authority>, InEveryRun {
   /// Moves positions; mesh and radii stay.
   static void mutate(Random& random, Case& c) { mutate_points(random, c.positions); }
   static std::vector<float*> coordinates(Case& c) { return coordinates_of({c.positions}); }
-  /// Return a whole frame of a run, and a scene at its start.
+  /// `of_state` returns a whole frame of a run, `of_scene` a scene at its start.
   static Case of_state(const States& states, std::uint64_t index, Random& random) {
     return states.whole(states.frame(index), random);
   }
@@ -186,7 +186,7 @@ struct DetectionStage : MeshStage<S, contestant, authority>, InEveryRun {
                   state_quantities(*c.topology, c.positions, c.rigid_groups, c.partners));
   }
 
-  /// Return the mesh, and the case of a part of it.
+  /// `mesh` returns the whole mesh, `part` the case of a part of the mesh.
   static const Topology* mesh(const Case& c) { return c.topology.get(); }
   static Case part(const Case& c, const MeshPart& part) {
     return {part.topology,
@@ -199,7 +199,7 @@ struct DetectionStage : MeshStage<S, contestant, authority>, InEveryRun {
   /// Returns the numbers that may be shortened: coordinates, and radii, which stay above 0.
   static ShortenedNumbers numbers(Case& c) { return {coordinates(c), {&c.contact_radius, &c.query_radius}}; }
 
-  /// Return a view of the case, and add the bits of an answer.
+  /// `question` returns a view of the case, `add` adds the bits of an answer.
   static In question(const Case& c) { return detect_question(c); }
   static void add(Bits& bits, const Out& out) { bits.add(out); }
   /// Returns how many decisions are grey.

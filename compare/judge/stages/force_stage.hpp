@@ -90,7 +90,7 @@ struct ForceStage : BatchStage<S, contestant, authority>, TakenWhole, Parameters
                          : "grey: " + std::to_string(accepted) +
                                " answers are accepted, on either side of a jump; the exact one is shown";
   }
-  /// Return the given and the exact force and block.
+  /// Return force and block of the answer, and the exact ones of the truth.
   static std::vector<Quantity> outputs(const In&, const Out& out) {
     return {points("force", "N", std::array{out.force.at(0)}), block_quantity(out.block.at(0))};
   }

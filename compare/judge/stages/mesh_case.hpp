@@ -8,8 +8,8 @@
 
 namespace ogc::compare {
 
-/// Judges one smallest distance or bound. It must be neither negative nor above the exact value; the difference is an
-/// error of the metric.
+/// Judges one smallest distance or bound. `value` must be neither negative nor above `exact`. `exact` − `value`, in
+/// units of `scale`, is counted as an error under `metric`.
 void judge_smallest(const char* what, std::size_t i, float value, float exact, double scale, std::size_t metric,
                     Tally& tally);
 

@@ -84,8 +84,8 @@ CaseData bits(Random& random) {
   return question;
 }
 
-/// Approaches l = l₀, where the force vanishes, and lᵗ = l. Only if l > l₀ does the block have a term across the
-/// spring.
+/// Approaches l = l₀ and lᵗ = l. The force vanishes at l = l₀, and the block has a term across the spring only for l >
+/// l₀.
 CaseData at_rest(Random& random) {
   const double length = some_length(random);
   return spring_case(random, length, length * (1 + random.rung()), length * (1 + random.rung()));

@@ -19,7 +19,7 @@ class StartPairs {
   StartPairs(const compare::Scene& scene, const std::vector<compare::Vec3f>& start);
   /// Closes the open pairs that have no intersecting faces at these positions. Returns whether any pair was closed.
   bool close_apart(const std::vector<compare::Vec3f>& positions);
-  /// Return the number of pairs at the start, and the number of open pairs.
+  /// `named` returns the number of pairs at the start, `open` the number of open pairs.
   std::size_t named() const { return named_; }
   std::size_t open() const { return open_.size(); }
   /// Returns the intersections at the start.

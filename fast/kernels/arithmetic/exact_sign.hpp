@@ -21,7 +21,8 @@ namespace ogc::fast {
 struct Rounded {
   double value = 0;
 
-  /// Return the two inputs of polynomials: the difference of two coordinates, rounded once, and a constant.
+  /// Make the two inputs of polynomials. `difference` returns the difference of two coordinates, rounded once; `exact`
+  /// returns a constant.
   OGC_HD static Rounded difference(float a, float b) { return {sub(static_cast<double>(a), static_cast<double>(b))}; }
   OGC_HD static Rounded exact(double a) { return {a}; }
   friend OGC_HD Rounded operator+(Rounded a, Rounded b) { return {add(a.value, b.value)}; }
@@ -88,8 +89,8 @@ struct Filtered {
 struct Wide {
   double high = 0, low = 0, scale = 0;  ///< scale: Σ of the moduli of the terms of high + low
 
-  /// Return the difference of two coordinates, and a constant. Both are exact, because two doubles hold the difference
-  /// of any two floats.
+  /// `difference` returns the difference of two coordinates, `exact` a constant. Both are exact, because two doubles
+  /// hold the difference of any two floats.
   OGC_HD static Wide difference(float a, float b) { return sum_of(static_cast<double>(a), -static_cast<double>(b)); }
   OGC_HD static Wide exact(double a) { return {a, 0, modulus(a)}; }
   friend OGC_HD Wide operator+(const Wide& a, const Wide& b) {

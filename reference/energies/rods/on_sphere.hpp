@@ -13,7 +13,7 @@ namespace ogc::reference::on_sphere {
 __extension__ using Many = __float128;
 
 inline double root(double x) { return std::sqrt(x); }
-/// Computes the root in double and improves it by two steps of Newton's method, each of which doubles the correct bits.
+/// Computes the root in double precision, then takes two steps of Newton's method. Each step doubles the correct bits.
 inline Many root(const Many& x) {
   if (!(x > 0)) return 0;
   Many r = std::sqrt(static_cast<double>(x));

@@ -32,7 +32,7 @@ struct Turn {
   double factor;  ///< 1/cos(θ/2)
 };
 
-/// Computes the half-angle quaternion from (sin θ axis, 1 + cos θ), which is twice cos(θ/2) times the rotation.
+/// Computes the smallest rotation's quaternion: (sin θ axis, 1 + cos θ) is the quaternion times 2 cos(θ/2).
 Turn smallest_turn(const Direction& from, const Direction& to) {
   const Triple<Wide> across = cross(from, to);
   const Wide along = dot(from, to), one = std::sqrt(dot(from, from) * dot(to, to));

@@ -11,7 +11,7 @@ namespace ogc::reference {
 template <class T>
 using FourOf = std::array<T, 4>;
 
-/// Returns a b.
+/// Returns the quaternion a · b.
 template <class T>
 FourOf<T> product(const FourOf<T>& a, const FourOf<T>& b) {
   const Triple<T> u{a[0], a[1], a[2]}, v{b[0], b[1], b[2]}, across = cross(u, v);

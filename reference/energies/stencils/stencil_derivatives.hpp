@@ -14,8 +14,8 @@ namespace ogc::reference {
 /// 0, or to their absolute values.
 enum class HessianProjection : std::uint8_t { none, clamp, absolute };
 
-/// Derivatives of a stencil of n ≤ 4 vertices: gradient [N] in 3n entries, Hessian [N/m] as rows of 12 numbers of which
-/// 3n are used.
+/// Derivatives of a stencil of n ≤ 4 vertices: gradient [N] in 3n entries, Hessian [N/m] in rows of 12 numbers. The
+/// first 3n numbers of a row are used.
 struct StencilDerivatives {
   double energy = 0;
   std::array<double, 12> gradient{};

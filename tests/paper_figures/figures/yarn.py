@@ -227,12 +227,12 @@ class Braked(unittest.TestCase):
                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             velocities = yarn_rest.last_frame(Run(folder / "run")).velocities
         # Backward Euler. m/h² is two thirds of a vertex's block: after eight iterations 1e-4 of what a step is braked
-        # by is left. That is 1e-8 m, of which positions of 2 cm round off a tenth: 1 % over 800 steps, either way.
+        # by is left, 1e-8 m. Positions of 2 cm round off a tenth of this: 1 % over 800 steps, either way.
         left = speed / (1 + step * release.BRAKE_RATE) ** steps
         self.assertLess(np.abs(velocities - (0, left, 0)).max(), 0.03 * (speed - left))
 
     def test_a_distance_counts_where_both_cloths_are_at_rest(self):
-        """Of each cloth frames half a second apart, of which the last second counts: 1 mm/s is ε_v."""
+        """Each cloth has frames half a second apart. The last second counts: 1 mm/s is ε_v."""
         ends = {"released": np.eye(3), "hanging": np.eye(3) + (0, 3e-3, 4e-3)}
 
         def row(ways):

@@ -58,7 +58,7 @@ class Words(Scratch):
         self.now = 10
         begin = r"^Step 1 of 3, fig18 \(.+\): simulating cloth_on_sphere; "
         self.assertRegex(self.course.line(), begin + "at least 2 min left$")
-        self.course.due.remove("fig07")  # of which nobody knows how long it takes
+        self.course.due.remove("fig07")  # its duration is unknown
         self.assertRegex(self.course.line(), r"^Step 1 of 2, .*; about 2 min left$")  # 90 of the run, 40 of drawing
 
     def test_how_far_the_running_program_says_it_is_counts_more(self):

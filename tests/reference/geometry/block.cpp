@@ -1,5 +1,5 @@
-// Tests stage block against the conditions as printed in Eq. 8–10, 14 and 15, evaluated with closest points in double,
-// and tests its boundaries.
+// Tests stage block against the conditions as printed in Eq. 8–10, 14 and 15, with closest points in double precision.
+// Tests the boundaries of blocks, too.
 #include "reference/geometry/block.hpp"
 
 #include <algorithm>

@@ -18,7 +18,7 @@ class MotionLadder {
  public:
   explicit MotionLadder(unsigned seed) : engine_(seed) {}
 
-  /// Returns case i; kinds of cases and steps of the ladder alternate.
+  /// Returns case i. Odd cases are edges; the rungs repeat in cycles.
   PairMotion next(int i) {
     PairMotion m;
     m.edges = i % 2 == 1;

@@ -1,4 +1,5 @@
-// Tests the regions of solvers in double, and that steps stay inside them, with and without planes.
+// Tests the feasible regions of solvers in double precision: proposals and steps stay inside them, with and without
+// planes.
 #include "reference/solvers/feasible_regions.hpp"
 
 #include <cmath>

@@ -13,7 +13,7 @@ namespace ogc::compare::rod_cases {
 /// A quaternion: the factors of i, j, k, then the real part.
 using Four = std::array<double, 4>;
 
-/// Returns a b.
+/// Returns the quaternion a · b.
 inline Four product(const Four& a, const Four& b) {
   return {a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1], a[3] * b[1] + a[1] * b[3] + a[2] * b[0] - a[0] * b[2],
           a[3] * b[2] + a[2] * b[3] + a[0] * b[1] - a[1] * b[0], a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};

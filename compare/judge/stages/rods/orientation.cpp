@@ -101,7 +101,7 @@ Draft near_rest(Random& random) {
   return draft;
 }
 
-/// Returns a frame near draft.aim, which becomes the target of a neighbour.
+/// Returns a target for a neighbour: a frame near draft.aim.
 Four near_aim(Random& random, const Draft& draft) {
   return product(draft.aim, rotation(some_direction(random), random.between(-0.7, 0.7)));
 }
