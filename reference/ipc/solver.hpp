@@ -1,3 +1,12 @@
+// IPC (Li et al. 2020, Algorithm 1; choices of the official code), a step of implicit Euler:
+//
+//   barriers at xᵗ ── κ ── friction lagged ── prescribed vertices to their targets as far as CCD allows ──┐
+//        ┌────────────────────────────────────────────────────────────────────────────────────────────────┘
+//        ▼
+//     derivatives ── solve for p ── bound by CCD ── halve until the energy falls and nothing intersects ──┐
+//        ▲                                                                                                ▼
+//        └──────────────────────── adapt κ, or the pull ─────────────────────────────────────── p small? ─┘
+//
 // The step is bounded as in the official code: by CCD of the active pairs, and by a largest motion of d̂/2 for all
 // other pairs (a CFL-like rule). If this motion is less than half of what CCD allows, CCD of all pairs replaces the
 // rule. One broad phase serves an iteration: its boxes hold the whole motion and reach d̂ further. So it finds the
