@@ -15,8 +15,8 @@ enum class IpcAdaptation : std::uint8_t { distance, gap };
 /// iterations is below velocity_tolerance (Li et al. 2021).
 enum class IpcStopping : std::uint8_t { displacement, velocity };
 /// Selects the pairs that bound an IPC step. `partial` (Li et al. 2020): CCD of the active pairs, and a largest motion
-/// of d̂/2 for all other pairs. If this motion is less than half of what CCD allows, CCD of all pairs replaces both.
-/// `full` (Li et al. 2021): CCD of all pairs.
+/// of d̂/2 for all other pairs. If this motion is less than half of what CCD allows, CCD of all pairs replaces this
+/// limit. `full` (Li et al. 2021): CCD of all pairs.
 enum class IpcCcd : std::uint8_t { partial, full };
 
 /// IPC's settings. The table of settings has their ranges and defaults.
