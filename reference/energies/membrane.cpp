@@ -112,7 +112,7 @@ std::vector<ForceAnswer> damped_by_strain(const Question& q, const ModelRules& r
   return answers;
 }
 
-/// Sets the error scales for damping by vertex. Its force is the block times `moved`, so it has the block's tolerance
+/// Adapts the error scales to damping by vertex. Its force is the block times `moved`, so it has the block's tolerance
 /// plus per_vertex_additions.
 ForceAnswer with_vertex_units(const ModelRules& rules, const ForceAnswer& answer) {
   return with_units(answer, (rules.block_tolerance + compare::per_vertex_additions) / compare::membrane_force_tolerance,

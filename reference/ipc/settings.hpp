@@ -1,4 +1,4 @@
-// Holds the settings that only IPC has. IPC shares all others with Newton's method.
+// Holds the settings that only IPC has. IPC shares other settings with Newton's method.
 #pragma once
 
 #include <cstdint>

@@ -271,8 +271,8 @@ State IpcSolver::as_motion(State p) const {
 
 State IpcSolver::of_vertices(const State& p) const { return {p.begin(), p.begin() + std::ssize(x_)}; }
 
-/// Returns the direction p: Newton's, or the negative gradient divided by the diagonal. Along the gradient frames do
-/// not rotate, because their diagonal does not determine the angle.
+/// Returns Newton's direction p, or the negative gradient divided by the diagonal. Along the gradient frames do not
+/// rotate, because their diagonal does not determine the angle.
 std::optional<State> IpcSolver::direction() {
   System& now = system();
   const std::vector<double> diagonal = forces_.diagonal();
