@@ -1,5 +1,5 @@
-// Lists boundaries in the order of visit_block. A condition margin > 0 (`positive`) gives an open boundary, a condition
-// margin ≤ 0 a closed one.
+// Lists boundaries in the order of visit_block. A boundary with the condition margin > 0 (`positive`) is open, a
+// boundary with the condition margin ≤ 0 is closed.
 #include "reference/definitions/block_margins.hpp"
 
 namespace ogc::reference {

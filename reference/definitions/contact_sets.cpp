@@ -64,7 +64,7 @@ void enter(const compare::DetectIn& in, const Complex& mesh, Index v, Index t, s
   if (a.kind == FaceKind::triangle || in_planes(mesh, a, mesh.at(v))) entered.insert({v, a, owner_of(mesh, a)});
 }
 
-/// Returns the squared distance as an exact quotient.
+/// Returns the squared distance from x to triangle t as an exact quotient.
 Quotient<Exact> exact_squared_distance(const Complex& mesh, Index t, const Vec3f& x) {
   Quotient<Exact> smallest{Exact(-1), Exact(1)};
   for (const Face face : faces_of(mesh, t)) {

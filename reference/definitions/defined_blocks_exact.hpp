@@ -26,7 +26,7 @@ enum class Sphere { closed, open };
 /// The cones of normals of all faces of a mesh.
 struct DefinedBlocks::Cones {
   Complex mesh;
-  std::vector<NormalCone> vertices, edges, triangles;  ///< by number of the face
+  std::vector<NormalCone> vertices, edges, triangles;  ///< by index of the face
 
   /// Returns N_a of one face.
   const NormalCone& of(Face face) const;

@@ -66,7 +66,7 @@ void order_region(GaussMap& map, int lineality) {
   map.closed = lineality == 3;
   if (map.closed) return;
   const Unit centre = sum_of(map.corners);
-  // A half-sphere (lineality 2) has its centre among the generators, and the centre is no corner.
+  // The generators of a half-sphere (lineality 2) include its centre, which is not a corner.
   if (lineality == 2) std::erase_if(map.corners, [&](const Unit& u) { return inner(u, centre) > 0.5; });
   const Unit& first = map.corners.front();
   const double along = inner(first, centre);

@@ -1,5 +1,5 @@
-// Compares distances that are rounded down, and exact fractions only if both distances round to the same number. The
-// order of threads does not matter: distances are exact, and the lowest number wins a tie.
+// Compares distances that are rounded down. If both are the same number, compares the distances as exact fractions. The
+// result does not depend on the order of threads: the comparison is exact, and the lowest index wins a tie.
 #include "reference/definitions/nearest.hpp"
 
 #include <tbb/blocked_range.h>
@@ -68,7 +68,7 @@ class Search {
     return box;
   }
 
-  /// Calls visit(i, j) for all i, in parallel, and for all j whose boxes come within r_q of box i.
+  /// Calls visit(i, j) for all queries i, in parallel, and for all `boxes` j within r_q of query i.
   template <class Visit>
   void for_near(const std::vector<Box>& queries, const std::vector<Box>& boxes, Visit visit) const {
     const BoxTree tree(boxes);

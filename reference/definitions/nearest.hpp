@@ -11,17 +11,17 @@
 
 namespace ogc::reference {
 
-/// The nearest non-adjacent candidate of a primitive; the lowest-numbered one of equally near candidates. If none is
-/// nearer than r_q, `gap` is r_q and `partner` is −1.
+/// The nearest non-adjacent candidate of a primitive; of equally near candidates, the candidate with the lowest index.
+/// If none is nearer than r_q, `gap` is r_q and `partner` is −1.
 struct Nearest {
-  compare::Index partner = -1;  ///< number of the partner, or −1
+  compare::Index partner = -1;  ///< index of the partner, or −1
   Margin gap;                   ///< the distance to it, as a gap
 };
 
 /// Holds the nearest partners: a triangle for each vertex (Eq. 22), an edge for each edge (Eq. 24), a vertex for each
 /// triangle (Eq. 26).
 struct NearestPrimitives {
-  std::vector<Nearest> vertex, edge, triangle;  ///< by number of the primitive
+  std::vector<Nearest> vertex, edge, triangle;  ///< by index of the primitive
 };
 
 /// Finds the nearest candidates exactly, among the pairs that detections consider (method.md §2.3).
@@ -36,7 +36,7 @@ struct ExactSquares {
   std::vector<std::string> vertex, edge, triangle;  ///< d_min²
   std::vector<std::string> bound;                   ///< b_v² of Eq. 21
 };
-/// Returns d_min² of all primitives and b_v² of all vertices as fractions; b_v has the given γ_p (Eq. 21 to 26).
+/// Returns d_min² of all primitives and b_v² of all vertices as fractions (Eq. 21 to 26); γ_p is `bounds_relaxation`.
 ExactSquares exact_squares(const compare::DetectIn& in, float bounds_relaxation);
 
 }  // namespace ogc::reference

@@ -8,7 +8,7 @@
 namespace ogc::reference {
 namespace {
 
-/// Returns the point at the parameter s / weight of the line through a along d, weight > 0.
+/// Returns a + (s/weight) d; `weight` must be > 0.
 ExactPoint point_at(const ExactVector& a, const ExactVector& d, const Exact& s, const Exact& weight) {
   return {plus(times(weight, a), times(s, d)), weight};
 }

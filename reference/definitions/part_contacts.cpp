@@ -17,7 +17,7 @@ namespace {
 
 using compare::at;
 
-/// Returns the nearest face of a part; of equally near faces the lowest by dimension, then number.
+/// Returns the nearest face of a part; of equally near faces the lowest by dimension, then by index.
 Face nearest_face(const Complex& mesh, const std::vector<Index>& part, const Vec3f& x) {
   std::optional<std::pair<Face, Margin>> nearest;
   for (const Index t : part) {
@@ -62,7 +62,7 @@ ExactVector normal(const Complex& mesh, Index t) {
   return cross(exact(mesh.at(b)) - exact(mesh.at(a)), exact(mesh.at(c)) - exact(mesh.at(a)));
 }
 
-/// Returns x − c times a positive number, where c is the point of a vertex or of an edge's line closest to x.
+/// Returns x − c times a positive number. c is the vertex, or the point of the edge's line closest to x.
 ExactVector offset_of(const Complex& mesh, Face face, const Vec3f& x) {
   if (face.kind == FaceKind::vertex) return exact(x) - exact(mesh.at(face.index));
   const auto [a, b] = mesh.edge(face.index);
@@ -118,8 +118,8 @@ Reach reach_of(const Complex& mesh, Index t, const Vec3f& x) {
 /// Relative error limit of the distances of Reach.
 constexpr double reach_slack = 0x1p-40;
 
-/// Preselects the triangles of a part. `nearest` holds those that can be nearest to x: their box is not farther from x
-/// than the nearest corner of all triangles. `touching` holds those whose box is within the radius.
+/// Preselects the triangles of a part. A triangle is in `nearest` if its box is not farther from x than the nearest
+/// corner of all triangles: it may be nearest to x. It is in `touching` if its box is within the radius of x.
 struct Within {
   std::vector<Index> nearest, touching;
 

@@ -42,7 +42,7 @@ std::vector<VolumeContact> contacts_of_triangles(const compare::VolumeDepthIn& i
   return all;
 }
 
-/// Returns the contacts with all parts, of triangles and of tetrahedra.
+/// Returns the contacts with all parts, whether a part consists of triangles or of tetrahedra.
 compare::VolumeDepthOut exact_of(const compare::VolumeDepthIn& in) {
   const compare::VolumeDepthTruth truth = volume_depth(in);
   compare::VolumeDepthOut out;

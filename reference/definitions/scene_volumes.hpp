@@ -17,8 +17,8 @@ class SceneVolumes {
   /// Returns whether the scene has volumes.
   bool has_any() const { return !surface_.triangles.empty(); }
   /// Returns the contacts of all volume_askers (vertices that are tested against volumes), rounded to single precision
-  /// and sorted, and the unresolved sheets (VolumeDepthOut). `point` is the vertex; `triangle` and `face` are numbers
-  /// of the scene. `positions` [m] are by vertex of the scene.
+  /// and sorted, and the unresolved sheets (VolumeDepthOut). `point` is the vertex; `triangle` and `face` are indices
+  /// in the scene. `positions` [m] are by vertex of the scene.
   compare::VolumeDepthOut contacts(std::span<const compare::Vec3f> positions) const;
 
  private:

@@ -20,7 +20,7 @@ class Solid {
   /// `mesh` has the volume's triangles. Boundary triangles of tetrahedra are found among them by their vertices.
   Solid(const Complex& mesh, std::span<const Tetrahedron> tetrahedra);
 
-  /// Returns whether the triangle belongs to a tetrahedron.
+  /// Returns whether the triangle belongs to exactly one tetrahedron.
   bool is_boundary(Index triangle) const { return owner_[static_cast<std::size_t>(triangle)] >= 0; }
   /// Returns the tetrahedron of a boundary triangle, or −1.
   Index owner(Index triangle) const { return owner_[static_cast<std::size_t>(triangle)]; }
@@ -28,7 +28,7 @@ class Solid {
   const std::vector<Index>& tetrahedra_of(Index vertex) const {
     return tetrahedra_of_[static_cast<std::size_t>(vertex)];
   }
-  /// Returns the number of the vertex's component in joined_components.
+  /// Returns the index of the vertex's component in joined_components.
   Index component(Index vertex) const { return component_[static_cast<std::size_t>(vertex)]; }
   /// Returns whether the volume is positive, exactly.
   bool is_positive(Index t) const { return sign_[static_cast<std::size_t>(t)] > 0; }
@@ -61,13 +61,13 @@ class SolidPart : public VolumeFaces {
   compare::VolumePartTruth part(const std::vector<Index>& triangles);
 
  private:
-  /// A segment relative to a tetrahedron of volume V: 6V times the barycentric weights of both ends, and the largest
-  /// grey error of each product.
+  /// A segment relative to a tetrahedron of volume V. Holds 6V times the barycentric weights of both ends, and for each
+  /// weight the largest error that still counts as rounding.
   struct Passage;
   /// Sheets that rounding could merge into one.
   struct Group {
     std::vector<Index> tetrahedra;           ///< tetrahedra that hold x or may hold it
-    std::vector<std::vector<Index>> sheets;  ///< sheets in exact numbers, each as its tetrahedra
+    std::vector<std::vector<Index>> sheets;  ///< sheets decided exactly, each as its tetrahedra
     bool is_certain = true;
   };
   /// Describes whether a group has a way to a face.

@@ -1,6 +1,6 @@
 // The map to space is locally injective inside tetrahedra and through triangles because all volumes are positive. At an
-// inner edge it is locally injective if the tetrahedra around the edge wind once. At an inner vertex the tetrahedra
-// must also be connected through triangles; then their directions cover the sphere without branching.
+// inner edge it is locally injective if the tetrahedra cover a circle around the edge exactly once. At an inner vertex
+// the tetrahedra must also be connected through triangles; then their directions cover the sphere without branching.
 #include "reference/definitions/tet_checks.hpp"
 
 #include <algorithm>
@@ -97,7 +97,7 @@ Tetrahedron with_first(const Tetrahedron& t, std::size_t i, std::size_t j) {
   return {t[order[0]], t[order[1]], t[order[2]], t[order[3]]};
 }
 
-/// Calls visit(i, j) for the corners of every edge; i has the smaller vertex.
+/// Calls visit(i, j) for the corners i and j of every edge, with t[i] < t[j].
 template <class Visit>
 void for_each_edge(const Tetrahedron& t, Visit visit) {
   for (std::size_t i = 0; i < 4; ++i)

@@ -37,17 +37,17 @@ struct BoundaryTriangle {
 
 /// The path from a point in a sheet to the closest point of one boundary triangle.
 struct BoundaryPath {
-  Index triangle = -1;          ///< number in `boundary()`
-  bool valid = false;           ///< whether the segment to it lies in M
+  Index triangle = -1;          ///< index in `boundary()`
+  bool valid = false;           ///< whether the segment to `end` lies in M
   std::array<double, 3> end{};  ///< the closest point [m], each coordinate within 1 ulp
   double length = 0;            ///< the path's length, rounded down [m]
-  /// adjacent doubles, or one double twice, that enclose the exact square of the length [m²]
+  /// two adjacent doubles that enclose the exact squared length [m²]; both are the square if it is a double
   std::array<double, 2> squared_length{0, 0};
 };
 
 /// The depth of a point in a sheet.
 struct BoundaryDepth {
-  /// the shortest valid path; if several are equally short, the one to the lowest triangle
+  /// the shortest valid path; of equally short paths, the path to the triangle with the lowest index
   BoundaryPath path;
   std::vector<Index> equally_near;  ///< all boundary triangles with a valid path of exactly this length, ascending
   /// Number of strictly nearer boundary triangles without a valid path. The Euclidean distance would end at one of
@@ -72,12 +72,12 @@ class TetVolume {
   /// Returns whether the vertex is one of the tetrahedron's corners.
   bool has_vertex(Index tetrahedron, Index vertex) const;
 
-  /// Returns the sheets at a point of space, each as the ascending numbers of its tetrahedra; empty outside. A sheet
+  /// Returns the sheets at a point of space, each as the ascending indices of its tetrahedra; empty outside. A sheet
   /// has several tetrahedra if the point lies on a shared triangle, edge or vertex.
   std::vector<std::vector<Index>> sheets(const Vec3f& x) const;
 
-  /// Returns the paths to all boundary triangles, in their order, for x in the sheet of a tetrahedron. Throws
-  /// compare::InputError if the tetrahedron does not hold x.
+  /// Returns the paths from x to all boundary triangles, in the order of the triangles. x lies in the sheet of
+  /// `tetrahedron`. Throws compare::InputError if the tetrahedron does not hold x.
   std::vector<BoundaryPath> boundary_paths(const Vec3f& x, Index tetrahedron) const;
 
   /// Returns the depth d_p (zero on the boundary). In the offset geometry of §3.9, the depth is d_p + r. Throws like

@@ -1,4 +1,5 @@
-// Stage volume_depth: computes the contacts of part_contacts with all alternatives of their grey decisions.
+// Stage volume_depth: computes the contacts that part_contacts defines, with an answer for each outcome of a grey
+// decision.
 #pragma once
 
 #include "compare/stages/volume_depth.hpp"

@@ -13,7 +13,7 @@ namespace ogc::reference {
 /// Relates the triangles of a volume to one point x. Holds views; their owners must outlive this.
 class VolumeFaces {
  public:
-  /// `own` is the number of x if x is a vertex of the volume, otherwise −1. A vertex has no contact with its own faces.
+  /// `own` is the index of x if x is a vertex of the volume, otherwise −1. A vertex has no contact with its own faces.
   VolumeFaces(const Complex& mesh, const Vec3f& x, float radius, Index own);
   VolumeFaces(const VolumeFaces&) = default;
   virtual ~VolumeFaces() = default;
@@ -35,7 +35,7 @@ class VolumeFaces {
   Face face_of(Index t, int feature) const;
   /// Returns the faces that may be nearest, the exactly nearest first. A face of a candidate t may be nearest in two
   /// cases:
-  ///  - Every triangle around the face accepts it. A triangle that refuses it is nearer.
+  ///  - Every triangle around the face accepts it. (A triangle that does not accept the face is nearer.)
   ///  - t accepts it, and t is farther than `least` by at most 4 · 16 · 2⁻²⁴ doubt(t).
   /// An error of 16 · 2⁻²⁴ of the closest point changes the distance by at most the square of this error. The limit is
   /// four times the square, because distances in double are known only to half of the limit.
@@ -49,8 +49,8 @@ class VolumeFaces {
   /// Returns whether both answers, inside and outside, are accepted at this face, because volumes of tetrahedra at the
   /// face may not be positive.
   virtual bool is_vague(Face) const { return false; }
-  /// Adds contacts for the case that x is outside: with each face whose outward block holds x nearer than r, certainly
-  /// or possibly. `faces_in`: whether x is on the inner side of the nearest face.
+  /// Adds the contacts that x may have if it is outside: one for each face whose outward block may hold x nearer than
+  /// r. `faces_in`: whether x is on the inner side of the nearest face.
   void touch(const std::vector<Index>& triangles, Face nearest, bool faces_in, compare::VolumePartTruth& truth);
   /// Adds a contact at a face, unless it is already listed or x is certainly farther than r.
   void add_touching(Face face, compare::VolumePartTruth& truth) const;

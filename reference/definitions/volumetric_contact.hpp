@@ -6,8 +6,8 @@
 
 namespace ogc::reference {
 
-/// Returns the surface of a body of tetrahedra as a separate mesh, with the body's vertex numbers; triangles are
-/// numbered as in `TetVolume::boundary`.
+/// Returns the surface of a body of tetrahedra as a separate mesh, with the vertex indices of the body. Triangles have
+/// the order of `TetVolume::boundary`.
 compare::Topology surface_topology(const TetVolume& body, Index vertex_count);
 
 /// One contact of a point with a body.
@@ -20,8 +20,8 @@ struct VolumetricContact {
 
 /// Returns the contacts of x. If sheets hold x, there is one contact for each sheet, in the order of sheets. Otherwise
 /// there is one for each outward block that holds x nearer than r, in the order of faces. `surface` must be
-/// surface_topology of `body`. If x is a vertex of the body, `own` is its number; its own sheet and its own faces are
-/// then left out.
+/// surface_topology of `body`. If x is a vertex of the body, `own` is its index; the sheet of this vertex and its faces
+/// are then left out.
 std::vector<VolumetricContact> volumetric_contacts(const TetVolume& body, const ClosedSurface& surface, const Vec3f& x,
                                                    float contact_radius, Index own = -1);
 

@@ -1,5 +1,5 @@
-// Stage activation: Eq. 18–20 with Eq. 19 corrected (method.md §1.1), and the variants of the ablation (method.md
-// §4.2), from contact_activation.hpp.
+// Computes the stage activation: Eq. 18–20 with Eq. 19 corrected (method.md §1.1), and the variants of the ablation
+// (method.md §4.2).
 #pragma once
 
 #include "compare/stages/activation.hpp"
@@ -14,7 +14,7 @@ compare::ActivationTruth activation(const compare::ActivationIn& in);
 /// The activation and its derivatives by d at one distance, rounded from multiprecision.
 struct ActivationValue {
   double energy = 0, slope = 0, curvature = 0;  ///< g [J], g' [N], g'' [N/m]
-  /// units of their errors, as in compare::ActivationTruth
+  /// error scales, as in compare::ActivationTruth
   double energy_scale = 0, slope_scale = 0, curvature_scale = 0;
 };
 /// Returns the activation at the distance d ≥ 0 [m], for the radius r [m] and the stiffness k_c [N/m].

@@ -1,4 +1,4 @@
-// Stage bending: the energy of one hinge (method.md §4.7, §4.9).
+// Computes the stage bending: force and block of one vertex of a hinge (method.md §4.7, §4.9).
 #pragma once
 
 #include "compare/stages/bending.hpp"

@@ -8,8 +8,8 @@
 
 namespace ogc::reference {
 
-/// Returns the quadratic stage k/2 (r − d)² for d ≥ τ = r/2. Below τ, returns k' (ln τ − ln d) plus the quadratic
-/// stage's value at τ; k' is `log_stiffness`.
+/// Returns the quadratic branch k/2 (r − d)² for d ≥ τ = r/2. Below τ, returns k' (ln τ − ln d) plus the value of the
+/// quadratic branch at τ; k' is `log_stiffness`.
 template <class T, class P>
 T two_stage_energy(const T& d, const P& r, const P& k, const P& log_stiffness) {
   using std::log;

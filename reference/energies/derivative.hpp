@@ -28,7 +28,7 @@ struct Derivative {
   Derivative() = default;
   Derivative(const T& constant) : value(constant) {}
   Derivative(double constant) requires(!std::is_same_v<T, double>) : value(constant) {}
-  /// Makes input number `direction`, with the value `at`.
+  /// Makes the input with index `direction` and the value `at`.
   Derivative(const T& at, std::size_t direction) : value(at), count(direction + 1) { slope[direction] = T(1.0); }
 
   friend Derivative operator+(Derivative a, const Derivative& b) {
@@ -75,7 +75,7 @@ double plain(const Derivative<T, N>& x) {
   return plain(x.value);
 }
 
-/// Returns max(0, x). The derivatives of x are kept even if x < 0: they are units of the judge's errors, and rounding
+/// Returns max(0, x). Keeps the derivatives of x even if x < 0: the judge's error scales come from them, and rounding
 /// may make x positive.
 inline double positive_part(double x) { return std::max(0.0, x); }
 template <class T, std::size_t N>

@@ -1,4 +1,4 @@
-// Stage friction_force: IPC's lagged potential on the contact points of one contact (method.md §4.4).
+// Computes the stage friction_force: IPC's lagged friction at the contact points of one contact (method.md §4.4).
 #pragma once
 
 #include "compare/stages/friction_force.hpp"

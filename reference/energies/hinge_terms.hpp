@@ -70,8 +70,7 @@ struct HingeTermOf {
   /// Returns the constants (head of stencil_terms.hpp).
   auto numbers() { return std::tie(stiffness, rest_angle, damping, start, weight); }
   auto numbers() const { return std::tie(stiffness, rest_angle, damping, start, weight); }
-  /// Returns the choices that select branches; stencils that are evaluated side by side must agree in them (head of
-  /// stencil_terms.hpp).
+  /// Returns the properties that stencils evaluated together must share (head of stencil_terms.hpp).
   auto kinds() { return std::tie(model); }
   auto kinds() const { return std::tie(model); }
 

@@ -1,6 +1,6 @@
-// Differentiates an energy by all given numbers of its stencil (positions, constants) at the innermost level. So each
-// later derivative (force, block) has a condition Σ ‖∂f/∂q‖ ‖q‖ over the given numbers q. The condition is the unit in
-// which the judge counts errors (compare/stages/force.hpp).
+// Differentiates an energy by all given numbers q of its stencil (positions, constants), at the innermost level of
+// nested derivatives. So each outer derivative f (force, block) has a condition Σ ‖∂f/∂q‖ ‖q‖. It is the judge's error
+// scale (compare/stages/force.hpp).
 #pragma once
 
 #include <span>
@@ -62,9 +62,9 @@ Triple<ByVertex> own_vertex();
 
 using Block = BlockOf<Input>;
 
-/// Returns force and block as an answer, with their units of error.
+/// Returns force and block as an answer, with their error scales.
 compare::ForceAnswer answer(const Inputs& inputs, const VertexSystemOf<Input>& system);
-/// Returns the force −∂E/∂x of `energy` and the given block as an answer, with their units of error.
+/// Returns the force −∂E/∂x of `energy` and the given block as an answer, with their error scales.
 compare::ForceAnswer answer(const Inputs& inputs, const ByVertex& energy, const Block& block);
 
 /// Adds damping by vertex to an elastic force with the block B: the force gets −k B `moved`, the block k B. `moved` is
@@ -72,10 +72,10 @@ compare::ForceAnswer answer(const Inputs& inputs, const ByVertex& energy, const 
 compare::ForceAnswer damped_by_vertex(const Inputs& inputs, const VertexSystemOf<Input>& elastic, const Input& damping,
                                       const Triple<Input>& moved);
 
-/// Multiplies the units of error of force and block by `force` and `block`, for a model whose tolerances differ from
+/// Multiplies the error scales of force and block by `force` and `block`, for a model whose tolerances differ from
 /// those of its stage.
 compare::ForceAnswer with_units(compare::ForceAnswer answer, double force, double block);
-/// Returns the sum of two answers that are rounded separately; their units of error add up.
+/// Returns the sum of two answers that are rounded separately; their error scales add up.
 compare::ForceAnswer sum(compare::ForceAnswer a, const compare::ForceAnswer& b);
 
 }  // namespace ogc::reference

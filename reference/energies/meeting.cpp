@@ -72,8 +72,8 @@ std::vector<Parameters> all_on_triangle(const Inputs& inputs, const ContactForce
   return all;
 }
 
-/// Returns the accepted parameters of the closest point of a segment, the exact one first. On a collapsed segment the
-/// exact one is the first that is possible of end 0, end 1 and interior.
+/// Returns the accepted parameters of the closest point of a segment, the exact one first. On a collapsed segment, this
+/// is end 0.
 std::vector<Parameters> all_on_segment(const Inputs& inputs, const ContactForceCase& q, const Vertices& x) {
   const Vec3f &p = q.vertex[0], &a = q.vertex[1], &b = q.vertex[2];
   std::array<Membership, 3> membership;
@@ -159,11 +159,11 @@ std::array<Input, 4> weights(ContactSides sides, const Input& first, const Input
   return {one, -one, zero, zero};
 }
 
-/// Returns e_k as one input. The size of its error is the sum of
+/// Returns e_k as one input. The scale of its error is the sum of
 ///
-///  - its condition,
-///  - the square of the error of the normal e × e', the only error of parallel edges. The normal has the error
-///    4 u ‖e‖‖e'‖ (u = 2⁻²⁴), from two products and a difference of rounded edges.
+///  - its condition, which is 0 for parallel edges,
+///  - the square of the error of the normal e × e': 4 u ‖e‖‖e'‖ (u = 2⁻²⁴), from two products and a difference of
+///    rounded edges.
 Input mollified(const ContactForceCase& q, Inputs& inputs) {
   Inputs own;
   const Triple<Input> e = own.vector(q.previous[1], q.previous[0]), f = own.vector(q.previous[3], q.previous[2]);

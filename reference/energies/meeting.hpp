@@ -62,8 +62,8 @@ struct Meeting {
   bool may_jump() const {
     return form_of(activation).jumps && std::abs(distance.value - 0.5 * contact_radius.value) <= distance_doubt;
   }
-  /// Returns an error of −g' [N] that first-order errors do not include. It is not 0 only if g' and g'' are 0 at r and
-  /// d is within rounding of r. It is then the value of −g' at r minus three errors of d.
+  /// Returns an error of −g' [N] that first-order errors do not include. The error is 0 unless g' and g'' are 0 at r
+  /// and d is within rounding of r. Then it is −g' at the distance r minus three errors of d.
   double slope_doubt() const;
   /// Returns whether the contact has a force: 0 < d < r. For d ≥ r it has only a block.
   bool acts() const { return distance.value > 0 && distance.value < contact_radius.value; }
@@ -83,8 +83,8 @@ struct Meeting {
 /// follows.
 std::vector<Meeting> meetings(const compare::ContactForceCase& question);
 
-/// Returns whether a decision of the contact is near, within near_factor. The decisions are the features of the closest
-/// points, whether d < r, and whether d < τ if the activation has two stages.
+/// Returns whether a decision of the contact lies within near_factor of its boundary. The decisions are the features of
+/// the closest points, whether d < r, and whether d < τ if the activation has two branches.
 bool is_near_decision(const compare::ContactForceCase& question, const Meeting& exact);
 
 /// Selects the distances at which a stage's answer is 0.
@@ -94,8 +94,8 @@ enum class Ends {
 };
 
 /// Returns a stage's accepted answers for all `meetings` (accepted positions of the contact points) of a contact.
-/// `acting` returns the answer of a Meeting with a force. `largest` takes a distance [m] and returns, as scales, upper
-/// limits of force and block at this distance or beyond. It is used for needles, and if the contact points may
+/// `acting` returns the answer of a Meeting with a force. `largest` takes a distance d [m] and returns upper limits of
+/// force and block at all distances from d on, as scales. It is used for needles, and if the contact points may
 /// coincide.
 std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings, Ends end,
                                           const std::function<compare::ForceAnswer(double)>& largest,

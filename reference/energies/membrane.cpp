@@ -112,8 +112,8 @@ std::vector<ForceAnswer> damped_by_strain(const Question& q, const ModelRules& r
   return answers;
 }
 
-/// Enlarges the units of the force for damping by vertex: this force, the block times `moved`, is as inaccurate as the
-/// block.
+/// Adapts the error scales to damping by vertex. Its force is the block times `moved`, so it has the block's tolerance
+/// plus per_vertex_additions.
 ForceAnswer with_vertex_units(const ModelRules& rules, const ForceAnswer& answer) {
   return with_units(answer, (rules.block_tolerance + compare::per_vertex_additions) / compare::membrane_force_tolerance,
                     rules.block_tolerance / compare::membrane_block_tolerance);
@@ -125,7 +125,7 @@ std::vector<ForceAnswer> damped_by_motion(const Question& q, const ModelRules& r
   add_elastic(q.term, q.at, elastic);
   std::vector answers{with_vertex_units(rules, damped_by_vertex(q.inputs, elastic, q.term.damping, moved))};
   if (!any) return answers;
-  // An upper limit of the block's norm: the stored block plus its error.
+  // An upper limit of the block's norm: the norm of any->block plus its error.
   constexpr double u = compare::unit_roundoff;
   const double largest = std::hypot(any->block[0], any->block[3], any->block[5]) +
                          rules.block_tolerance * u * any->block_scale;

@@ -1,4 +1,4 @@
-// Stage membrane: the energy of one triangle (method.md §4.6, §4.9).
+// Computes the stage membrane: force and block of one corner of a triangle (method.md §4.6, §4.9).
 #pragma once
 
 #include "compare/stages/membrane.hpp"

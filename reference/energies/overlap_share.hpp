@@ -1,4 +1,4 @@
-// e_k of nearly parallel edges without triangles (compare/stages/contact_force.hpp), over any number type.
+// Computes e_k of nearly parallel edges without triangles (compare/stages/contact_force.hpp), over any number type.
 #pragma once
 
 #include "reference/energies/derivative.hpp"

@@ -14,7 +14,7 @@ namespace ogc::reference {
 /// The truth about one case: the accepted answers, and whether a decision is near.
 struct Accepted {
   std::vector<compare::ForceAnswer> answers;  ///< the exact one first
-  bool near = false;                          ///< whether some decision lies within near_factor
+  bool near = false;                          ///< whether some decision lies within near_factor of its boundary
   Accepted(std::vector<compare::ForceAnswer> all, bool is_near = false) : answers(std::move(all)), near(is_near) {}
 };
 

@@ -1,6 +1,6 @@
-// Collects the rest state. Each kind of element adds its own part. Each quantity is written once, as polynomials over a
+// Collects the rest state. Each kind of element adds its part. Each quantity is written once, as polynomials over a
 // number type. Exact numbers give its value, so that even needles, flat hinges and folds lose no bit before the last
-// root, quotient or angle. Input numbers give the unit of the value's error.
+// root, quotient or angle. Input numbers give the scale of the value's error.
 #pragma once
 
 #include <CGAL/Mpzf.h>
@@ -36,7 +36,7 @@ inline Point<Input> input(Inputs& inputs, const compare::Vec3& p, const compare:
   return {v[0], v[1], v[2]};
 }
 
-/// Returns the unit of the error of one number.
+/// Returns the error scale of one number.
 inline double unit_of(const Inputs& inputs, const Input& answer) { return inputs.condition({&answer, 1}); }
 
 /// Collects the truth about the rest state of a scene.
@@ -52,7 +52,7 @@ struct RestBuilder {
   const compare::Vec3& at(compare::Index v) const { return scene.rest_positions[static_cast<std::size_t>(v)]; }
   const compare::Body& body(compare::Index b) const { return scene.bodies[static_cast<std::size_t>(b)]; }
 
-  /// Adds an element's mass in equal parts to its vertices; `scale` is the unit of the error of `size`.
+  /// Adds an element's mass in equal parts to its vertices; `scale` is the error scale of `size`.
   template <class Vertices>
   void add_mass(const Vertices& vertices, double density, long double size, double scale) {
     for (const compare::Index vertex : vertices) {

@@ -27,8 +27,8 @@ struct Fold {
                twice_second = sqrt(number(dot(second, second)));
     return decltype(ee)(6.0) * ee / (twice_first + twice_second);
   }
-  /// Returns the weights of x1, o0, o1: sums of cotangents over the edge's length. Takes the vectors from x0 to the
-  /// opposite vertices.
+  /// Returns the weights of x1, o0, o1: sums of cotangents, divided by the edge's length. Takes the vectors from x0 to
+  /// the opposite vertices.
   auto weights(const Point<T>& to_first, const Point<T>& to_second) const {
     using std::sqrt;
     const auto length = sqrt(number(dot(edge, edge))), twice_first = sqrt(number(dot(first, first))),
@@ -39,7 +39,7 @@ struct Fold {
   }
 };
 
-/// Adds the weights of the last hinge. They are 0 except in the isometric model.
+/// Sets the weights of the last hinge in `truth`. They are 0 except in the isometric model.
 void add_weights(compare::BendingModel model, const Fold<Exact>& fold, const Fold<Input>& reacting,
                  const std::array<Point<Exact>, 2>& opposite, const std::array<Point<Input>, 2>& reacting_opposite,
                  const Inputs& inputs, compare::RestStateTruth& truth) {

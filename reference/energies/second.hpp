@@ -14,7 +14,7 @@
 
 namespace ogc::reference {
 
-/// Calls visit(i, j, k) for each entry (i, j), j ≤ i, of a lower triangle of N rows; k is the entry's number. The loop
+/// Calls visit(i, j, k) for each entry (i, j), j ≤ i, of a lower triangle of N rows; k is the entry's index. The loop
 /// is unrolled, because short loops of varying length cost more than their bodies.
 template <std::size_t N, class Visit>
 [[gnu::always_inline]] inline void for_triangle(Visit visit) {

@@ -37,8 +37,8 @@ struct Separation {
   }
 };
 
-/// Returns an error of a stitch's block that the first order lacks [N/m]. The vector Σ wᵢ xᵢ of length l has an error
-/// of 4 u · condition (u = 2⁻²⁴, compare/stages/spring.hpp).
+/// Returns an error of a stitch's block that first-order errors do not include [N/m]. The vector Σ wᵢ xᵢ of length l
+/// has an error of 4 u · condition (u = 2⁻²⁴, compare/stages/spring.hpp).
 ///
 ///  - If l is more than twice this error, the tolerances cover the error of 1/l. The result is 0.
 ///  - Otherwise l₀/l may be anything up to 1. If l₀ > 0, the block may lack all of max(0, 1 − l₀/l)(I − n nᵀ). The

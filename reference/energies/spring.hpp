@@ -1,5 +1,5 @@
-// The energy of a spring over any number type, and the block of one of its vertices (method.md §4.8, §4.9);
-// stage spring.
+// Defines the energy of a spring over any number type and the block of one of its vertices (method.md §4.8, §4.9).
+// Declares the stage spring.
 #pragma once
 
 #include <tuple>
@@ -30,7 +30,7 @@ struct SpringTermOf {
   T elastic(const std::array<Triple<T>, 4>& x) const {
     return about(separation(weight, x), rest_length);
   }
-  /// Returns the energy if Σ wᵢ xᵢ is `apart`, damping included [J].
+  /// Returns the energy, damping included [J]; `apart` is Σ wᵢ xᵢ.
   template <class T>
   T energy_between(const Triple<T>& apart) const {
     return damping == 0.0 ? about(apart, rest_length) : about(apart, rest_length) + damping * about(apart, start);
@@ -44,12 +44,12 @@ struct SpringTermOf {
   /// Returns the constants (head of stencil_terms.hpp).
   auto numbers() { return std::tie(weight, stiffness, rest_length, damping, start); }
   auto numbers() const { return std::tie(weight, stiffness, rest_length, damping, start); }
-  /// Returns the choices in which stencils side by side must agree (head of stencil_terms.hpp).
+  /// Returns the properties that stencils evaluated together must share (head of stencil_terms.hpp).
   auto kinds() { return std::tie(); }
   auto kinds() const { return std::tie(); }
 
  private:
-  /// Returns k_s/2 (l − from)². If l = 0 and from > 0, the spring has no direction, and the root no derivatives.
+  /// Returns k_s/2 (l − from)². If l = 0 and from > 0, the spring has no direction, and all derivatives are 0.
   template <class T>
   T about(const Triple<T>& apart, const Number& from) const {
     using std::sqrt;
@@ -66,7 +66,7 @@ Number held_across(const Number& length, const Number& rest_length) {
   return plain(length) == 0.0 ? Number(1.0) : positive_part(1.0 - rest_length / length);
 }
 
-/// Adds the force and the block w² k_s (n nᵀ + max(0, 1 − l₀/l)(I − n nᵀ)) + w² k k_s n nᵀ, whose last term is damping.
+/// Adds the force and the block w² k_s (n nᵀ + max(0, 1 − l₀/l)(I − n nᵀ)) + w² k k_s n nᵀ. The last term is damping.
 /// If l = 0, the block is w² k_s I (compare/stages/spring.hpp). `apart` is Σ wᵢ xᵢ; `own_weight` is w, the weight of
 /// the vertex.
 template <class Number>

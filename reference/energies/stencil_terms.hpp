@@ -1,8 +1,8 @@
 // The energy of each kind of stencil as one scalar function of its vertices, over any number type (method.md §4).
 // Newton's method differentiates the energy by all vertices. The stages of the sweep differentiate by one vertex, with
 // the same strains and angles. `Number` is the type of a stencil's constants: a double, or SIMD lanes with one double
-// for each of several stencils that are evaluated side by side. `numbers` returns these constants. `kinds` returns the
-// choices that select branches; all stencils side by side must agree in them.
+// for each of several stencils that are evaluated together. `numbers` returns these constants. `kinds` returns the
+// properties that select branches; all stencils evaluated together must share them.
 #pragma once
 
 #include <tuple>
@@ -39,7 +39,7 @@ struct ContactTermOf {
   /// Returns the constants (head of this file).
   auto numbers() { return std::tie(contact_radius, stiffness, mollifier); }
   auto numbers() const { return std::tie(contact_radius, stiffness, mollifier); }
-  /// Returns the choices in which stencils side by side must agree (head of this file).
+  /// Returns the properties that stencils evaluated together must share (head of this file).
   auto kinds() { return std::tie(activation); }
   auto kinds() const { return std::tie(activation); }
 };
@@ -61,7 +61,7 @@ struct FrictionTermOf {
   Triple<T> slip(const std::array<Triple<T>, N>& x) const {
     return slip_between(separation(weight, x));
   }
-  /// Returns u from Σ wᵢ xᵢ.
+  /// Returns u; `apart` is Σ wᵢ xᵢ.
   template <class T>
   Triple<T> slip_between(Triple<T> moved) const {
     for (std::size_t k = 0; k < 3; ++k) moved[k] = moved[k] - T(start[k]);
@@ -82,7 +82,7 @@ struct FrictionTermOf {
   T energy(const std::array<Triple<T>, N>& x) const {
     return energy_between(separation(weight, x));
   }
-  /// Returns the energy from Σ wᵢ xᵢ.
+  /// Returns the energy [J]; `apart` is Σ wᵢ xᵢ.
   template <class T>
   T energy_between(const Triple<T>& apart) const {
     const Triple<T> u = slip_between(apart);

@@ -90,7 +90,7 @@ Gradients gradients_of(const compare::TetrahedronCase& q, Inputs& inputs) {
   return gradient;
 }
 
-/// Returns the Green strain Gᵗ at the start of the step; each component is paired with the unit of its error.
+/// Returns the Green strain Gᵗ at the start of the step; each component is paired with its error scale.
 std::array<std::pair<double, double>, 6> strain_at_start(const compare::TetrahedronCase& q) {
   Inputs inputs;
   const std::array<Triple<Input>, 4> x = inputs.stencil(q.start, 0);
@@ -153,7 +153,7 @@ compare::ForceTruth tetrahedron(const compare::TetrahedronIn& in) {
 namespace {
 
 /// Holds polynomials of a tetrahedron's coordinates: 6V, and for each corner k the inward normal n_k of the opposite
-/// face, of twice the face's area. ∇N_k = n_k/(6V).
+/// face. The length of n_k is twice the face's area, and ∇N_k = n_k/(6V).
 template <class T>
 struct SolidShape {
   Point<T> normal[4];

@@ -38,7 +38,7 @@ SolidStrain<T> solid_strain(const SolidDeformation<T>& f) {
           0.5 * (dot(f[1], f[1]) - one), 0.5 * dot(f[1], f[2]), 0.5 * (dot(f[2], f[2]) - one)};
 }
 
-/// Returns ϕ(G) = λ/2 tr(G)² + μ ‖G‖² [J/m³]. The constants, here and below, may be plain numbers.
+/// Returns ϕ(G) = λ/2 tr(G)² + μ ‖G‖² [J/m³]. Constants may be plain numbers.
 template <class T, class Lame>
 T solid_quadratic(const SolidStrain<T>& g, const Lame& lambda, const Lame& mu) {
   const T trace = g[0] + g[3] + g[5];
@@ -101,7 +101,7 @@ struct TetrahedronTermOf {
   /// Returns the constants (head of stencil_terms.hpp).
   auto numbers() { return std::tie(gradient, volume, lambda, mu, damping, start); }
   auto numbers() const { return std::tie(gradient, volume, lambda, mu, damping, start); }
-  /// Returns the choices in which stencils side by side must agree (head of stencil_terms.hpp).
+  /// Returns the properties that stencils evaluated together must share (head of stencil_terms.hpp).
   auto kinds() { return std::tie(); }
   auto kinds() const { return std::tie(); }
 };
@@ -115,7 +115,7 @@ struct TetrahedronCorner {
   SolidStrain<ByOwnTwice<Number>> g;
   SolidStrain<Second<6, Number>> by_strain;
 
-  /// Takes the corners [m]; the one at `place` is the variable.
+  /// Takes the corners [m]; the corner at `place` is the variable.
   TetrahedronCorner(const TetrahedronTermOf<Number>& term, std::size_t place,
                     const std::array<Triple<Number>, 4>& corners)
       : f(solid_deformation<ByOwnTwice<Number>>(with_own<ByOwnTwice<Number>>(corners, place), term.gradient)),

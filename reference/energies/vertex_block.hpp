@@ -1,6 +1,7 @@
-// Force and sweep block of one vertex, over any number type. Whole runs use doubles (solvers/vertex_system.hpp). The
-// judged stages use Input numbers, which also give the units of error. Each energy's block is derived once, beside the
-// energy (membrane_terms.hpp, hinge_terms.hpp, spring.hpp). This file has the common functions.
+// Computes force and sweep block of one vertex, over any number type. Whole runs use doubles
+// (solvers/vertex_system.hpp). The judged stages use Input numbers, which also give the error scales. Each energy's
+// block is derived once, beside the energy (membrane_terms.hpp, hinge_terms.hpp, spring.hpp). This file has the common
+// functions.
 #pragma once
 
 #include "reference/energies/derivative.hpp"

@@ -81,8 +81,9 @@ Rubbed rubbed(const compare::VolumeForceCase& q, const Pressed& pressed) {
       block[k] = stiffness * own_weight.value * own_weight.value * plane;
     }
   Rubbed result{answer(inputs, energy, block), false};
-  // Adds errors that the first order lacks. If the normal force λ and the slip u both vanish, the product of their
-  // errors remains. If u may be 0 within rounding, f₁/y may be anything up to 2/ε (y = ‖u‖, ε is the slip limit).
+  // Adds errors that first-order errors do not include. If the normal force λ and the slip u both vanish, the product
+  // of their errors remains. If u may be 0 within rounding, f₁/y may be anything up to 2/ε (y = ‖u‖, ε is the slip
+  // limit).
   const double unit = compare::unit_roundoff, w = std::abs(own_weight.value.value),
                doubt_of_force = compare::volume_force_grey * unit * pressed.doubt,
                doubt_of_slip = slip_units * unit * inputs.condition(u),

@@ -1,4 +1,4 @@
-// Stage volume_force: the energy of one contact with a volume, and its friction (§3.9; method.md §9).
+// Computes the stage volume_force: force and block of one contact with a volume, with friction (§3.9; method.md §9).
 #pragma once
 
 #include "compare/stages/volume_force.hpp"

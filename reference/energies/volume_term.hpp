@@ -16,7 +16,7 @@ struct VolumeTerm {
   double contact_radius = 0, stiffness = 0;  ///< r [m], k [N/m]
   double friction = 0, slip_limit = 0;       ///< μ [1], ε_v h [m]
 
-  /// Returns r − φ from Σ wᵢ xᵢ [m].
+  /// Returns r − φ [m]; `apart` is Σ wᵢ xᵢ.
   template <class T>
   T overlap(const Triple<T>& apart) const {
     return T(contact_radius) - (normal[0] * apart[0] + normal[1] * apart[1] + normal[2] * apart[2]);

@@ -1,6 +1,6 @@
-// A block is the set of points that the face reaches when it moves along each of its normals by up to r. For a vertex
-// it consists of cones over the region N_v, for an edge of prisms over the arc N_e, for a triangle of one prism on each
-// side of it. So each picture is made from the outline of N_a.
+// A block is the set of points that a face a reaches when it moves along each of its normals (the set N_a) by up to r.
+// For a vertex it consists of cones over the region N_v, for an edge of prisms over the arc N_e, for a triangle of one
+// prism on each side of it. So each picture is made from the outline of N_a.
 #include "reference/illustrations/block_picture.hpp"
 
 #include <algorithm>

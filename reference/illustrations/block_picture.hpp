@@ -15,7 +15,7 @@ struct BlockPatch {
   BlockMargin::Kind kind = BlockMargin::Kind::sphere;  ///< kind of the boundary
   /// whether the boundary belongs to the block, as printed; open boundaries are drawn dashed (Fig. 7, 8)
   bool closed = true;
-  std::vector<std::array<int, 3>> triangles;  ///< by numbers of points
+  std::vector<std::array<int, 3>> triangles;  ///< as indices of points
   std::vector<std::vector<int>> outlines;     ///< polylines around the patch
 };
 

@@ -14,8 +14,8 @@ namespace ogc::reference {
 struct DrawingLayer {
   std::string name;                           ///< subject: "surface", "block", "gauss_map", "arrows of OGC", …
   std::vector<std::array<double, 3>> points;  ///< coordinates
-  std::vector<std::array<int, 3>> triangles;  ///< by numbers of points
-  std::vector<std::vector<int>> lines;        ///< polylines, by numbers of points
+  std::vector<std::array<int, 3>> triangles;  ///< as indices of points
+  std::vector<std::vector<int>> lines;        ///< polylines, as indices of points
   std::vector<double> values;                 ///< one for each point of a field or curve; otherwise empty
   bool closed = true;  ///< whether its boundaries belong to the block; open ones are drawn dashed
 };

@@ -1,4 +1,4 @@
-// Computes Fig. 2c to e, 3, 4 and 22a as slices of swept polylines. Contact sets, layers and distances are those of the
+// Computes Fig. 2c to e, 3, 4 and 22a as slices of swept polylines. Contact sets, layers and distances come from the
 // swept surface; only the drawing is two-dimensional.
 #include <algorithm>
 
@@ -31,7 +31,7 @@ DrawingLayer circle(const Point2& centre, double r) {
   return layer;
 }
 
-/// The force of a point x on one face of the polyline, by the quadratic stage of the activation. It acts at the face's
+/// The force of a point x on one face of the polyline, by the quadratic branch of the activation. It acts at the face's
 /// closest point to x, away from x, with length r − d.
 struct Push {
   SliceFace face;
@@ -179,7 +179,8 @@ DrawingLayer capsule(const Slice& slice, int segment, double r) {
   return layer;
 }
 
-/// Returns a panel with the given vertices and the pushes on the faces in their contact sets, by OGC or IPC.
+/// Returns a panel with the given vertices, and arrows for their forces on the faces in their contact sets, by OGC or
+/// IPC.
 DrawingPanel model_panel(const std::string& name, const std::string& caption, const Slice& slice,
                          const std::vector<Index>& vertices, float r, bool ogc) {
   const Complex mesh = slice.mesh();

@@ -16,7 +16,7 @@ struct Shape {
   Complex mesh() const { return {topology, positions}; }
 };
 
-/// Returns k triangles around vertex 0; the i-th neighbour has height heights[i].
+/// Returns a closed fan of triangles around vertex 0; its i-th neighbour has height heights[i].
 Shape star(const std::vector<float>& heights) {
   const auto k = static_cast<Index>(heights.size());
   std::vector<Vec3f> positions{{0, 0, 0}};
@@ -65,7 +65,7 @@ DrawingLayer curve(const std::string& name, const std::vector<Unit>& points) {
   return layer;
 }
 
-/// Adds the indicatrix (the polygon of the triangles' normals, with finely cut arcs) and N_a on the unit sphere.
+/// Adds N_a on the unit sphere, and for a vertex of the surface the indicatrix (polygon of the triangles' normals).
 void add_normals(DrawingPanel& panel, const Complex& mesh, Face face, bool edge_only) {
   const GaussMap map = gauss_map(mesh, face, edge_only);
   if (map.dimension == 0) {

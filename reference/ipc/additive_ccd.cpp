@@ -59,8 +59,8 @@ class Motion {
     const Triple<double> apart = separation(form.weight, slab.x);
     slab.width = -1;
     widen(slab, apart);
-    // Rounding tilts the connection `apart`, by up to 2⁻⁵³ S over the gap (S: see the constructor). Normals of lines
-    // and planes are more precise.
+    // Rounding tilts the connection `apart` by up to 2⁻⁵³ S divided by the gap (S: see the constructor). Normals of
+    // lines and planes are more precise.
     if (slab.width < 0.9 * norm(apart)) widen(slab, normal_of(form, slab.x, apart));
     return slab;
   }

@@ -16,13 +16,13 @@ namespace ogc::reference {
 /// The share of the first gap that is left at the returned time (s of Algorithm 1), and the factor of each safe step.
 inline constexpr double ccd_gap_left = 0.1, ccd_rescaling = 0.9;
 
-/// Limit of the steps. While a tenth of the first gap g is left, a step is at least 0.09 g/ℓ. So the limit ends only
-/// motions that would take unreasonably long. The time reached by then is a safe answer.
+/// Largest number of steps. While a tenth of the first gap g is left, a step is at least 0.09 g/ℓ. So the limit ends
+/// only motions that would take unreasonably long. The time reached by then is a safe answer.
 inline constexpr int ccd_most_steps = 10000;
 
 /// Returns a time t in [0, until], until ≤ 1. On [0, t] the pair stays more than `thickness` [m] apart while its
 /// vertices move from x to x + delta. Returns `until` if the pair does not come that near, and 0 if rounding hides the
-/// gap at the start. Sides are point_triangle or edge_edge.
+/// gap at the start. `sides` is point_triangle or edge_edge.
 double additive_ccd(compare::ContactSides sides, const std::array<Triple<double>, 4>& x,
                     const std::array<Triple<double>, 4>& delta, double thickness, double until = 1,
                     int most_steps = ccd_most_steps);

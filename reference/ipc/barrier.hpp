@@ -31,7 +31,7 @@ T barrier(const T& gap, double support) {
   return -(depth * depth * log(1 / support * gap));
 }
 
-/// Returns b, b' and b'' at a gap [m⁴, m², 1].
+/// Returns b [m⁴], b' [m²] and b'' [1] at `gap` [m²].
 template <class Number>
 Second<1, Number> barrier_slopes(const Number& gap, double support) {
   Second<1, Number> variable(gap);
@@ -58,10 +58,10 @@ T squared_form_distance(const ClosestForm& form, const std::array<Triple<T>, N>&
   return height * height / dot(normal, normal);
 }
 
-/// One barrier without κ: w e_k b(D − ξ²).
+/// One barrier without κ: w e_k b(D − ξ²), with the weight w and the squared distance D.
 template <class Number>
 struct BarrierTermOf {
-  /// numbers of the vertices, in the order of `form`; unused elements are −1
+  /// indices of the vertices, in the order of `form`; unused elements are −1
   std::array<compare::Index, 4> vertex{-1, -1, -1, -1};
   std::uint8_t count = 0;     ///< number of vertices
   ClosestForm form;           ///< the closest points, with a weight for each vertex
@@ -80,7 +80,7 @@ struct BarrierTermOf {
     return value;
   }
 
-  /// Lists the constants (`numbers`), and the properties that barriers evaluated side by side must share (`kinds`); see
+  /// Lists the constants (`numbers`), and the properties that barriers evaluated together must share (`kinds`); see
   /// energies/stencil_terms.hpp.
   auto numbers() { return std::tie(weight, rest_squared); }
   auto numbers() const { return std::tie(weight, rest_squared); }

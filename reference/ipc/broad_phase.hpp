@@ -11,7 +11,7 @@
 
 namespace ogc::reference {
 
-/// Returns the box of the motion of one primitive, given by its vertices, widened by `margin` [m].
+/// Returns the box that holds the motion of a primitive (given by its vertices), widened by `margin` [m].
 template <class Vertices>
 Box swept_box(const Vertices& vertices, const State& from, const State& to, double margin) {
   Box box;

@@ -1,4 +1,5 @@
-// Stage ccd. The oracle decides without rounding when faces meet, as in audits, and shares no code with any contestant.
+// Computes the truth of the stage ccd. The oracle decides without rounding when faces meet, as in audits, and shares no
+// code with any contestant.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -50,7 +50,7 @@ void differentiate(const Bundle& bundle, const std::vector<ShapedBarrier>& terms
   kernel(batch, projection);
 }
 
-/// Writes the derivatives of all barriers, multiplied by κ, from `to` on.
+/// Writes the derivatives of all barriers, multiplied by κ, to the array that begins at `to`.
 void differentiate(const BarrierSet& set, const BarrierShape& shape, double stiffness, const State& x,
                    HessianProjection projection, StencilDerivatives* to) {
   std::vector<ShapedBarrier> terms;

@@ -26,7 +26,7 @@ struct IpcEnergy {
 };
 /// Returns E(to) − E(from) [J]; the barriers of the two states may differ.
 double change(const IpcEnergy& from, const IpcEnergy& to);
-/// Returns a bound of the rounding error of the energies' sum [J].
+/// Returns an upper limit of the rounding error of the energies' sum [J].
 double value_noise(const IpcEnergy& energy);
 
 /// Derivatives of the incremental potential with barriers at one state.
@@ -34,7 +34,7 @@ struct IpcDerivatives {
   std::vector<StencilDerivatives> stencil;
   std::vector<StencilVertices> vertices;  ///< by stencil
   State gradient;                         ///< by vertex [N], then by segment [N m]; 0 if not an unknown
-  double energy_noise = 0;                ///< as in PotentialDerivatives [J]
+  double energy_noise = 0;                ///< rounding error of the energy [J] (PotentialDerivatives)
 };
 
 /// The energies of a step: barriers, lagged friction, the pull of prescribed vertices, and the potential without
@@ -51,8 +51,8 @@ class IpcForces {
   /// Computes λ, n and weights of these barriers at x; they stay until the next call.
   void lag_friction(const BarrierSet& set, const State& x, double stiffness);
 
-  /// Returns the energies at x. `set` holds the barriers at x; `stiffness` is κ [J/m⁴]. x may have the rotations ω of
-  /// frames after its vertices.
+  /// Returns the energies at x. `set` holds the barriers at x; `stiffness` is κ [J/m⁴]. After the vertices, x may hold
+  /// the rotations ω of the frames.
   IpcEnergy energy(const State& x, const BarrierSet& set, double stiffness) const;
   /// Returns the derivatives at x. `room` is an earlier result whose memory is used again, because the operating system
   /// would have to clear tens of megabytes of new memory.

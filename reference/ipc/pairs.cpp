@@ -15,8 +15,8 @@ using compare::at, compare::Index;
 using compare::ContactSides;
 using compare::Topology;
 
-/// Returns a term with only the form's vertices. Their order depends only on their numbers, so that equal terms are
-/// found by comparison.
+/// Returns a term with only the vertices that `form` uses. Their order depends only on their indices, so that equal
+/// terms compare equal.
 BarrierTerm lone_term(const ClosestForm& form, const std::array<Index, 4>& vertex) {
   BarrierTerm term;
   term.count = form.kind == FormKind::points ? 2 : form.kind == FormKind::point_line ? 3 : 4;

@@ -12,7 +12,7 @@
 
 namespace ogc::reference {
 
-/// A vertex and a triangle, or two edges, the lower number first.
+/// A vertex and a triangle, or two edges, the lower index first.
 struct PrimitivePair {
   compare::ContactSides sides = compare::ContactSides::point_triangle;
   compare::Index first = -1, second = -1;
@@ -43,7 +43,7 @@ std::vector<PrimitivePair> near_pairs(const PairMesh& mesh, const State& from, c
 struct BarrierSet {
   /// pairs with the same closest vertices and edges are one term; its weight is their number
   std::vector<BarrierTerm> terms;
-  std::vector<PrimitivePair> active;    ///< pairs with 0 < gap < H, before merging
+  std::vector<PrimitivePair> active;    ///< pairs with 0 < gap < H (BarrierShape), before merging
   std::vector<double> squared;          ///< squared distances of the active pairs [m²]
   double smallest = 0;                  ///< smallest distance of active pairs, or ξ + d̂ if there is none [m]
   PrimitivePair closest;                ///< the pair at the smallest distance

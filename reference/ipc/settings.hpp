@@ -1,4 +1,4 @@
-// Holds the settings that only IPC has. It shares other settings with Newton's method.
+// Holds the settings that only IPC has. IPC shares other settings with Newton's method.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@ namespace ogc::reference {
 enum class IpcAdaptation : std::uint8_t { distance, gap };
 /// Selects when an IPC step has converged. `displacement`: ‖p‖_∞ < tolerance · moving_diagonal · h (Li et al. 2020),
 /// with the diagonal of the smallest free body. `velocity`: the root mean square of ‖p_v‖/h over the last three
-/// iterations is below velocity_tolerance (2021).
+/// iterations is below velocity_tolerance (Li et al. 2021).
 enum class IpcStopping : std::uint8_t { displacement, velocity };
 /// Selects the pairs that bound an IPC step. `partial` (Li et al. 2020): CCD of the active pairs, and a largest motion
-/// of d̂/2 because of all other pairs. If that motion is less than half of what CCD allows, CCD of all pairs replaces
-/// it. `full` (2021): CCD of all pairs.
+/// of d̂/2 for all other pairs. If this motion is less than half of what CCD allows, CCD of all pairs replaces this
+/// limit. `full` (Li et al. 2021): CCD of all pairs.
 enum class IpcCcd : std::uint8_t { partial, full };
 
 /// IPC's settings. The table of settings has their ranges and defaults.

@@ -14,7 +14,7 @@ namespace {
 constexpr double smallest_share = 1e-10;             ///< share of the direction p below which a step has stalled
 constexpr std::size_t window = 3;                    ///< number of iterations over which `velocity` averages
 constexpr double first_pull = 1e3, most_pull = 1e8;  ///< ρ (Li et al. 2020, supplement)
-/// Prescribed vertices are fixed after this share of the distance to their targets.
+/// Once prescribed vertices have moved this share of the distance to their targets, they are fixed.
 constexpr double pulled_enough = 0.999;
 constexpr std::size_t most_named = 20;  ///< largest number of pairs in a message
 
@@ -236,7 +236,7 @@ std::optional<IpcSolver::Outcome> IpcSolver::iterate() {
   if (!std::isfinite(metrics_.residual)) return Outcome::not_finite;
   const bool is_noise = iterations_ > 1 && largest <= 0x1p-52 * largest_component(x_);
   const bool done = is_noise || converged(*p);
-  // Algorithm 1 also takes the last, small step (README.md). With this step the error is of second order.
+  // Algorithm 1 also takes the last, small step (README.md). With this step the error of the result is of second order.
   const bool is_taken = !done || (ipc_.stopping == IpcStopping::displacement && !is_noise);
   if (is_taken && !take(*p, done)) return Outcome::stuck;
   if (done && pulled_home()) return Outcome::converged;
@@ -271,7 +271,7 @@ State IpcSolver::as_motion(State p) const {
 
 State IpcSolver::of_vertices(const State& p) const { return {p.begin(), p.begin() + std::ssize(x_)}; }
 
-/// Returns the direction p: Newton's, or the negative gradient over the diagonal. Along the gradient frames do not
+/// Returns Newton's direction p, or the negative gradient divided by the diagonal. Along the gradient frames do not
 /// rotate, because their diagonal does not determine the angle.
 std::optional<State> IpcSolver::direction() {
   System& now = system();

@@ -7,14 +7,14 @@
 //        ▲                                                                                                ▼
 //        └──────────────────────── adapt κ, or the pull ─────────────────────────────────────── p small? ─┘
 //
-// The step is bounded as in the official code: by CCD of the active pairs, and by d̂/2 as the largest motion because of
-// all other pairs (a CFL-like rule). If that motion is less than half of what CCD allows, CCD of all pairs replaces the
+// The step is bounded as in the official code: by CCD of the active pairs, and by a largest motion of d̂/2 for all
+// other pairs (a CFL-like rule). If this motion is less than half of what CCD allows, CCD of all pairs replaces the
 // rule. One broad phase serves an iteration: its boxes hold the whole motion and reach d̂ further. So it finds the
 // pairs for the continuous detection and for the barriers of every trial state.
 //
-// If a step stalls (below 1e-10 of p), the next direction is the negative gradient over the diagonal. If this step
-// stalls, too, the time step ends without convergence. Each of these events is added to the notes of the step, with the
-// pair that caused it.
+// If a step stalls (below 1e-10 of p), the next direction is the negative gradient divided by the diagonal. If this
+// step stalls, too, the time step ends without convergence. Each of these events is added to the notes of the step,
+// with the pair that caused it.
 //
 // Positions are doubles in all steps, because rounding could remove a gap. Positions in files are rounded.
 #pragma once
@@ -35,7 +35,7 @@
 
 namespace ogc::reference {
 
-/// The stages into which the time of a step is divided.
+/// The phases into which the time of a step is divided.
 enum class IpcStage : std::uint8_t {
   broad_phase,
   barriers,
@@ -46,7 +46,7 @@ enum class IpcStage : std::uint8_t {
   line_search,
   guard
 };
-inline constexpr std::size_t ipc_stage_count = 8;  ///< number of stages
+inline constexpr std::size_t ipc_stage_count = 8;  ///< number of phases
 /// Returns the names in the order of IpcStage.
 std::vector<std::string> ipc_stage_names();
 
@@ -67,7 +67,7 @@ class IpcSolver {
   /// Sets qᵗ of the next step; an empty span selects the orientations of the scene's start.
   void set_orientations(std::span<const compare::Quaternion> orientations);
   std::vector<compare::Quaternion> orientations() const;
-  /// Computes the step with this number, from 1. Throws compare::ResourceError if memory runs out.
+  /// Computes step `number`; the first step has number 1. Throws compare::ResourceError if memory runs out.
   IpcStep step(const State& start, const State& velocity, std::int64_t number);
 
   /// Returns d̂ and ξ.

@@ -1,5 +1,5 @@
-// Writes the report of an IPC step: its notes, the rows of its iterations, and its row. The report changes no
-// iteration.
+// Writes the report of an IPC step: its notes, the rows of its iterations, and the row of the step. The report changes
+// no iteration.
 #include <algorithm>
 #include <limits>
 

@@ -6,8 +6,8 @@
 
 namespace ogc::reference {
 
-/// Returns the impacts, decided without rounding (compare/oracle/first_meeting.hpp). CcdTruth::early is the time that
-/// additive_ccd returns with the remaining distance as thickness.
+/// Returns the impacts, decided without rounding (compare/oracle/first_meeting.hpp). CcdTruth::early is the time until
+/// which additive_ccd keeps the distance above the limit that compare/stages/ccd.hpp states.
 compare::CcdTruth ccd_truth(const compare::CcdIn& in);
 
 /// Computes the truth with barrier_slopes, in double.

@@ -22,7 +22,7 @@ First earlier(const First& a, const First& b) {
 
 }  // namespace
 
-/// The pairs are split into the same ranges for any number of threads, so that the lowest pair always wins a tie.
+/// Splits the pairs into the same ranges for any number of threads, so that the lowest pair always wins a tie.
 StepBound step_bound(const PairMesh& mesh, const std::vector<PrimitivePair>& pairs, const State& x,
                      const State& direction, double thickness, double until) {
   const First none{until, pairs.size()};

@@ -5,10 +5,10 @@
 namespace ogc::reference {
 namespace {
 
-/// least curvature of the barrier at curvature_distance, over the mean inertia
+/// least curvature of the barrier at curvature_distance, divided by the mean inertia
 constexpr double least_curvature = 1e11;
-constexpr double curvature_distance = 1e-8;  ///< over the diagonal of the rest box
-constexpr double close_distance = 1e-9;      ///< over the diagonal of the rest box
+constexpr double curvature_distance = 1e-8;  ///< divided by the diagonal of the rest box
+constexpr double close_distance = 1e-9;      ///< divided by the diagonal of the rest box
 constexpr double upper_over_lower = 100;
 
 double squared(double x) { return x * x; }

@@ -1,5 +1,6 @@
 // The barrier's stiffness κ (Li et al. 2020, supplement; constants of the official code). A step's energies are in
-// joules here, in the official code they are multiplied by h². So κ has the unit J/m⁴ and is the official κ over h².
+// joules here, in the official code they are multiplied by h². So κ has the unit J/m⁴ and is the official κ divided by
+// h².
 #pragma once
 
 #include <optional>

@@ -158,7 +158,8 @@ compare::OrientationAnswer answer(const Question& question, const Four<Many>& ve
   Four<Many> q = question.old;
   result.scale = 1;
   if (pull > 0.0 || sigma > 0.0) {
-    // Without neighbours many q have the least energy. A faint pull towards the old q selects the nearest of them.
+    // If there are no neighbours, many q have the least energy. A faint vector b along the old q selects the nearest of
+    // them.
     double pull_size = question.pull_size;
     if (!(pull > 0.0)) {
       problem.vector = scaled(Many(Many(0x1p-60) * sigma), question.old);

@@ -102,7 +102,7 @@ class Eigensystem {
       const M at_work = goes && L(static_cast<double>(i)) < last;
       if (!at_work.any()) continue;
       const L f = sine * beside_[i], b = cosine * beside_[i], square = f * f + g * g;
-      // Root and quotient are computed in parallel: r/r² is 1/r up to a rounding.
+      // r/r² is 1/r up to a rounding, and the processor computes root and quotient in parallel.
       const L r = sqrt(square), inverse = r * (L(1.0) / square);
       const M turns = at_work && square > L(nothing), ends = at_work && !turns;
       const L s = f * inverse, c = g * inverse, before = value[i + 1] - p, t = (value[i] - before) * s + L(2.0) * c * b,

@@ -42,7 +42,7 @@ TermOf<One> packed(const Terms& terms, const LaneNumbers& stencil) {
   return all;
 }
 
-/// A kind of stencils whose energy depends on all differences of its `Count` vertices.
+/// A kind of stencil whose energy depends on the differences of its `Count` vertices.
 template <template <class> class Term, std::size_t Count>
 struct ByDifferences {
   template <class Number>
@@ -67,7 +67,7 @@ struct ByDifferences {
   }
 };
 
-/// A kind of stencils whose energy depends only on Σ wᵢ xᵢ. The only coordinate is Σ wᵢ xᵢ/‖w‖.
+/// A kind of stencil whose energy depends only on Σ wᵢ xᵢ. The only coordinate is Σ wᵢ xᵢ/‖w‖.
 template <template <class> class Term>
 struct ByWeights {
   template <class Number>
@@ -119,8 +119,8 @@ class SideBySide {
     for (std::size_t first = 0; first < batch.size; first += One::width) expand(first);
   }
 
-  /// Returns the stencils of the lanes of a pack; the first lane has the stencil `first`. Lanes beyond the end of the
-  /// batch repeat its last stencil.
+  /// Returns the index of the stencil in each lane of a pack, from `first` on. Lanes beyond the end of the batch repeat
+  /// its last stencil.
   LaneNumbers stencils(std::size_t first) const {
     LaneNumbers numbers;
     for (std::size_t lane = 0; lane < One::width; ++lane)
@@ -147,7 +147,7 @@ class SideBySide {
     return Kind::energy(term, x, Coordinates(term, x));
   }
 
-  /// Evaluates stencils together, or one by one where they take different branches.
+  /// Evaluates a pack of stencils together, or one by one if they take different branches.
   void evaluate(std::size_t first) {
     if (first >= batch_.size) return clear(first);
     const LaneNumbers all = stencils(first);

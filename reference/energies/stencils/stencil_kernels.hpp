@@ -1,5 +1,5 @@
-// Derivatives of stencils for Newton's method, several of one kind side by side. The functions are compiled for several
-// machines and give the same bits on each, and the same as for a stencil alone (stencil_derivatives.hpp).
+// Computes the derivatives of several stencils of one kind at once, for Newton's method. The functions are compiled for
+// several machines. They give the same bits on each machine, and for one stencil alone (stencil_derivatives.hpp).
 #pragma once
 
 #include "reference/energies/stencil_terms.hpp"
@@ -49,7 +49,7 @@ struct PlacedContactOf {
   T energy(const std::array<Triple<T>, N>& x) const {
     return contact.energy(ClosestForm{form, {0, 1, 2, 3}, {}}, x);
   }
-  /// Returns the energy of a closest form with fixed weights if Σ wᵢ xᵢ is `apart` [J].
+  /// Returns the energy for a closest form with fixed weights [J]; `apart` is Σ wᵢ xᵢ.
   template <class T>
   T energy_between(const Triple<T>& apart) const {
     using std::sqrt;
