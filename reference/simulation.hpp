@@ -13,7 +13,7 @@ std::unique_ptr<compare::Simulation> start_newton(const compare::Scene& scene,
                                                   const compare::SimulationOptions& options);
 
 /// Starts the penalty method: Newton's method with whole steps, without bounds, line search or guarantee. Throws
-/// compare::InputError if the scene's settings have bounds, or another activation than the quadratic one.
+/// compare::InputError if the scene's settings have bounds, or an activation other than the quadratic one.
 std::unique_ptr<compare::Simulation> start_penalty(const compare::Scene& scene,
                                                    const compare::SimulationOptions& options);
 

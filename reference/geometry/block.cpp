@@ -20,8 +20,8 @@ struct Answer {
   bool near = false;
 };
 
-/// Adds the case that one given face of the edge holds x. `premise`: whether this face holds x. `block`: whether x is
-/// then in the block.
+/// Adds the result for one face of the edge. `premise`: whether the closest point lies on this face. `block`: whether
+/// the point is in the block if it lies on this face.
 void add(Answer& answer, const Membership& premise, const Membership& block) {
   answer.inside = answer.inside || (premise.exact && block.exact);
   answer.may_be_inside = answer.may_be_inside || (premise.possible && block.possible);

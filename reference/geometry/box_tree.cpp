@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint32_t leaf_size = 4;
 constexpr std::uint32_t worth_a_thread = 2048;
 
-/// Returns the numbers of nodes of a tree with `count` primitives and of one with `count + 1`. The halves of a node
+/// Returns how many nodes a tree of `count` primitives and a tree of `count + 1` primitives have. The halves of a node
 /// differ by at most one primitive, so all nodes of a level hold one of two adjacent counts.
 std::array<std::uint32_t, 2> node_counts(std::uint32_t count) {
   if (count + 1 <= leaf_size) return {1, 1};

@@ -1,6 +1,6 @@
 // The regions of a triangle of positive area are disjoint: a point on a common boundary belongs to the region of lower
-// dimension. So a conjunction of conditions for each feature decides. If the triangle is collapsed, several
-// conjunctions may hold; the first feature wins.
+// dimension. So one conjunction of conditions for each feature decides whether the feature is closest. If the triangle
+// is collapsed, several conjunctions may hold; the first feature wins.
 #include "reference/geometry/closest_face.hpp"
 
 #include <tbb/blocked_range.h>
@@ -38,9 +38,9 @@ class Regions {
     return *known;
   }
 
-  /// The conditions of a feature's region. Corner k: the point does not lie ahead of the corner in the direction of
-  /// either of its edges. Edge k: the point lies between its ends and on or beyond its side plane. Interior: it lies
-  /// inside all side planes.
+  /// The conditions of a feature's region. Corner k: on both edges from corner k, the point does not lie ahead of the
+  /// corner. Edge k: the point lies between the edge's ends and on or beyond the edge's side plane. Interior: the point
+  /// lies inside all side planes.
   struct Conditions {
     std::array<int, 3> margins{};
     std::array<bool, 3> positive{};
@@ -96,7 +96,7 @@ class Regions {
   mutable std::array<std::optional<MarginAnswer>, 9> margins_;
 };
 
-/// Returns for each corner the number of the margin that is proportional to the corner's weight; −1 if the weight is 0.
+/// Returns for each corner the index of the margin that is proportional to the corner's weight; −1 if the weight is 0.
 std::array<int, 3> weight_margins(int f) {
   if (f == 6) return {7, 8, 6};
   std::array<int, 3> margins{-1, -1, -1};

@@ -25,7 +25,7 @@ struct EdgeFeatures {
 
 /// Number of pairs of features. Features are ordered end_0, end_1, interior; the first closest pair wins ties.
 inline constexpr int edge_feature_pairs = 9;
-/// Returns the pair of features with this number, below edge_feature_pairs.
+/// Returns the pair of features with this index, below edge_feature_pairs.
 inline EdgeFeatures edge_features(int number) {
   return {static_cast<EdgeFeature>(number / 3), static_cast<EdgeFeature>(number % 3)};
 }
@@ -49,8 +49,8 @@ Membership are_nearly_parallel(const EdgePair& pair);
 /// Returns whether are_nearly_parallel holds exactly.
 bool nearly_parallel(const EdgePair& pair);
 
-/// Returns whether a deciding margin is near 0 (compare::near_factor). It is the margin of the rule for nearly parallel
-/// edges or, if the rule does not hold, a margin of the region of the closest features.
+/// Returns whether a margin that decides the closest points is near 0 (compare::near_factor): the margin of the rule
+/// for nearly parallel edges or, if the rule does not hold, a margin of the closest features' region.
 bool is_near_decision(const EdgePair& pair, EdgeFeatures closest, bool is_parallel);
 
 /// Returns d² − r² (a gap) with r = 0 (see with_radius), where d is the distance between the two features. An interior

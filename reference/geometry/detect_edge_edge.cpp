@@ -107,10 +107,9 @@ class EdgeQuery {
     if (doubtful || !tested.certain) accept_absence(other);
   }
 
-  /// Returns whether closest points of nearly parallel edges lie in the blocks of the other edge's faces. Exactly
+  /// Returns whether closest points of nearly parallel edges lie in the block of the other edge's face. Exactly
   /// parallel edges have closest points at both ends of the overlap; one of these pairs is enough. The answer is
-  /// certain in two cases: every possible pair of features certainly passes, or some certainly closest pair certainly
-  /// passes.
+  /// certain if all possible pairs of features certainly pass, or if a certainly closest pair certainly passes.
   Membership in_blocks_where_closest(Index other, const EdgePair& pair) const {
     Membership some{false, false, false};
     bool all_certain = true;
@@ -127,8 +126,8 @@ class EdgeQuery {
     return some;
   }
 
-  /// Checks the conditions of the features' blocks. Skips conditions beyond which other features of the same two edges
-  /// are closest, because are_closest decides these.
+  /// Checks the conditions of the features' blocks. Skips a condition if its failure makes other features of the same
+  /// two edges closest, because are_closest decides it.
   Membership in_other_blocks(Index other, EdgeFeatures features) const {
     Membership inside;
     visit_pair(mesh_, faces_of(other, features), [&](const PairBoundary& boundary) {
@@ -146,8 +145,8 @@ class EdgeQuery {
     return face.index == mesh_.edge(e)[0] || face.index == mesh_.edge(e)[1];
   }
 
-  /// Adds one of the nine pairs of faces. A pair that certainly ties with the closest pair (edges of zero length) is
-  /// not added, because the order of closest_features decides between them.
+  /// Adds one of the nine pairs of faces. Skips a pair that certainly ties with the closest pair (edges of zero
+  /// length), because the order of closest_features decides which of them is the contact.
   void enter_features(Index other, const EdgePair& pair, EdgeFeatures features, EdgeFeatures closest,
                       const Membership& rule) {
     const FacePair faces = faces_of(other, features);
@@ -158,8 +157,8 @@ class EdgeQuery {
     }
     const Membership inside = membership(faces);
     if (!inside.possible) return;
-    // If the rule for nearly parallel edges may hold, it puts the pair in doubt. Only the interiors are not in doubt:
-    // they are the contact with and without the rule.
+    // If the rule for nearly parallel edges may hold, the pair of faces is doubtful. The pair of interiors is not,
+    // because it is the contact with and without the rule.
     const bool is_interiors = features == EdgeFeatures{EdgeFeature::interior, EdgeFeature::interior};
     const bool unaffected = is_interiors || !rule.possible;
     add(faces, other, is_closest && inside.exact && (is_interiors || !rule.exact),

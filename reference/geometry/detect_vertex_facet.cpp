@@ -99,8 +99,8 @@ class VertexQuery {
     answer_.contacts.push_back(contact(face));
   }
 
-  /// Examines the faces of a triangle within r that may be closest. Notes which of them are doubtful, and which faces
-  /// could replace them.
+  /// Takes a triangle within r of the vertex. Notes which of the triangle's possibly closest faces are doubtful, and
+  /// which faces could replace them.
   void ask_about(Index t, const Corners& corners) {
     const std::uint8_t features = possible_features(corners, x_);
     std::vector<Face> closest;

@@ -14,8 +14,8 @@ namespace {
 
 using Number = Dual<9>;
 
-/// Returns the four end points relative to end_0 of the first edge. `make(value, input)` converts coordinate number
-/// `input` to a T.
+/// Returns the four end points relative to end_0 of the first edge. `make(value, input)` converts a coordinate to a T;
+/// `input` is its index among the nine coordinates.
 template <class T, class Make>
 std::array<Point<T>, 4> relative_ends(const EdgePair& pair, Make make) {
   const Vec3f& o = pair.first[0];
@@ -52,7 +52,7 @@ double condition_of(const std::array<Number, 2>& parameters, const std::array<Po
   return std::isfinite(worst) ? worst : std::numeric_limits<double>::infinity();
 }
 
-/// Returns the parameter of a point on an edge. `margin` and `other` are its margins from end_0 and from end_1.
+/// Returns the parameter of a point on an edge. `margin` and `other` are the point's margins from end_0 and from end_1.
 Number share(const Number& margin, const Number& other) { return margin / (margin + other); }
 
 /// Returns the parameter of the closest point on edge e. The features of both closest points are given.

@@ -13,7 +13,7 @@ namespace ogc::reference {
 struct Generated {
   FacePair faces;               ///< the contact
   Index edge = -1, other = -1;  ///< the edges that generate it
-  bool exact = false;           ///< whether Algorithm 2 generates it exactly
+  bool exact = false;           ///< whether Algorithm 2 generates it in exact arithmetic
   bool certain = false;         ///< whether no grey decision can remove it
   friend auto operator<=>(const Generated&, const Generated&) = default;
 };

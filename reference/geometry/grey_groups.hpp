@@ -1,5 +1,5 @@
-// Joins contacts into one decision if rounding may replace one of them by another. Also finds whether an answer without
-// any contact of a decision is accepted.
+// Joins contacts into one decision if rounding may replace one of them by another. Also finds whether an answer that
+// lists no contact of a decision is accepted.
 #pragma once
 
 #include <map>
@@ -33,8 +33,8 @@ class GreyGroups {
     bool absence = false;   ///< whether an answer without any of them is accepted, too
   };
 
-  /// Returns the groups in the order of their smallest keys; keys ascend. A doubtful contact that is joined to a
-  /// certain one may be absent.
+  /// Returns the groups in the order of their smallest keys; keys ascend. If rounding may replace a doubtful contact by
+  /// a certain one, an answer without the doubtful contact is accepted.
   std::vector<Group> groups() {
     for (const auto& [a, b] : joins_) unite(a, b);
     std::map<Key, Group> by_root;

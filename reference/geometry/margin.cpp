@@ -159,8 +159,8 @@ double side_sensitivity(const Points<double>& at) {
 }
 
 /// Returns Σ|∂m/∂δᵢ||δᵢ| for `turn`. m = (q × v)·(x × v) with v = q₁ − q and the points x, q, q₁: ∂m/∂x = v × (q × v),
-/// at constant v ∂m/∂q = v × (x × v), and ∂m/∂v = (x × v) × q + (q × v) × x. The last one is added for q₁ and
-/// subtracted for q.
+/// at constant v ∂m/∂q = v × (x × v), and ∂m/∂v = (x × v) × q + (q × v) × x. ∂m/∂v is added for q₁ and subtracted for
+/// q.
 double turn_sensitivity(const Points<double>& at) {
   const Point<double>&x = at[1], &q = at[2], v = at[3] - q, of_q = cross(q, v), of_x = cross(x, v),
         by_v = cross(of_x, q) + cross(of_q, x);
@@ -325,7 +325,8 @@ MarginAnswer examine(const Margin& margin) {
   const Measured m = measured(margin, delta);
   MarginAnswer answer{filtered_sign(margin, m), false, false, m.value, rounding * m.modulus};
   const double modulus = std::abs(m.value);
-  // Skips the exact sum if even its upper limit is too small; the factor 2 covers the roundings of m.
+  // The sum `reach` is at most degree · m.modulus. It is not computed if this limit shows that the margin is neither
+  // grey nor near. The factor 2 covers the roundings of m.
   if (modulus > 2 * compare::near_factor * degree(margin.kind) * m.modulus) return answer;
   const double reach = sensitivity_at(margin, delta);
   answer.grey = reach > 0 && modulus <= compare::grey_factor * reach;

@@ -88,8 +88,8 @@ double distance(const Margin& gap);
 /// Returns the distance of the gap, rounded down to single precision [m]. The denominator must be positive.
 float distance_below(const Margin& gap);
 
-/// The distance of a gap, and the distance rounded down. Computing both together is faster; `distance` is then within
-/// 2⁻⁴⁰ max(d, Σ|δᵢ|).
+/// The distance of a gap, and the distance rounded down. Computing both together is faster, but `distance` then has an
+/// error of up to 2⁻⁴⁰ max(d, Σ|δᵢ|).
 struct GapDistance {
   double distance = 0;  ///< [m]
   float below = 0;      ///< the result of distance_below [m]

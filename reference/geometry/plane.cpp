@@ -1,6 +1,6 @@
 // Decides exactly which pairs the planes and balls of an answer keep apart. Compares heights n·x in double first, and
-// in exact numbers if rounding could hide the sign. Computes a distance only if no plane separates the pair and the
-// pair is not certainly far enough apart for its vertices' balls.
+// in exact numbers if rounding could hide the sign. Computes the exact distance of a pair only if neither a plane nor a
+// cheap test proves that the answer keeps the pair apart.
 //
 // Measures in double how far the vertices can move: the errors of distances (within 2⁻⁴⁰ of their scale) are far below
 // the units in which freedom is judged. A pair must have a plane only if every single-precision kernel within its
@@ -266,7 +266,8 @@ class FreedomCheck {
     return std::ranges::any_of(side, [this](Index v) { return answered_.moves(v); });
   }
 
-  /// Returns how far a side's offset lies beyond the side's farthest vertex along `sign` n, times the length of n.
+  /// Returns how far a side's offset lies beyond the side's farthest vertex in the direction `sign` · n, times the
+  /// length of n.
   template <class Vertices>
   Long way_to_offset(const PrimitivePair& name, const Vertices& side, const Vec3f& n, Long sign) const {
     Long farthest = -Long{infinity}, offset = 0;
@@ -277,7 +278,7 @@ class FreedomCheck {
     return offset - farthest;
   }
 
-  /// Returns the largest component along `sign` n of the displacements of a side's vertices; it may be negative.
+  /// Returns the largest displacement of a side's vertices in the direction `sign` · n [m]; it may be negative.
   template <class Vertices>
   Long speed_of(const Vertices& side, const Vec3f& n, Long sign) const {
     Long largest = -Long{infinity};
@@ -285,8 +286,8 @@ class FreedomCheck {
     return largest / std::sqrt(inner(n, n));
   }
 
-  /// Returns how far the offsets are from the right division of 2γ_p d, in the units of PlaneFreedom::division. Returns
-  /// 0, so that any division is accepted, if a side cannot move or rounding can hide whether the sides approach.
+  /// Returns the error with which the offsets divide 2γ_p d, in the units of PlaneFreedom::division. Returns 0, so that
+  /// any division is accepted, if a side cannot move or rounding can hide whether the sides approach.
   template <class Pair>
   double division(const Pair& pair, const Vec3f& n, const MeasuredPair& measured) const {
     if (!can_move(pair.first) || !can_move(pair.second)) return 0;
@@ -305,8 +306,8 @@ class FreedomCheck {
     return static_cast<double>(error / (u * (measured.scale + doubtful)));
   }
 
-  /// Returns how far a side may move along `sign` n, times the length of n: the smallest distance of a movable vertex
-  /// from its offset; 0 if no vertex can move.
+  /// Returns how far a side may move in the direction `sign` · n, times the length of n: the smallest distance of a
+  /// movable vertex from its half-space's plane. Returns 0 if no vertex can move.
   template <class Vertices>
   double room(const PrimitivePair& name, const Vertices& side, const Vec3f& n, double sign) const {
     double least = infinity;
@@ -339,7 +340,7 @@ class FreedomCheck {
   void judge_planes(const std::vector<double>& threshold) {
     for (const MeasuredPair& pair : pairs_) {
       const auto is_among_nearest = [&](Index v) { return pair.distance < threshold[at(v)]; };
-      // Skips pairs of fixed vertices. Cases have none, but a wrong form of the answer may have some.
+      // Skips pairs of fixed vertices. No case has such pairs, but a wrong form that ignores exclusions may add some.
       const auto moves = [&](Index v) { return answered_.moves(v); };
       const bool is_due = pair.has_room && is_within(pair.distance) && std::ranges::any_of(pair.vertices, moves) &&
                           std::ranges::all_of(pair.vertices, is_among_nearest);

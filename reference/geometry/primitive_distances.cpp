@@ -1,6 +1,6 @@
-// Works in two rounds. The first measures only neighbours across the mesh, which are near in most states. The second
-// searches each primitive's box, widened by the distance known so far. Each pair is visited from both sides, so the
-// searches of two primitives do not depend on each other.
+// Works in two rounds. The first measures only neighbours in the mesh, which are near in most states. The second
+// searches each primitive's box, widened by the smallest distance found so far. The search of a primitive visits all of
+// its pairs, so searches of two primitives do not depend on each other.
 #include "reference/geometry/primitive_distances.hpp"
 
 #include <tbb/blocked_range.h>
@@ -103,14 +103,14 @@ class Edges {
   }
 
  private:
-  /// Measures the edges around the vertices that lie opposite to the edge.
+  /// Measures the distances between edge e and the edges at the vertices opposite to e in its triangles.
   void meet_ring(Index e) {
     for (const Index t : mesh_.triangles_of(e))
       for (const Index other : mesh_.edges_of(mesh_.opposite(t, e))) meet(e, other, of_edge_.so_far(at(e)));
   }
 
   /// Lowers the distances of both edges to the distance of the pair, unless the pair is surely beyond `known`. Puts the
-  /// lower-numbered edge first like the detection, so that the last bit agrees.
+  /// lower-numbered edge first, as the detection does, so that both compute the same bits.
   void meet(Index e, Index other, float known) {
     const compare::Edge &a = mesh_.edge(std::min(e, other)), &b = mesh_.edge(std::max(e, other));
     if (!in_.topology->on_surface(a) || !in_.topology->on_surface(b)) return;

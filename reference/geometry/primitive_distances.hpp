@@ -14,8 +14,8 @@ struct PrimitiveDistances {
   std::vector<float> vertex, edge, triangle;  ///< by number of the primitive [m]
 };
 
-/// Computes the distances in parallel; the answer does not depend on the number of threads. Each primitive is searched
-/// only up to the distance of its nearest known neighbour across the mesh, or up to r_q if it has none.
+/// Computes the distances in parallel; the answer does not depend on the number of threads. First measures each
+/// primitive's neighbours in the mesh. Then searches only up to the smallest distance found so far, at most r_q.
 PrimitiveDistances primitive_distances(const compare::DetectIn& in);
 
 /// Returns b_v of Eq. 21 [m], by vertex, rounded down. Throws only when memory runs out.

@@ -1,5 +1,5 @@
-// A vertex is cut by its ball if d² − b² of the proposal and X_prev is positive; this sign is exact. The scaled
-// position is computed in long double; as nothing cancels, its rounded value is right.
+// A vertex is cut by its ball if d² − b² > 0 for the distance d of the proposal from X_prev; the sign is exact. The
+// scaled position is computed in long double; as nothing cancels, its rounded value is right.
 //
 // Decides exactly which half-spaces a proposal violates. Positions are in long double: the three products of
 // single-precision numbers in n·x are exact there, and the two sums lose 2⁻⁶⁴ of their moduli.
@@ -12,8 +12,8 @@
 //   k   the solve for w, with a backward error ε ‖H‖: ‖δw‖ ≤ ε κ/(1 − ε κ) ‖w‖, κ = ‖H‖ ‖H⁻¹‖. It moves the point
 //       where w meets the half-space by at most (1 + ‖n‖ ‖w‖/(n·w)) ‖δw‖/‖w‖ times the length of the slide
 //
-// If the point is then scaled into the ball, a and k are multiplied by b over the point's smallest distance from
-// X_prev.
+// If the point is then scaled into the ball, a and k are multiplied by the quotient of b and the point's smallest
+// possible distance from X_prev.
 #include "reference/geometry/truncate.hpp"
 
 #include <algorithm>
@@ -67,7 +67,8 @@ struct Way {
   double relative_error = infinity;
 };
 
-/// Solves H w = n for w by cofactors. κ is computed in Frobenius norms; it is at most three times as large as in ‖·‖₂.
+/// Solves H w = n for w by cofactors. The condition number of H is computed in Frobenius norms; it is at most three
+/// times as large as in ‖·‖₂.
 Way way_out(const std::array<float, 6>& block, const Vec3f& normal) {
   const auto [xx, xy, xz, yy, yz, zz] = std::array<Long, 6>{block[0], block[1], block[2], block[3], block[4], block[5]};
   const std::array<Long, 6> cofactor{yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy,
@@ -141,7 +142,7 @@ class RegionCheck {
   }
 
   /// Finds the largest share of the step that every half-space and the ball allow. `least` is this share if the answer
-  /// keeps the largest permitted distance from each of them.
+  /// keeps the largest permitted distance from the half-spaces and from the ball's surface.
   void along_path() {
     const Point step = plus(proposal_, -1, current_);
     const double whole = length(step);
@@ -180,8 +181,8 @@ class RegionCheck {
     });
   }
 
-  /// Returns the only half-space that the proposal can violate, even with a kernel's rounding, if the proposal
-  /// certainly violates it; otherwise null. Sets `is_ball` to whether the proposal certainly violates no half-space.
+  /// Returns the half-space that the proposal certainly violates, if the proposal can violate no other one, even with a
+  /// kernel's rounding; otherwise null. Sets `is_ball` to whether the proposal certainly violates no half-space.
   const HalfSpace* only_violated(bool& is_ball) const {
     const HalfSpace* only = nullptr;
     int count = 0;
@@ -233,7 +234,8 @@ class RegionCheck {
   RegionTruth truth_;
 };
 
-/// Returns the truth of case i, which has half-spaces. `ball` is d² − b² of the proposal and X_prev.
+/// Returns the truth of case i, which has half-spaces. `ball` is the margin d² − b², where d is the distance of the
+/// proposal from X_prev.
 RegionTruth truncate_region(const compare::TruncateIn& in, std::size_t i, const MarginAnswer& ball) {
   return RegionCheck(in, i, ball).truth();
 }

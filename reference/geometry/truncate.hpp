@@ -5,8 +5,8 @@
 
 namespace ogc::reference {
 
-/// Decides exactly whether ‖x − x_prev‖ > b_v or a half-space is violated; these positions are cut. Without
-/// half-spaces, a cut position is x_prev + (x − x_prev) b_v / ‖x − x_prev‖; with half-spaces, it follows TruncateOut.
+/// Decides exactly which positions are cut: ‖x − x_prev‖ > b_v, or x is outside a half-space. Without half-spaces, a
+/// cut position becomes x_prev + (x − x_prev) b_v / ‖x − x_prev‖; with half-spaces, TruncateOut defines the result.
 compare::TruncateTruth truncate(const compare::TruncateIn& in);
 
 /// Rounds a position to single precision, then moves it towards X_prev until it obeys the bound.

@@ -55,7 +55,7 @@ class ContactStep {
   ContactStep& operator=(const ContactStep&) = delete;
 
  protected:
-  /// Number of the detection stage, which is the first stage of every solver.
+  /// Index of the detection stage, which is the first stage of every solver.
   static constexpr std::size_t detection_stage = 0;
 
   /// Takes a rounded and valid scene. Scene and topology must outlive this object.
@@ -70,8 +70,8 @@ class ContactStep {
   void guess(GuessEnd end);
   bool in_contact() const;  ///< whether the last detection found contacts
   /// Returns whether `cut` cut vertices trigger a detection: at least `times` γ_e K of them, and at least one. With
-  /// bounds=planes, prescribed vertices behind their targets are counted separately. One of them alone triggers a
-  /// detection if it has moved since the last detection; otherwise it triggers only one in a step.
+  /// bounds=planes, prescribed vertices behind their targets are counted separately. They trigger a detection if one of
+  /// them has moved since the last detection, or if they have triggered none in this step.
   bool asks(std::size_t cut, std::int64_t times = 1);
   bool nothing_near() const;  ///< whether x certainly has no contacts, without a detection
   std::size_t move_prescribed();

@@ -37,8 +37,8 @@ ContactStencil stencil_of(const compare::Topology& topology, const compare::Vert
 /// Returns the stencil of a contact between two edges; its sides may be ends of the edges.
 ContactStencil stencil_of(const compare::Topology& topology, const compare::EdgeEdgeContact& contact);
 
-/// Returns ‖ē‖² of both edges of an edge–edge contact [m²], by which its energy is mollified. The entry of an edge
-/// without triangles is 0, and so are both entries of other contacts.
+/// Returns ‖ē‖² of both edges of an edge–edge contact [m²], by which its energy is mollified. Returns 0 for an edge
+/// without triangles, and zeros for all other contacts.
 std::array<float, 2> mollified_rest_squared(const compare::Topology& topology, const compare::RestStateOut& rest,
                                             const ContactStencil& stencil);
 

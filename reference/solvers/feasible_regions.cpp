@@ -29,8 +29,9 @@ FeasibleRegions::FeasibleRegions(const Detected& detected, compare::Bounds bound
   }
 }
 
-/// Adds the vertex's half-spaces, reduced by rounding. n is a unit vector up to 2⁻²³, and n·x has an error of at most
-/// 2⁻⁵⁰ of its size. A vertex whose distance from a plane is smaller than these errors stays at X_prev.
+/// Adds the vertex's half-spaces and lowers their offsets by the rounding error. n is a unit vector up to 2⁻²³, and n·x
+/// has an error of at most 2⁻⁵⁰ of its size. A vertex whose distance from a plane is smaller than these errors stays at
+/// X_prev.
 void FeasibleRegions::add_planes(std::size_t vertex, const Detected& detected, double rounding) {
   for (const compare::VertexPlane& plane : detected.planes.of(static_cast<compare::Index>(vertex))) {
     const Triple<double> normal{plane.normal.x, plane.normal.y, plane.normal.z};

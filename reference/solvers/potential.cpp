@@ -286,8 +286,8 @@ PotentialDerivatives Potential::derivatives(const State& x, HessianProjection pr
   return result;
 }
 
-/// Adds to the noise of `result` how much rounded positions change the stencil's forces and energy. The change is
-/// computed from the moduli of the stencil's derivatives.
+/// Stores the moduli of the stencil's gradient and Hessian, summed over its free vertices. `sum_gradient` computes the
+/// noise of `result` from these sums.
 void Potential::measure(std::size_t stencil, std::size_t corners, PotentialDerivatives& result) const {
   const StencilDerivatives& derivatives = result.stencil[stencil];
   const auto vertex = vertices(stencil);
@@ -333,8 +333,8 @@ void Potential::sum_gradient(const State& x, PotentialDerivatives& result) const
   add_frame_noise(x, result);
 }
 
-/// Adds to the noise of `result` the effect of rounded frames on forces, and of rounded positions and frames on
-/// torques.
+/// Adds to the noise of `result` the errors of energy and forces that rounded frames cause. Sets the error of torques,
+/// which rounded positions and frames cause.
 void Potential::add_frame_noise(const State& x, PotentialDerivatives& result) const {
   const RodSystem& rods = this->rods();
   if (!rods.is_used()) return;

@@ -119,7 +119,8 @@ class Potential {
   template <class Use>
   auto in_its_list(std::size_t stencil, Use use) const;
   double stencil_energy(std::size_t stencil, const State& x) const;
-  /// Adds the stencil's part of the noise of `result`. The stencil's first `corners` unknowns are vertices.
+  /// Stores the sums of the stencil's moduli from which `sum_gradient` computes the noise of `result`. The stencil's
+  /// first `corners` unknowns are vertices.
   void measure(std::size_t stencil, std::size_t corners, PotentialDerivatives& result) const;
   void add_frame_noise(const State& x, PotentialDerivatives& result) const;
   void sum_gradient(const State& x, PotentialDerivatives& result) const;

@@ -11,16 +11,16 @@
 
 namespace ogc::reference {
 
-/// Up to batch_width members of one group, which are evaluated together.
+/// Up to batch_width terms of one group, which are evaluated together.
 struct Bundle {
   std::uint8_t group = 0;
   std::uint8_t size = 0;
   std::array<std::uint32_t, batch_width> member{};
 };
-/// Group number of members that are not evaluated.
+/// Group of the terms that are not evaluated.
 constexpr std::uint8_t left_out = 255;
-/// Sorts members into bundles; `group` is the group of each member. Members that take the same branches should be in
-/// one group.
+/// Sorts terms into bundles; `group` is the group of each term. Terms that take the same branches should be in one
+/// group.
 std::vector<Bundle> bundled(const std::vector<std::uint8_t>& group);
 
 /// Called by `differentiate` for each finished stencil, on the thread that computed it.

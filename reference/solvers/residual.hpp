@@ -21,7 +21,7 @@ struct Residual {
   std::int64_t contacts = 0;
 };
 
-/// Measures residuals in double. The force of a state is the sum of all energies' forces there; friction takes λ, n and
+/// Measures residuals in double. The force of a state is the sum of the forces of all energies; friction takes λ, n and
 /// w from the state, too.
 class ResidualMeter {
  public:
@@ -33,13 +33,12 @@ class ResidualMeter {
   void begin_step(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity,
                   std::int64_t number, std::span<const compare::Quaternion> orientations = {});
   double reference_force() const;  ///< mean ‖f*‖ of the step [N]
-  /// Measures the state with contacts detected at the state. `orientations` are those of the state; an empty span keeps
-  /// those of the last state.
+  /// Measures a state with contacts that the meter detects there. `orientations` belong to the state; an empty span
+  /// keeps the orientations of the last state.
   Residual at(const std::vector<compare::Vec3f>& position, std::span<const compare::Quaternion> orientations = {});
   Residual at(const std::vector<std::array<double, 3>>& position,
               std::span<const compare::Quaternion> orientations = {});
-  /// Measures the state with contacts that were detected at X_prev = `previous`, as a solver does between two
-  /// detections.
+  /// Measures a state with contacts that were detected at X_prev = `previous`, as a solver does between two detections.
   Residual with(const ContactSets& contacts, const std::vector<compare::Vec3f>& previous,
                 const std::vector<compare::Vec3f>& position, std::span<const compare::Quaternion> orientations = {});
 

@@ -75,8 +75,8 @@ Depth depth_of(const std::vector<compare::VolumeContact>& contacts, const compar
       above += w * (n.x * apart.x + n.y * apart.y + n.z * apart.z);
       size += std::abs(w) * (std::abs(n.x * apart.x) + std::abs(n.y * apart.y) + std::abs(n.z * apart.z));
     }
-    // The sum φ + r/2 has as few terms as r − φ, so the rounding count of compare/stages/volume_force.hpp applies to
-    // it.
+    // φ + r/2 has the same number of terms as r − φ, so the number of roundings in compare/stages/volume_force.hpp is
+    // valid for it, too.
     if (std::abs(above) <= compare::volume_force_grey * compare::unit_roundoff * size)
       deepest = std::max(deepest, Depth::doubtful);
     else if (above < 0)

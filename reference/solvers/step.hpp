@@ -1,5 +1,5 @@
-// Stage step: Algorithm 3 (method.md §5.2). Computes from the positions and counts of an answer what its other parts
-// must be.
+// Stage step: Algorithm 3 (method.md §5.2). Takes the positions and counts of an answer as given, and computes from
+// them the right values of everything else in the answer.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
-// Stage sweep: Algorithm 4. Updates each vertex in double from the positions that the answer's own update read: the
-// answer's new positions at lower colours, the old ones elsewhere.
+// Stage sweep: Algorithm 4. Updates each vertex in double from the positions that the contestant's update reads: the
+// answer's new positions of vertices with lower colours, and the old positions of all others.
 #pragma once
 
 #include "compare/stages/sweep.hpp"

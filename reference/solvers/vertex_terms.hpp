@@ -14,16 +14,16 @@
 namespace ogc::reference {
 
 /// One term of force and block, with the tolerances of its stage in units of 2⁻²⁴ · scale. Accepted answers near the
-/// exact one are not tried one by one; the spread covers them. It is their largest difference from the exact answer,
-/// plus the tolerance: their scale, and so their own tolerance, may be twice that of the exact answer.
+/// exact one are not tried one by one. The spread covers them: it is their largest difference from the exact answer
+/// plus one tolerance. The tolerance is added because their scales may be twice the exact answer's scale.
 struct Term {
   std::vector<compare::ForceAnswer> accepted;  ///< the exact answer first
   double force_tolerance = 0, block_tolerance = 0;
   double force_spread = 0, block_spread = 0;  ///< [N], [N/m]
 };
 
-/// Makes a term from the accepted answers of one energy. Answers within the tolerance of the exact one enlarge the
-/// spread; the others are kept in `accepted`.
+/// Makes a term from the accepted answers of one energy. The spread covers answers within the tolerance of the exact
+/// one; `accepted` keeps all others.
 Term term_of(std::vector<compare::ForceAnswer> accepted, double force_tolerance, double block_tolerance);
 
 /// All terms of a vertex except inertia.

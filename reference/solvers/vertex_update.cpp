@@ -170,7 +170,7 @@ VertexUpdate update_with(const System& system, const FreeVertex& vertex, const V
   return update;
 }
 
-/// Returns the error in units of the accepted error.
+/// Returns the answer's error divided by the accepted error.
 double share_of(const VertexUpdate& update, const Vec3f& answer) {
   const double error = norm(minus(wide(answer), update.position));
   return error == 0 ? 0 : error / update.accepted;
@@ -194,8 +194,8 @@ VertexUpdate update_of(const VertexTerms& terms, const FreeVertex& vertex, const
   for (const Term& term : terms.terms)
     combinations = std::min(combinations * term.accepted.size(), most_combinations + 1);
   if (combinations > most_combinations) return {best.position, infinity, true, Cut::doubtful};
-  // Several combinations of accepted answers may explain the answer, if the bound hides their difference. If they
-  // disagree about whether the vertex was cut, both are right.
+  // Several combinations of accepted answers may fit the contestant's position, because truncation can hide their
+  // difference. If these combinations disagree about whether the vertex was cut, both counts are right.
   bool cuts_differ = false;
   while (advance(choice, terms)) {
     const VertexUpdate other = update_with(system_of(terms, vertex, choice), vertex, answer);

@@ -79,8 +79,8 @@ namespace {
 /// Number of roundings from the inputs to the move that one contact leaves:
 ///   36  the normal, as in the stage contact_force
 ///    5  another vertex's move (2); its product with the weight, and the sum over three vertices (3)
-///    3  n·move or n·others, which do not depend on each other
-///    2  their difference and the quotient
+///    3  n·move or n·others; only one of them counts, because neither is an input of the other
+///    2  the difference of these products, and the quotient
 ///    2  the product with the normal, and the sum
 ///   11  the relative move (2), its normal component (4), their difference (1), and the length of this slip (4)
 ///    6  the limit of friction (2), quotients (2), product and difference (2)
@@ -131,7 +131,7 @@ Measured measure(Meeting meeting, const Asked& asked, std::size_t own, const Mov
   const InputMove relative = wanted + Input(1.0) / weight * others, slide = relative - dot(normal, relative) * normal;
   const Input closing = dot(normal, wanted), opening = dot(normal, others) / weight;
   const auto plain_of = [](const InputMove& a) { return Move{a[0].value, a[1].value, a[2].value}; };
-  // If the other vertices certainly approach, the opening counts as 0 and has no error.
+  // If the other vertices certainly approach, the removed part does not depend on their moves, so they add no error.
   const double room = dot(plain_of(normal), plain_of(others)) / share,
                room_error = unit * inputs.condition({&opening, 1}) + others_error / share;
   Measured result;
@@ -190,10 +190,9 @@ Matrix slipping(const Hold& hold, double taken, const Move& slide) {
   return slope;
 }
 
-/// Applies a contact to a move with an error. To first order, removing the normal part q does not increase the move's
-/// error, and neither does sticking; the friction limit μ q changes by μ times the change of q. If rounding decides
-/// whether the contact removes anything, or whether the vertex slips, the error grows by the largest factor of all
-/// cases.
+/// Applies a contact to a move with an error. To first order, neither the removal of the normal part q nor sticking
+/// increases the error. The friction limit μ q changes by μ times the change of q. If rounding decides whether the
+/// contact removes a part, or whether the vertex slips, the error grows by the largest factor of the possible cases.
 Passed passed(const Measured& at, const Move& move, double error) {
   const Hold& hold = at.hold;
   const double taken = hold.taken(move), mu = hold.friction, doubt = at.taken + error,
@@ -230,8 +229,8 @@ Passed passed(const Meeting& meeting, const Asked& asked, std::size_t own, const
                                 roundings / compare::contact_grey * meeting.doubt / apart);
   for (double* number : {&at.taken, &at.sliding, &at.normal}) *number /= 1 - std::min(doubt, 0.5);
   Passed result = passed(at, move, error);
-  // The contact changes the move by at most 1 + μ times the move's length: q is at most the length, friction is at most
-  // μ q.
+  // The removed normal part q is at most as long as the move, and friction is at most μ q. So the contact changes the
+  // move by at most 1 + μ times the move's length.
   if (meeting.needle || doubt > 0.5)
     result = {result.move, {}, error + 2 * (1 + at.hold.friction) * (norm(move) + error), true};
   if (!ends) return result;
@@ -292,7 +291,8 @@ Touch touch_of(const std::vector<Meeting>& ways) {
   return touch;
 }
 
-/// Returns the contact as a case of the stage contact_force. The energy is not used: stiffness 1 N/m, no mollifier.
+/// Returns the contact as a case of the stage contact_force. Its energy is not used, so the stiffness is 1 N/m and no
+/// mollifier acts.
 compare::ContactForceCase question_of(const GuessContact& contact, const std::vector<Vec3f>& positions, double radius) {
   compare::ContactForceCase question;
   question.sides = contact.sides;
@@ -338,7 +338,8 @@ std::vector<compare::HeldMove> HeldMoves::judged_round(std::span<const GuessCont
     const Doubted& move = carried.at();
     taken_[v] = move.move - wanted;
     taken_error_[v] = rows[v].empty() ? 0 : move.error + compare::unit_roundoff * norm(taken_[v]);
-    // If the error is at most 1/16 of the intended move, the vertex is not grey; the accepted error covers it.
+    // If the error is at most 1/16 of the intended move, the vertex is not grey, because the accepted error covers the
+    // doubt.
     const bool is_grey = move.is_grey && move.error > norm(wanted) / 16;
     result[v] = {{move.move[0], move.move[1], move.move[2]}, move.error, !rows[v].empty(), is_grey};
     if (touches[v].is_possible) result[v] = {{}, 0, 1, !touches[v].is_certain};

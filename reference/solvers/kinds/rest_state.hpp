@@ -6,7 +6,7 @@
 namespace ogc::reference {
 
 /// Computes every value from exact polynomials of the given coordinates, with one root, quotient or angle in long
-/// double. Units of error come from the derivatives of the same formula. `in` must be as RestStateIn describes.
+/// double. Error scales come from the derivatives of the same formula. `in` must be as RestStateIn describes.
 compare::RestStateTruth rest_state(const compare::RestStateIn& in);
 
 }  // namespace ogc::reference

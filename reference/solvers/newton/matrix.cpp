@@ -49,7 +49,7 @@ std::vector<BlockMatrix::Share> BlockMatrix::shares_of(std::span<const StencilVe
   return shares;
 }
 
-/// Returns the blocks of all shares and of the diagonal, ascending.
+/// Returns the keys of all blocks that shares or the diagonal need, ascending.
 std::vector<std::uint64_t> BlockMatrix::needed_blocks() const {
   std::vector<std::uint64_t> shared, diagonal, needed;
   for (const Share& share : shares_)

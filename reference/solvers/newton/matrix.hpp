@@ -50,8 +50,8 @@ class BlockMatrix {
   std::vector<double> times(const std::vector<double>& x) const;
 
  private:
-  /// One block of a stencil's Hessian, at places `row` and `column` of the stencil, and the number of the matrix block
-  /// to which it is added.
+  /// A block of a stencil's Hessian, at places `row` and `column` of the stencil. It is added to the matrix block with
+  /// the key `block`.
   struct Share {
     std::uint64_t block = 0;  ///< column · 2³² + row
     std::uint32_t stencil = 0;

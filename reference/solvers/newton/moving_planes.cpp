@@ -9,7 +9,7 @@ namespace {
 
 /// Limit of the sweeps of `truncated`, which move apart the sides of pairs that would come too near.
 constexpr int most_sweeps = 64;
-/// Rounds that scale vertices one by one; after them all vertices get the same scale.
+/// Limit of the rounds that scale the steps of single vertices; after them all vertices get the same scale.
 constexpr int most_scalings = 16;
 /// Sides that come too near are moved apart to the least separation plus this share of (gap − least separation).
 /// Without the addition the sweeps might not end.
@@ -52,8 +52,8 @@ MovingPlanes::MovingPlanes(const std::vector<NearPair>& pairs, const std::vector
       size = std::max(size, largest(centre_[pair.vertices[k]]) + radius_[pair.vertices[k]]);
     }
     // The limit of the separation's error has two terms:
-    //  - x and its stored value may both have a rounding error, on each side of the pair; n is a unit vector up to 2⁻²²
-    //  - rounding of heights n·x in double
+    //   - the difference between x and its stored value, on both sides of the pair; n is a unit vector up to 2⁻²²
+    //   - rounding of heights n·x in double
     const double noise = 2 * (1 + 0x1p-20) * rounding_of(size) + 3 * height_noise * size;
     pair.gap = separation(pair, [&](std::size_t v) { return centre_[v]; });
     pair.least = (1 - 2 * relaxation) * pair.gap + noise;

@@ -35,9 +35,9 @@ class MovingPlanes {
 
   /// Moves the vertices that must stay at X_prev to X_prev. x must be X_prev up to rounding.
   void enter(State& x) const;
-  /// Returns a step of the free vertices near `step` [m] that stays inside; x must be inside. First cuts the step to
-  /// the balls. Then moves apart, in sweeps, the sides of pairs that would come too near. Finally scales the steps of
-  /// vertices whose pairs are still too near.
+  /// Returns `step` [m], changed for the free vertices so that it stays inside; x must be inside. First cuts the step
+  /// to the balls. Then moves apart, in sweeps, the sides of pairs that would come too near. Finally scales the steps
+  /// of vertices whose pairs are still too near.
   State truncated(const State& x, State step) const;
   /// Returns a share in [0, 1] for which x + share · step is certainly inside, the largest except for rounding.
   double share_inside(const State& x, const State& step) const;
@@ -54,7 +54,7 @@ class MovingPlanes {
     double least = 0;  ///< least allowed separation [m]
     double gap = 0;    ///< g of the head of this file [m]
   };
-  /// Returns min over q of n·x − max over p of n·x; `at` maps a vertex to x.
+  /// Returns the smallest n·x of the second side minus the largest n·x of the first side; `at` maps a vertex to x.
   template <class At>
   static double separation(const Pair& pair, At at);
   double share_in_ball(std::size_t vertex, const Triple<double>& x, const Triple<double>& step) const;

@@ -15,8 +15,8 @@ using compare::Vec3f;
 /// Factor between the energy decreases: the scaled step is taken if it lowers the energy by this many times the
 /// decrease of δ' (head of solver.hpp).
 constexpr double far_more = 2;
-/// A judgement evaluates the residual of a converged solve with newly detected contacts. After this many judgements
-/// without success the solve ends above the tolerance (head of solver.hpp).
+/// A judgement evaluates the residual of a converged or stalled solve with newly detected contacts. After this many
+/// judgements without success the solve ends above the tolerance (head of solver.hpp).
 constexpr int most_judgements = 4;
 /// Largest ratio ‖δ_v‖/‖δ'_v‖ for the stiffness of springs on cut vertices. Beyond it a vertex practically does not
 /// move.
@@ -62,8 +62,8 @@ StepResult NewtonSolver::step(const std::vector<Vec3f>& start, const std::vector
   return finish(end_between_planes(status));
 }
 
-/// Checks that the stored positions keep the planes of the last detection. Then detects contacts there, because a step
-/// also reports bounds.
+/// Checks that the stored positions keep the planes of the last detection. Then detects at these positions if needed,
+/// because the result of a step contains the contacts and bounds there.
 std::uint32_t NewtonSolver::end_between_planes(std::uint32_t status) {
   if (status == compare::step_not_finite) return status;
   if (!planes_.kept_by(rounded(x_))) return compare::step_bound_violated;
@@ -171,8 +171,8 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::iterate() {
   return advance(prescribed_cut);
 }
 
-/// Counts a judgement of a converged solve with newly detected contacts; returns whether there were most_judgements. A
-/// judgement whose force is at most half of the least force so far does not count.
+/// Counts a judgement of a solve with newly detected contacts; returns whether there were most_judgements. A judgement
+/// whose force is at most half of the least force so far does not count.
 bool NewtonSolver::judged_in_vain(double force) {
   if (judgements_ == 0 || force > 0.5 * least_judged_) ++judgements_;
   least_judged_ = std::min(least_judged_, force);
@@ -288,8 +288,8 @@ bool NewtonSolver::pin(const Direction& direction, std::vector<double>& pins) {
   return timed(factorization, [&] { return factor_.factorize(matrix_); });
 }
 
-/// Searches along the truncated direction of the matrix with springs on cut vertices. As long as vertices are cut again
-/// and the energy falls more, stiffens the springs and repeats.
+/// Solves with springs on cut vertices and searches along the truncated solution. As long as vertices are cut again and
+/// the energy falls more, stiffens the springs and repeats.
 Accepted NewtonSolver::pinned(Direction direction, const PotentialTerms& before, double noise) {
   Accepted best;
   std::vector<double> pins(derivatives_.gradient.size(), 0);

@@ -3,7 +3,7 @@
 //   detect at xᵗ ── guess loop (Eq. 28, method.md §5.2) ── lag friction ── detect ── (A)
 //
 //   (A) move prescribed vertices to their targets, truncated
-//       gradient and Hessian; if the residual is at most the tolerance: judge it with newly detected contacts, or end
+//       gradient and Hessian; if the residual is at most the tolerance: end if contacts are new, else detect for (A)
 //       solve for δ ── truncate δ to δ' ── backtrack along δ'
 //       detect if a vertex was cut ── repeat from (A)
 //
@@ -25,7 +25,7 @@
 //   δ'      δ, cut vertex by vertex. In a crumpled cloth δ' bends the mesh between cut and uncut vertices. A share of
 //           2⁻⁸ that lowers the energy in its seventh digit would then count as progress.
 //   scaled  δ, scaled to fit all balls. It must lower the energy twice as much as δ', because δ' moves most vertices
-//           far and so makes new balls larger. Without this factor, sheets that fly together or are nearly closed lose
+//           far and so makes new balls larger. Without this factor, sheets that fly together or almost touch lose
 //           the full steps that tests/reference/solvers/newton/solver.cpp requires.
 //   pinned  the truncated solution with springs on cut vertices, of stiffness (‖δ_v‖/‖δ'_v‖ − 1)(m_v/h² + earlier
 //           stiffness). If two near vertices move together, truncation also shrinks the difference of their steps. With
@@ -122,8 +122,8 @@ class NewtonSolver : public StepSolver, private ContactStep {
   /// Factorises the matrix; uses projected stencils if the matrix is not positive definite without them.
   bool factorized_definite();
   bool factorized();
-  /// Fills the condition numbers of the factorised matrix: the whole, without friction, and without friction and
-  /// contact.
+  /// Fills three condition numbers: of the factorised matrix, of the matrix without friction, and of the matrix without
+  /// friction and contact.
   void measure_condition(compare::IterationMetrics& row);
   void detect_with_planes();
   /// Moves prescribed vertices towards their targets as far as planes allow; returns the number of lagging vertices.
@@ -148,8 +148,8 @@ class NewtonSolver : public StepSolver, private ContactStep {
   BlockMatrix matrix_;
   Factor factor_;
   PotentialDerivatives derivatives_;  ///< of the last iteration
-  /// whether the next detection (`judge_next_`) or the present one (`judging_`) judges a solve that converged with
-  /// earlier contacts
+  /// whether the next detection (`judge_next_`) or the last one (`judging_`) judges a solve that converged or stalled
+  /// with older contacts
   bool judge_next_ = false, judging_ = false;
   HessianProjection projection_ = HessianProjection::none;  ///< projection with which derivatives_ were computed
   int judgements_ = 0;                                      ///< number of judgements that did not halve the force

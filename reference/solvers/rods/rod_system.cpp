@@ -26,8 +26,8 @@ Frame unit(const Frame& q) { return on_sphere::scaled(1 / std::sqrt(inner(q, q))
 
 double norm(const Triple<double>& a) { return std::hypot(a[0], a[1], a[2]); }
 
-/// Returns q̄_b q_a, the rotation of the segment a ahead of a joint relative to the segment b behind it. `own` and
-/// `other` are the quaternions of a segment and its neighbour; the neighbour is ahead if `end` is 1.
+/// Returns q̄_b q_a, where segment b lies behind a joint and segment a ahead of it. `own` and `other` are the
+/// quaternions of a segment and its neighbour; the neighbour is segment a if `end` is 1.
 Frame relative(const Frame& own, const Frame& other, std::size_t end) {
   return end == 1 ? product(conjugate(own), other) : product(conjugate(other), own);
 }
@@ -272,8 +272,7 @@ FourOf<T> turned_by(const Frame& q, const Triple<T>& omega) {
 
 using Six = Second<6, double>;
 
-/// Returns three variables with the value 0. They are the inputs with the numbers `first` to `first` + 2, of six
-/// inputs.
+/// Returns three variables with the value 0: the inputs `first` to `first` + 2 of six inputs.
 Triple<Six> variables(std::size_t first) {
   Triple<Six> x;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -343,7 +342,7 @@ StencilDerivatives RodSystem::derivatives(std::size_t stencil, const Positions& 
   for (std::size_t i = 0, k = 0; i < 6; ++i)
     for (std::size_t j = 0; j <= i; ++j, ++k) matrix[6 * i + j] = matrix[6 * j + i] = energy.bend(k);
   project(matrix.data(), 6, projection);
-  // A segment's first three variables are D = x₁ − x₀.
+  // Maps unknowns of the stencil to variables of its energy. The first three variables of a segment are D = x₁ − x₀.
   struct Part {
     std::size_t place, variable;
     double sign;

@@ -1,5 +1,5 @@
-// The rods of a scene in double, for whole runs (compare/rods.md): the quaternions of all segments, their start in a
-// step, their sweep, forces on vertices, energies and residual.
+// Computes the rods of a scene in double, for whole runs (compare/rods.md): the quaternions of all segments at the
+// start of a step and after each sweep, forces on vertices, energies and residual.
 #pragma once
 
 #include <span>
@@ -69,9 +69,9 @@ class RodSystem {
   void add_force(compare::Index e, std::size_t end, const std::array<Triple<double>, 2>& ends,
                  VertexSystemOf<double>& sum) const;
 
-  // Stencils of Newton's method: first the segments, then the joints. The three unknowns ω of segment e are entry
-  // `vertex_count + e` of the positions, after the vertices; its quaternion is q exp(ω/2). If the positions do not
-  // include ω, the quaternion is q.
+  // Stencils of Newton's method: first the segments, then the joints. The positions may include three unknowns ω of
+  // each segment e, at index `vertex_count + e` after the vertices. Then the quaternion of e is q exp(ω/2), otherwise
+  // q.
   std::size_t size() const { return terms_.size() + joints_.size(); }
   std::array<compare::Index, 4> vertices(std::size_t stencil) const;
   /// Returns how many of the stencil's first unknowns are vertices: two for a segment, none for a joint.
@@ -114,7 +114,7 @@ class RodSystem {
   using Positions = std::vector<Triple<double>>;
   Triple<double> apart(std::size_t e, const Positions& x) const;
   on_sphere::Problem<double> problem(std::size_t e, const Positions& x) const;
-  /// Segment `second` is the neighbour across end `end` of segment `first` < `second`.
+  /// The joint between end `end` of segment `first` and segment `second`; `first` < `second`.
   struct Joint {
     std::size_t first, end, second;
   };
