@@ -13,7 +13,7 @@
 
 namespace ogc::compare::placement {
 
-/// Return a + b, s a, and a rounded to single precision.
+/// Return a + b, s a, and the rounding of a to single precision.
 inline Vec3 sum(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 inline Vec3 scaled(const Vec3& a, double s) { return {a.x * s, a.y * s, a.z * s}; }
 inline Vec3f single(const Vec3& a) {

@@ -25,7 +25,7 @@ struct Surrounding {
   std::function<void(const std::function<void()>&)> run;  ///< calls its argument once
 };
 
-/// Conditions that changed a stage's answers.
+/// The digest of a stage's answers, and the conditions under which bits of answers changed.
 struct DeterminismReport {
   Stage stage = Stage::rest_state;  ///< the stage under test
   std::uint64_t cases = 0;          ///< number of cases; a mesh counts once

@@ -345,7 +345,7 @@ void add_areas(std::vector<WrongForm>& forms) {
 
 // Forms with thresholds.
 
-/// Takes an interior point with a weight below epsilon as a point of the edge.
+/// Counts an interior point with a weight below epsilon as a point of the opposite edge.
 void without_small_weights(ClosestFaceTruth& truth, std::size_t i, double epsilon) {
   if (truth.exact.feature[i] != TriangleFeature::interior) return;
   const auto least = std::min_element(truth.weights[i].begin(), truth.weights[i].end());
@@ -403,8 +403,8 @@ bool is_nan_of_needle(const Evidence& evidence, const Authority& authority) {
   return is_nan ? is_needle(in) : agrees(evidence, authority);
 }
 
-/// If the closest point is not in the interior, checks whether `distance` is the distance to the triangle's plane, or
-/// the answer is right. Otherwise checks whether the answer is right.
+/// Checks whether the answer is right. If the closest point is not in the interior, the distance to the triangle's
+/// plane also counts as right.
 bool is_distance_of_plane(const Evidence& evidence, const Authority& authority) {
   const ClosestFaceIn in = question_of(evidence);
   const ClosestFaceTruth truth = authority.closest_face(in);

@@ -18,7 +18,7 @@ std::vector<std::string> contact_roles(ContactSides sides);
 /// Notes what makes the contact illegal.
 void check_contact(const ContactForceCase& c, FirstProblem& problem);
 
-/// Returns the vertices that a contact of these sides has, which are the first ones of `all`.
+/// Returns the first 2, 3 or 4 entries of `all`, one per vertex of a contact with these sides.
 template <class Vertices>
 auto vertices_of(Vertices& all, ContactSides sides) {
   return std::span(all).first(static_cast<std::size_t>(vertex_count(sides)));
@@ -60,7 +60,7 @@ void add_contact(std::vector<WrongForm>& forms, ForceMember<In> stage, Contact c
     });
   changed("ogc_for_every_activation", "`ogc`, whichever activation is asked for",
           [](ContactForceCase& c) { c.activation = ContactActivation::ogc; });
-  // A negative square means that there is no length: neither mollifier nor overlap applies, and e_k is 1.
+  // A negative squared rest length switches off mollifier and overlap: e_k is 1.
   changed("mollifier_missing", "e_k is 1: nearly parallel edges act in full", [](ContactForceCase& c) {
     if (c.rest_squared[0] > 0) c.rest_squared = {-1, -1};
   });

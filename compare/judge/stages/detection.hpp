@@ -258,7 +258,8 @@ std::vector<WrongForm> question_forms(Detection<Truth> stage) {
           })};
 }
 
-/// Returns the index of the list that holds a contact: its vertex, triangle or edge, or one index for all contacts.
+/// Returns the index of the vertex, triangle or edge whose list holds a contact; the same for all contacts if there is
+/// one list.
 template <class Contact>
 using Owner = Index (*)(const Contact&);
 

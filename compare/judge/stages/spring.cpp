@@ -84,8 +84,7 @@ CaseData bits(Random& random) {
   return question;
 }
 
-/// Approaches l = l₀, where the force vanishes, and lᵗ = l. Only if l > l₀ does the block have a term across the
-/// spring.
+/// Approaches l = l₀, where the force vanishes, and lᵗ = l. The block has a term across the spring only if l > l₀.
 CaseData at_rest(Random& random) {
   const double length = some_length(random);
   return spring_case(random, length, length * (1 + random.rung()), length * (1 + random.rung()));

@@ -202,7 +202,7 @@ constexpr std::array<Generator, 10> table{{{"uniform", 30, true, uniform},
                                            {"ladder.needle", 15, false, needle},
                                            {"ladder.sliver", 10, false, sliver}}};
 
-/// Limits of the contract: weights [m], i = 1/(6V) [1/m³], growth (longest side)³ i, and strain.
+/// Limits of the contract: weights [m], i = 1/(6V) [1/m³], growth = i (longest side)³, and strain.
 constexpr float most_weight = 0x1p60f, least_inverse = 0x1p-70f, most_inverse = 0x1p80f;
 constexpr double most_growth = 0x1p30, most_strain = 0x1p20;
 

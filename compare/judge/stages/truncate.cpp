@@ -181,7 +181,7 @@ std::vector<WrongForm> truncate_forms() {
             })};
 }
 
-/// Checks whether the vertex obeys the half-space by a margin of 2⁻⁵⁰ times the sum of the moduli of its terms.
+/// Checks whether n·x is below o by at least 2⁻⁵⁰ (Σ|n_k x_k| + |o|).
 bool keeps_with_room(const HalfSpace& h, const Vec3f& x) {
   const double a = double{h.normal.x} * x.x, b = double{h.normal.y} * x.y, c = double{h.normal.z} * x.z;
   return a + b + c + 0x1p-50 * (std::abs(a) + std::abs(b) + std::abs(c) + std::abs(h.offset)) <= h.offset;

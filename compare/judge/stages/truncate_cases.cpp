@@ -230,7 +230,7 @@ CaseData stiff(Random& random) {
   return region.finish(scaled(direction(random), bound * random.between(0.1, 2)));
 }
 
-/// Makes as many half-spaces as a vertex can have, and more.
+/// Makes regions with very many half-spaces.
 CaseData crowded(Random& random) {
   const double bound = random.magnitude(-4, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);

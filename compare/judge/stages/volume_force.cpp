@@ -124,7 +124,7 @@ VolumeForceCase placed(Random& random, const Pressed& p) {
   return question;
 }
 
-/// Returns a share φ/r: inside, outside or beyond r.
+/// Returns φ/r: below 0 (inside), between 0 and 1, or above 1 (farther than r).
 double some_share(Random& random) { return random.between(-3, 1.2); }
 
 Pressed pressed(Random& random, double share) {
@@ -159,7 +159,7 @@ CaseData bits(Random& random) {
   return question;
 }
 
-/// Makes sums without rounding: φ = r, ‖u‖ = ε_v h and 0 are exact ties.
+/// Makes cases without rounding errors, so that φ = r, ‖u‖ = ε_v h and ‖u‖ = 0 occur exactly.
 CaseData lattice(Random& random) {
   Pressed p;
   p.size = std::ldexp(1.0, random.below(9) - 8);
