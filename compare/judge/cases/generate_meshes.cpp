@@ -333,8 +333,8 @@ CaseData seams(Random& random) {
   return finish(random, builder, {random.one_in(2) ? 0.1 : jitter_rung(random), radius_at(random, gap)});
 }
 
-/// Makes a fine case of a stack or of sheets: the radius differs from the gap by at most 10⁻⁵ of it, and jitter is at
-/// most 10⁻⁵. In a stack nearly every vertex and edge has this gap.
+/// Makes a fine case of a stack or of sheets: the relative difference of radius and gap is at most 10⁻⁵, and jitter is
+/// at most 10⁻⁵. In a stack nearly every vertex and edge has this gap.
 CaseData boundary(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 4> ladders{stack, stack, stack, sheets};
   random.be_fine();

@@ -188,7 +188,7 @@ CaseData divided(Random& random, const CaseData& data) {
   return test;
 }
 
-/// Makes a generic state with displacements. Planes divide each gap in proportion to them.
+/// Makes a generic state with displacements. A plane divides each gap in proportion to the displacements of both sides.
 CaseData approach(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 4> states{soup, cloth, few, groups};
   return divided(random, random.pick(std::span<CaseData (*const)(Random&)>(states))(random));

@@ -25,7 +25,7 @@ using namespace placement;
 
 /// Takes the legal part of a mesh. Enlarges a tiny mesh 2¹⁰ times and reduces a vast one to an eighth, so that edges
 /// are legal at twice the size, too (up to 2²⁰ m). Coordinates that are too small become 0. Faces that are too short,
-/// flat or repeated are left out, and vertices without a face with them.
+/// flat or repeated are left out; so are vertices that then have no face.
 class Cleaner {
  public:
   explicit Cleaner(const MeshCase& mesh) : mesh_(mesh) {

@@ -16,7 +16,7 @@ class Renumbering {
  public:
   Renumbering(Random& random, const Topology& from);
 
-  /// Returns the same mesh under the new numbers.
+  /// Returns the same mesh with the new indices.
   const std::shared_ptr<const Topology>& topology() const { return topology_; }
   /// Return entries by vertex, edge or triangle in the new order.
   template <class T>
@@ -31,7 +31,7 @@ class Renumbering {
   std::vector<T> by_triangle(const std::vector<T>& old) const {
     return renumbered(old, triangle_);
   }
-  /// Return the new number of a vertex, and the face with its new number.
+  /// Return the new index of a vertex, and a face with its new index.
   Index vertex(Index v) const { return vertex_[static_cast<std::size_t>(v)]; }
   Face face(const Face& f) const {
     const std::vector<Index>& to = f.kind == FaceKind::vertex ? vertex_ : f.kind == FaceKind::edge ? edge_ : triangle_;

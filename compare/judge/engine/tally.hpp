@@ -73,8 +73,8 @@ class Tally {
   explicit Tally(Stage stage);
   /// Assigns all following counts to this case, until the next call.
   void begin(const CaseName& name);
-  /// Adds counts. `near` is the number of cases within 2¹⁰ ulp of a decision boundary (near_factor); 0 if the stage has
-  /// no decisions.
+  /// Adds counts. `near` is the number of cases within 2¹⁰ ulp of a decision boundary (near_factor); 0 in a stage
+  /// without decision boundaries.
   void count(std::uint64_t cases, std::uint64_t decisions, std::uint64_t grey, std::uint64_t near = 0);
   /// Adds an error in units of the metric. An error above the tolerance is a mismatch. The message of the mismatch has
   /// the numbers and the text of `where`, which is called only for a mismatch.

@@ -16,8 +16,8 @@ inline constexpr std::uint64_t least_fits = 3;
 inline constexpr double least_share = 0.9;
 /// A kernel may have two mistakes. So further forms are fitted to the failing cases that the named form does not fit,
 /// or to all failing cases if no form fits the share `least_share`.
-/// - If no form fits `least_share`, several forms are named together: the first must fit the share `least_share_of_first`
-///   of the failing cases, or all together must fit `least_share`.
+/// - If no form fits `least_share`, several forms are named together: the first must fit `least_share_of_first` of the
+///   failing cases, or all together must fit `least_share`.
 /// - Each of these forms must fit `least_share_of_second` of the failing cases, and `least_share_of_right` of the right
 ///   ones: a form that fits some failing cases by chance contradicts right cases.
 inline constexpr double least_share_of_first = 0.5, least_share_of_second = 0.05, least_share_of_right = 0.99;

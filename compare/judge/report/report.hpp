@@ -12,9 +12,11 @@
 
 namespace ogc::compare {
 
-/// Returns the report of one stage: counts, grey zone, cases near a boundary, errors by metric (median, 99.9th
-/// percentile, maximum, room below the tolerance, whether it is loose, worst problem string), speed, the listed
-/// mismatches, the counts of each generator.
+/// Returns the report of one stage:
+/// - counts, grey zone, cases near a decision boundary,
+/// - for each metric: median, 99.9th percentile and maximum of the errors, tolerance over maximum, whether the
+///   tolerance is loose, problem string of the largest error,
+/// - speed, the listed mismatches, and the counts of each generator.
 nlohmann::ordered_json report_json(const StageReport& report);
 
 /// One row of report_table, for one metric:

@@ -37,7 +37,7 @@ Shape shape_of(const TestCase& test);
 std::string print_shape_obj(const Shape& shape);
 
 /// Returns a static SVG picture, to scale: a parallel projection along the direction of the shape's smallest extent.
-/// Vertices have their numbers if they are few. The text is empty for an empty shape.
+/// Vertices are labelled by index if they are few. The text is empty for an empty shape.
 std::string print_shape_svg(const Shape& shape, const std::string& title);
 
 }  // namespace ogc::compare

@@ -2,7 +2,7 @@
 // backwards and forwards. Ladders approach
 // - borders of faces that are barely hit or missed, parallel edges, motions in one plane,
 // - long slides at a small gap, gaps of 0, faces that touch at the start,
-// - edges that turn through each other.
+// - edges that rotate through each other.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -121,7 +121,7 @@ struct ParametersOfCase {
   }
 };
 
-/// Returns an empty text, because every run has cases.
+/// A stage that has cases in every run.
 struct InEveryRun {
   /// Returns an empty text.
   static std::string missing_in(const States&) { return {}; }

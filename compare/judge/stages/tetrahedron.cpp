@@ -57,7 +57,7 @@ void set_material(Random& random, TetrahedronCase& question) {
 }
 
 /// Places the deformed corners `x` and the corners at the start of the time step by one rigid motion. In half of the
-/// cases the latter are near x, otherwise at rest.
+/// cases the corners at the start are near x, otherwise at rest.
 CaseData placed(Random& random, TetrahedronCase question, const Corners& rest, const Corners& x, double size,
                 bool lattice) {
   std::array<Vec3, 8> points;

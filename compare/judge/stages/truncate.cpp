@@ -117,8 +117,8 @@ TruncateIn truncate_question(Cases cases) {
   return in;
 }
 
-/// Checks whether the stored position is the exact one up to the tolerance. The bound is not checked here, because a
-/// form may miss it by a rounding.
+/// Checks whether the stored position is the exact one up to the tolerance. The bound is not checked here, because the
+/// position of a form may exceed the bound by a rounding error.
 bool lies_there(const Vec3f& stored, const Vec3& exact, const Vec3f& previous, double bound) {
   const double error = std::hypot(stored.x - exact.x, stored.y - exact.y, stored.z - exact.z);
   const double size = std::max({std::abs(previous.x), std::abs(previous.y), std::abs(previous.z)});

@@ -196,7 +196,7 @@ CaseData still(Random& random) {
   return placed(random, p);
 }
 
-/// Moves along n by many times the slip and ε_v h.
+/// Makes displacements whose component along n is 1 to 10⁴ times ε_v h.
 CaseData lift(Random& random) {
   Pressed p = pressed(random, some_share(random));
   move(random, p, random.one_in(2) ? 0 : random.between(0, 3), random.magnitude(0, 4));

@@ -196,8 +196,8 @@ CaseData lattice(Random& random) {
   return question;
 }
 
-/// Takes random bits for coordinates and constants. The rest length is at least 2⁻⁷ m, so that the length is at most
-/// the legal 2³⁰ times as large.
+/// Takes random bits for coordinates and constants. The rest length is at least 2⁻⁷ m, so that no segment is longer
+/// than 2³⁰ rest lengths, the legal limit.
 CaseData bits(Random& random) {
   auto question = case_of<OrientationCase>(uniform(random));
   const std::array<Vec3, 4> points = points_of_bits(random);

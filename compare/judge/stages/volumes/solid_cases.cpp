@@ -88,7 +88,7 @@ VolumeBody some_solid(Random& random) {
   return body;
 }
 
-/// Makes points at heights `height_of` above random feet on a body's surface.
+/// Makes points above or below random feet on a body's surface. `height_of` chooses their heights.
 template <class HeightOf>
 CaseData beside(Random& random, VolumeBody body, HeightOf height_of) {
   const double radius = some_radius(random);

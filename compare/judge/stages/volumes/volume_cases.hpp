@@ -14,7 +14,7 @@ namespace ogc::compare {
 std::span<const Generator> volume_depth_generators();
 
 /// Returns why the surface is no volume; empty if it is one. Reasons are a triangle without area or lower than 2⁻²⁰ of
-/// its longest side, two triangles with an edge in the same direction, and an edge without a triangle.
+/// its longest side, two triangles that traverse an edge in the same direction, and an edge without a triangle.
 std::string volume_problem(const Topology& topology, const std::vector<Vec3f>& positions);
 
 /// Makes a volume with rims from triangles of a frame. Leaves out triangles without area, and triangles that traverse
