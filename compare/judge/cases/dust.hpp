@@ -11,9 +11,9 @@
 
 namespace ogc::compare {
 
-/// Makes some coordinates of the case small, down to 2⁻⁶⁰ (10⁻¹⁸), one by one, as long as the case stays legal. Below
-/// 2⁻⁶⁰ the product of two coordinates would be lost beside 1 in double-double numbers. Connectivity, radii, materials
-/// and rest data stay; of scenes only a sweep's positions change.
+/// Makes some coordinates of the case small, down to 2⁻⁶⁰ (10⁻¹⁸), one after another, as long as the case stays legal.
+/// Double-double numbers cannot hold 1 plus the product of two smaller coordinates. Connectivity, radii, materials and
+/// rest data stay. In cases with a scene only the positions of a sweep change.
 void add_dust(Random& random, TestCase& test);
 
 /// Returns pointers to the coordinates of points, one array after another.

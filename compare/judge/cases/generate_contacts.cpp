@@ -26,12 +26,12 @@ constexpr std::array<ContactSides, 4> all_sides{ContactSides::point_point, Conta
 /// A contact in its canonical frame: its points now and at the last detection.
 struct Shape {
   ContactSides sides = ContactSides::point_point;
-  double size = 1, contact_radius = 1, distance = 0;  ///< about the length of an edge; r; about d
+  double size = 1, contact_radius = 1, distance = 0;  ///< about the length of an edge; r; d, nearly
   std::array<Vec3, 4> x{}, previous{};
   bool turned = true;  ///< true if it may be rotated
 };
 
-/// Returns a shape whose r is between a fifth of an edge and three edges, with d = `share` r.
+/// Returns a shape with d = `share` r, whose r is between a fifth of an edge length and three edge lengths.
 Shape sized(Random& random, ContactSides sides, double share) {
   Shape shape;
   shape.sides = sides;
@@ -273,7 +273,7 @@ CaseData contact_beyond(Random& random) {
 CaseData contact_switch(Random& random) { return contact_case(random, near_switch(random)); }
 CaseData contact_touching(Random& random) { return contact_case(random, near_touching(random)); }
 
-/// Returns a shape at a boundary between features, at a distance where the activation changes, or a generic one.
+/// Returns a shape at a boundary between features or at a distance where the activation changes, or a generic shape.
 Shape any_shape(Random& random) {
   switch (random.below(5)) {
     case 0: return near_feature(random);
@@ -390,7 +390,7 @@ CaseData friction_limit(Random& random) {
                        random.between(-1, 1));
 }
 
-/// Moves along the normal by many times the slip and ε_v h.
+/// Makes displacements whose component along the normal is 1 to 10⁴ times ε_v h.
 CaseData friction_lift(Random& random) {
   return friction_case(random, inside(random, any_sides(random), any_share(random)),
                        random.one_in(2) ? 0 : random.between(0, 3), random.magnitude(0, 4));

@@ -224,7 +224,7 @@ CaseData bending_uniform(Random& random) {
                       with_angle(shape, std::clamp(angle + random.between(-0.3, 0.3), -3.0, 3.0)));
 }
 
-/// Takes random bits for vertices, which gives needles of up to 10¹² to 1 and hinges of every angle.
+/// Takes random bits for vertices, which gives hinges of every angle and triangles whose edges differ by up to 10¹².
 CaseData bending_bits(Random& random) {
   BendingCase question = case_of<BendingCase>(bending_uniform(random));
   place_bits(random, question.vertex, question.start);

@@ -17,19 +17,19 @@ constexpr std::uint64_t large_run = 1000000;
 
 constexpr std::array<int, 6> small_sizes{0, 1, 2, 3, 5, 10};
 
-/// Returns 0 in half of the cases, otherwise 10⁻¹ … 10⁻⁷ of an edge, the finest that single precision resolves at
-/// coordinates of one edge.
+/// Returns 0 in half of the cases, otherwise 10⁻¹ … 10⁻⁷ edge lengths. Single precision resolves 10⁻⁷ at coordinates of
+/// one edge length.
 double jitter_rung(Random& random) {
   return random.one_in(2) ? 0 : std::pow(10.0, random.is_fine() ? -5 - random.below(3) : -1 - random.below(7));
 }
 
-/// Returns h (1 + rung/2), a radius that just reaches or just misses what lies at height h. Returns 0 in some cases,
-/// from which `finish` makes a random radius.
+/// Returns h (1 + rung/2), a radius that just reaches or just misses what lies at height h. Returns 0 in some cases;
+/// `finish` replaces 0 by a random radius.
 double radius_at(Random& random, double h) {
   return !random.is_fine() && random.one_in(3) ? 0 : std::abs(h) * (1 + 0.5 * random.rung());
 }
 
-/// Returns strips of triangles and a few loose edges in a box, with about one vertex for each unit of volume.
+/// Returns strips of triangles and a few loose edges in a box, with about one vertex per unit of volume.
 MeshBuilder soup_of(Random& random, int size) {
   MeshBuilder builder;
   const double side = std::cbrt(size + 1.0);
@@ -266,8 +266,9 @@ void hang(Random& random, MeshBuilder& builder, Index a, Index b) {
   }
 }
 
-/// Returns edges one above the other, parallel or tilted by a rung. Their ends lie above each other, beside each other
-/// or anywhere. `hang` adds neighbours, whose blocks may exclude one end of the edges' overlap, both ends or none.
+/// Returns edges one above the other, parallel or tilted by a rung. Their ends are aligned, a rung apart or at random
+/// places. `hang` adds neighbours to each edge. Blocks of neighbours may exclude one end, both ends or no end of the
+/// overlap of two edges.
 MeshBuilder pile_of(Random& random, double gap) {
   MeshBuilder builder;
   for (int k = 0, count = 2 + random.below(3); k < count; ++k) {
@@ -332,8 +333,8 @@ CaseData seams(Random& random) {
   return finish(random, builder, {random.one_in(2) ? 0.1 : jitter_rung(random), radius_at(random, gap)});
 }
 
-/// Makes a fine case of a stack or of sheets: the radius differs from the gap by at most 10⁻⁵ of it, and jitter is at
-/// most 10⁻⁵. In a stack nearly every vertex and edge has this gap.
+/// Makes a fine case of a stack or of sheets: the relative difference of radius and gap is at most 10⁻⁵, and jitter is
+/// at most 10⁻⁵. In a stack nearly every vertex and edge has this gap.
 CaseData boundary(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 4> ladders{stack, stack, stack, sheets};
   random.be_fine();

@@ -143,8 +143,8 @@ CaseData corner(Random& random) {
   return finished(random, builder, random.between(0.2, 1), 0);
 }
 
-/// Puts sheets far from the origin, so that at most a few ulp of a coordinate lie between them. They stay within 2¹⁰,
-/// so that coordinates are legal in the largest unit.
+/// Puts sheets far from the origin, so that the gap between them is at most a few ulp of a coordinate. Coordinates are
+/// at most 2¹⁰, so that they stay legal after the largest scaling.
 CaseData far(Random& random) {
   MeshBuilder builder;
   const double height = random.magnitude(-4, -2);
@@ -188,7 +188,7 @@ CaseData divided(Random& random, const CaseData& data) {
   return test;
 }
 
-/// Makes a generic state with displacements. Planes divide each gap in proportion to them.
+/// Makes a generic state with displacements. A plane divides each gap in proportion to the displacements of both sides.
 CaseData approach(Random& random) {
   constexpr std::array<CaseData (*)(Random&), 4> states{soup, cloth, few, groups};
   return divided(random, random.pick(std::span<CaseData (*const)(Random&)>(states))(random));
@@ -199,9 +199,9 @@ CaseData close_approach(Random& random) {
   return divided(random, random.pick(std::span<CaseData (*const)(Random&)>(states))(random));
 }
 
-/// Puts two sheets one above the other, so that the normal n is a coordinate axis. Vertices of either sheet, of both or
-/// of none move towards the other sheet or away from it, along the line between two vertices of the sheets. A random
-/// motion may be added, which may be far larger.
+/// Puts two sheets one above the other, so that the normal n is a coordinate axis. Vertices of one sheet, both sheets
+/// or no sheet move along the line between the first vertices of the sheets, towards the other sheet or away. A random
+/// motion may be added; it may be far larger.
 CaseData along_normal(Random& random) {
   MeshBuilder builder;
   builder.grid(1, 1, {}, {1, 0, 0}, {0, 1, 0});

@@ -25,7 +25,7 @@ using namespace placement;
 
 /// Takes the legal part of a mesh. Enlarges a tiny mesh 2¹⁰ times and reduces a vast one to an eighth, so that edges
 /// are legal at twice the size, too (up to 2²⁰ m). Coordinates that are too small become 0. Faces that are too short,
-/// flat or repeated are left out, and vertices without a face with them.
+/// flat or repeated are left out; so are vertices that then have no face.
 class Cleaner {
  public:
   explicit Cleaner(const MeshCase& mesh) : mesh_(mesh) {
@@ -98,7 +98,7 @@ Material material_of(Random& random) {
   return material;
 }
 
-/// Prescribes the vertices without mass. In one of three bodies also prescribes a quarter of the others.
+/// Prescribes the vertices without mass. In one of three bodies also prescribes a quarter of the other vertices.
 void hold(Random& random, Scene& scene, const Body& body) {
   std::vector<bool> has_triangle(at(body.vertex_count));
   for (Index t = body.first_triangle; t < body.first_triangle + body.triangle_count; ++t)
@@ -159,7 +159,7 @@ CaseData bits(Random& random) {
   return test;
 }
 
-/// Heights of the two triangles in lengths of the edge, and the angle between them.
+/// Heights of the two triangles in edge lengths, and the angle between the triangles.
 struct HingeShape {
   double height_a, height_b, angle;
 };

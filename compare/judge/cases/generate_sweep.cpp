@@ -51,7 +51,7 @@ Material material(Random& random) {
   return m;
 }
 
-/// Adds a mesh at rest; `map` gives its positions at X_prev. Returns the number of its first vertex.
+/// Adds a mesh at rest; `map` gives its positions at X_prev. Returns the index of its first vertex.
 template <class Map>
 Index add_body(Cloth& cloth, const Body& body, const Mesh& mesh, Map map) {
   Body named = body;

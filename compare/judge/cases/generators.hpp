@@ -17,7 +17,7 @@ class States;
 struct Generator {
   std::string_view name;  ///< "uniform", "ladder.parallel"
   double share;           ///< weight of the row among a stage's cases
-  bool generic;           ///< true if it aims at no degeneracy: few of its decisions may be grey (grey_share_limit)
+  bool generic;  ///< true if cases are random, not near a degeneracy: few decisions may be grey (grey_share_limit)
   CaseData (*make)(Random&);
   /// The row is used only in runs with at least this many cases; in a smaller run one mesh would be too large a share.
   std::uint64_t least = 0;

@@ -17,7 +17,7 @@ struct MeshBuilder {
   std::vector<std::array<Index, 2>> excluded;  ///< pairs of vertices, as in Exclusions
 
   Index add(const Vec3& point);  ///< Returns the index of the new vertex.
-  /// Adds (nx + 1) × (ny + 1) vertices at origin + i u + j v, with two triangles a cell.
+  /// Adds (nx + 1) × (ny + 1) vertices at origin + i u + j v, with two triangles per cell.
   void grid(int nx, int ny, const Vec3& origin, const Vec3& u, const Vec3& v);
   /// Adds `count` triangles about a vertex at `centre`, closed to a disk or open. The rim is at distance 1, lowered by
   /// `rise` (a cone).
@@ -45,8 +45,8 @@ MeshCase finish(Random& random, MeshBuilder builder, const MeshPlan& plan);
 /// Returns a zigzag strip of `count` triangles in the plane z = 0, with count + 2 vertices and edges of about 1.
 Mesh triangle_strip(int count);
 
-/// A curve of loose edges for a rod (compare/judge/cases/rods/), about the origin, in edge lengths. It is planar (z =
-/// 0) except for `jitter`.
+/// A curve of loose edges about the origin, from which a rod is made (compare/judge/cases/rods/). Lengths are in edge
+/// lengths. The curve is planar (z = 0) except for `jitter`.
 struct RodPlan {
   int segments = 4;     ///< along the curve
   bool closed = false;  ///< true: a ring of at least 3 segments
@@ -58,11 +58,12 @@ struct RodPlan {
 /// Returns a curve of a random kind.
 RodPlan some_rod(Random& random);
 
-/// Returns the vertices of the curve in order, then those of branches; the direction of each edge is random.
+/// Returns the curve as a mesh: first the vertices along the curve, then the vertices of branches. The direction of
+/// each edge is random.
 Mesh rod_mesh(Random& random, const RodPlan& plan);
 
-/// Turns a body made by rod_mesh into a rod with a stretch stiffness k_s of about `stretch` [N]. Bending is about as
-/// stiff for segments of this length [m]. The density gives each vertex a mass of about `mass` [kg].
+/// Turns a body made by rod_mesh into a rod. Its stretch stiffness k_s is about `stretch` [N]. For segments of length
+/// `length` [m] bending is about as stiff as stretch. The density gives each vertex a mass of about `mass` [kg].
 void make_rod(Random& random, Body& body, double stretch, double length, double mass);
 
 }  // namespace ogc::compare

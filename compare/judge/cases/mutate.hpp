@@ -10,7 +10,7 @@
 namespace ogc::compare {
 
 /// Changes a few points, one to four times. One change
-/// - moves a point by a rung times a distance, or to about that distance from another point or from the middle of two,
+/// - moves a point by a rung times the distance of two points, or puts it this far from another point or a midpoint,
 /// - copies a point or a coordinate, or rounds all points to few binary digits.
 /// In a step the velocities change, in a sweep xᵗ and the targets, in rest_state the rest shape as long as it stays
 /// legal. In activation the distance changes by a rung, or becomes about r or r/2.

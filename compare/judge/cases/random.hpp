@@ -12,8 +12,8 @@
 
 namespace ogc::compare {
 
-/// The stream of one case. Stage and generator enter by name, not by number, so that a new one leaves all other cases
-/// as they are.
+/// Draws the random numbers of one case. The key contains the names of stage and generator, not their indices, so that
+/// a new stage or generator changes no other case.
 class Random {
  public:
   constexpr Random(std::string_view stage, std::string_view generator, std::uint64_t seed, std::uint64_t index)

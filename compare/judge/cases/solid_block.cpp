@@ -66,8 +66,8 @@ Mesh jittered_hollow(Random& random, double size, double height) {
   }
   const auto first = static_cast<Index>(mesh.positions.size());
   const double share = random.between(0.3, 0.5);
-  // The block's boundary deviates from a box by at most a tenth of a cell. So an inner box of up to half of the block's
-  // size does not meet it.
+  // The block's boundary deviates from a box by at most a tenth of a cell. So it does not reach an inner box of at most
+  // half of the block's size.
   const auto between = [share](double a, double b, int side) { return (a + b) / 2 + (side - 0.5) * share * (b - a); };
   for (int v = 0; v < 8; ++v)
     mesh.positions.push_back(

@@ -13,7 +13,7 @@ Mesh jittered_block(Random& random, double size, double height);
 /// Returns the boundary of a block: outward triangles, without tetrahedra or interior vertices.
 Mesh jittered_surface(Random& random, double size, double height);
 /// Returns the boundary of a block with cells of side 3 `size`, and in its middle a void: a box of 0.3 to 0.5 of the
-/// block. The normals of the box point into the void; its vertices are the last eight.
+/// block's size. The normals of the box point into the void; its vertices are the last eight.
 Mesh jittered_hollow(Random& random, double size, double height);
 /// Returns a block of 2 × 2 × 2 cells.
 Mesh jittered_cube(Random& random, double size, double height);

@@ -64,7 +64,7 @@ struct StageInfo {
   Determinism determinism;
 };
 
-/// A continuous answer of a stage, with the largest error accepted (compare/stages).
+/// A continuous output of a stage, and the largest error that is accepted (compare/stages).
 struct MetricInfo {
   std::string_view name, unit;  ///< "force", "u cond"
   double tolerance;             ///< in that unit

@@ -96,14 +96,14 @@ class States {
   /// Returns the first frame with a contact, cyclically from this one on; none if the run has no contacts.
   std::optional<std::size_t> frame_with_contact(std::size_t frame) const;
   std::uint64_t cell(const Vec3f& position) const;
-  /// Returns a vertex in the same cell or a cell beside it; v itself if there is no other.
+  /// Returns another vertex in the cell of v or in an adjacent cell; v itself if there is none.
   Index neighbour(const State& state, Index v, Random& random) const;
-  /// Return the vertices of a pair: a vertex and the corners of a triangle; the ends of two edges, the lower-numbered
-  /// edge first. In half of the draws the pair is in contact, if the frame has contacts; otherwise its sides are near
+  /// Return the vertices of a pair: a vertex and the corners of a triangle, or the ends of two edges, the
+  /// lower-numbered edge first. If the frame has contacts, half of the pairs are in contact; all other pairs are near
   /// each other.
   std::array<Index, 4> vertex_and_triangle(std::size_t frame, Random& random) const;
   std::array<Index, 4> pair_of_edges(std::size_t frame, Random& random) const;
-  /// Returns the vertex's position after this share of a step at its velocity.
+  /// Returns where the vertex is after the fraction `part` of a step at its velocity.
   Vec3f moved(const State& state, Index v, double part = 1) const;
   MeetingMaterial meeting(Index v, Index w) const;
 

@@ -12,10 +12,10 @@
 
 namespace ogc::compare {
 
-/// Asks contestant and authority the same question. Adds the seconds of each to a tally.
+/// Cases of one stage.
 using Cases = std::span<const TestCase>;
 
-/// Asks both sides the same question and adds the seconds of each to a tally.
+/// Asks contestant and authority the same question. Adds the seconds of each answer to a tally.
 class Asker {
  public:
   Asker(std::mutex& contestant_turn, Tally& tally) : turn_(contestant_turn), tally_(tally) {}

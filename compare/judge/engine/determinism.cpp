@@ -53,8 +53,8 @@ std::vector<TestCase> cases_of(Stage stage, std::uint64_t count, std::uint64_t s
   return cases;
 }
 
-/// Returns how many generic cases change if vertices and triangles are renumbered, and the first such case. Returns an
-/// empty text if none changes, or if the stage's answers depend on indices.
+/// Returns a text with the number of generic cases that change if vertices and triangles are renumbered, and with the
+/// first such case. The text is empty if no case changes, or if the stage's answers depend on indices.
 std::string changed_by_numbers(Stage stage, Cases cases, const Contestant& contestant) {
   const auto is_same = traits_of(stage).is_same_renumbered;
   if (is_same == nullptr) return {};

@@ -25,7 +25,7 @@ struct Surrounding {
   std::function<void(const std::function<void()>&)> run;  ///< calls its argument once
 };
 
-/// Conditions that changed a stage's answers.
+/// The digest of a stage's answers, and the conditions under which bits of answers changed.
 struct DeterminismReport {
   Stage stage = Stage::rest_state;  ///< the stage under test
   std::uint64_t cases = 0;          ///< number of cases; a mesh counts once
@@ -36,9 +36,9 @@ struct DeterminismReport {
   bool skipped = false;  ///< the contestant does not have the stage
 };
 
-/// Asks `cases` cases of all generators (a mesh counts once) again: shuffled, one by one, in batches of 2, 3, 5, 10 and
-/// 50, and in each surrounding. Generic cases of stages with StageTraits::is_same_renumbered are also asked with
-/// renumbered vertices and triangles.
+/// Asks about `cases` cases of all generators (a mesh counts once) repeatedly: shuffled, one by one, in batches of 2,
+/// 3, 5, 10 and 50, and in each surrounding. Generic cases of stages with StageTraits::is_same_renumbered are also
+/// asked with renumbered vertices and triangles.
 DeterminismReport check_determinism(Stage stage, std::uint64_t cases, std::uint64_t seed, const Contestant& contestant,
                                     const Authority& authority, std::span<const Surrounding> surroundings);
 

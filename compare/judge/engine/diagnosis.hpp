@@ -13,7 +13,7 @@ namespace ogc::compare {
 struct SecondMistake {
   std::string name, meaning;  ///< name and meaning of the wrong form
   std::uint64_t fits = 0;     ///< failing cases that this form fits and no earlier form fits
-  /// true if the answers contain both mistakes, false if they contain this one instead of the first
+  /// true if the answers contain both mistakes, false if they contain the second mistake instead of the first
   bool together = false;
 };
 

@@ -37,7 +37,7 @@ static_assert([] {
 // Number of meshes in one batch. Generators of large meshes (Generator::least > 0) have batches of one mesh.
 constexpr std::uint64_t mesh_batch = 4;
 
-/// Runs one generator in batches of consecutive indices until it has counted `cases`.
+/// Runs one generator in batches of consecutive indices until it has counted `cases` cases.
 class GeneratorRun {
  public:
   GeneratorRun(Stage stage, const Generator& generator, std::uint64_t cases, const Contestant& contestant,
@@ -103,9 +103,9 @@ class GeneratorRun {
 
   bool is_over() const { return stopped_ || next_ == batches_; }
 
-  /// Returns how many batches may be begun beyond the merged ones: four for each thread if the number of batches is
-  /// known. A mesh stage begins at most one for each thread, and at most as many as it still needs. This number is
-  /// estimated from the cases of the merged batches.
+  /// Returns how many batches may be begun beyond the merged ones: four per thread, except in mesh stages. A mesh stage
+  /// begins at most one per thread, and at most as many as it still needs. This number is estimated from the cases of
+  /// the merged batches.
   std::uint64_t ahead() const {
     if (!is_mesh_stage(stage_)) return 4 * options_.threads;
     if (merged_count_ == 0) return options_.threads;

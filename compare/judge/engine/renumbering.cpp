@@ -7,7 +7,7 @@ namespace ogc::compare {
 
 namespace {
 
-/// Returns a random map from old numbers to new ones.
+/// Returns a random map from old indices to new ones.
 std::vector<Index> shuffled(Random& random, std::size_t count) {
   std::vector<Index> to(count);
   std::iota(to.begin(), to.end(), 0);

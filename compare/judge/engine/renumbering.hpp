@@ -16,7 +16,7 @@ class Renumbering {
  public:
   Renumbering(Random& random, const Topology& from);
 
-  /// Returns the same mesh under the new numbers.
+  /// Returns the same mesh with the new indices.
   const std::shared_ptr<const Topology>& topology() const { return topology_; }
   /// Return entries by vertex, edge or triangle in the new order.
   template <class T>

@@ -26,7 +26,7 @@ struct Primitives {
   explicit Primitives(const Topology& topology);
   /// Returns the number of triangles and loose edges.
   std::size_t size() const { return triangles.size() + loose_edges.size(); }
-  /// Returns the list without the entries from `first` to `last`.
+  /// Returns the list without the entries [first, last).
   Primitives without(std::size_t first, std::size_t last) const;
 };
 
@@ -38,7 +38,7 @@ struct MeshPart {
   std::vector<std::size_t> triangles;        ///< their indices in the larger mesh; empty if all are dropped
 
   MeshPart(const Topology& whole, const Primitives& kept);
-  /// Returns the entries that belong to the part's vertices, edges or triangles, from those of the larger mesh.
+  /// Picks the entries of the part's vertices, edges or triangles (`numbers`) from an array of the larger mesh.
   template <class T, class Numbers>
   static std::vector<T> picked(const std::vector<T>& items, const Numbers& numbers) {
     std::vector<T> chosen;
@@ -59,8 +59,8 @@ std::size_t primitive_count(const TestCase& test);
 
 /// Returns a smaller case with the same name. `fails` checks whether a candidate fails as the given case does. Cases of
 /// both detections, bound and plane lose triangles, loose edges and vertices without primitives. Then coordinates and
-/// radii, also those of closest_face, closest_points and ccd, become 0 or get the fewest binary digits that keep the
-/// failure. All other cases are returned unchanged.
+/// radii become 0 or get the fewest binary digits that keep the failure. In closest_face, closest_points and ccd only
+/// the numbers change. All other cases are returned unchanged.
 TestCase shrink(const TestCase& test, const std::function<bool(const TestCase&)>& fails,
                 const ShrinkOptions& options = {});
 

@@ -73,11 +73,11 @@ class Tally {
   explicit Tally(Stage stage);
   /// Assigns all following counts to this case, until the next call.
   void begin(const CaseName& name);
-  /// Adds counts. `near` is the number of cases within 2¹⁰ ulp of a decision boundary (near_factor), if the stage has
-  /// one.
+  /// Adds counts. `near` is the number of cases within 2¹⁰ ulp of a decision boundary (near_factor); 0 in a stage
+  /// without decision boundaries.
   void count(std::uint64_t cases, std::uint64_t decisions, std::uint64_t grey, std::uint64_t near = 0);
-  /// Adds an error in units of the metric. An error above the tolerance is a mismatch. Its message has the numbers and
-  /// `where`, which is called only then.
+  /// Adds an error in units of the metric. An error above the tolerance is a mismatch. The message of the mismatch has
+  /// the numbers and the text of `where`, which is called only for a mismatch.
   template <class Where>
   void error(std::size_t metric, double value, const Where& where) {
     if (const auto excess = note_error(metric, value)) mismatch(*excess + where());

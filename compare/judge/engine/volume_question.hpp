@@ -29,8 +29,8 @@ class VolumeQuestion {
   static VolumeDepthTruth truth(const VolumeDepthCase& asked, const Authority& authority);
   /// Returns the exact answer with the scene's indices, rounded.
   std::vector<VolumeContact> exact(const VolumeDepthCase& asked, const Authority& authority) const;
-  /// Converts an answer from the scene's indices to those of the question. If it does not answer the question, returns
-  /// nothing and writes the reason into `problem`.
+  /// Converts an answer from the scene's indices to the question's indices. If the answer does not fit the question,
+  /// returns nothing and writes the reason into `problem`.
   std::optional<VolumeDepthOut> answer_of(const VolumeDepthOut& in_scene, std::string& problem) const;
 
  private:

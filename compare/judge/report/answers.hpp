@@ -1,4 +1,4 @@
-// Holds both answers to a case: each output of the stage by name and unit, of the contestant and of the authority.
+// Holds the outputs of contestant and authority for one case, by name and unit.
 #pragma once
 
 #include "compare/contestant.hpp"

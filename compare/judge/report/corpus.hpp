@@ -22,11 +22,11 @@ nlohmann::ordered_json case_to_json(const TestCase& test, const std::string& mes
 /// ResourceError if the disk does not accept it.
 std::filesystem::path save_case(const std::filesystem::path& folder, const TestCase& test, const std::string& message);
 
-/// Reads a saved case, or a case written by hand as JSON (.json, in the form of case_to_json). Throws InputError that
+/// Reads a saved case, or a case written by hand as JSON (.json, in the format of case_to_json). Throws InputError that
 /// names the file and the key that is missing or wrong.
 TestCase load_case(const std::filesystem::path& file);
 
-/// Reads a batch file with one problem string a line. Empty lines and lines that begin with # are skipped. Throws
+/// Reads a batch file with one problem string per line. Empty lines and lines that begin with # are skipped. Throws
 /// InputError that names file and line.
 std::vector<CaseName> load_batch(const std::filesystem::path& file);
 

@@ -105,7 +105,7 @@ class Diagnosing {
   }
 
   /// Stores the form as the best one if it fits enough failing cases, and fewer cases contradict it than the best form
-  /// so far. If equally many do, adds the form's name to `as_well`.
+  /// so far. If equally many cases contradict both forms, adds the form's name to `as_well`.
   void consider(const WrongForm& form, Diagnosis& best) const {
     const auto wanted = std::max<std::uint64_t>(
         least_fits, static_cast<std::uint64_t>(std::ceil(least_share * static_cast<double>(best.failing))));

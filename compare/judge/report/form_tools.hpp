@@ -12,7 +12,8 @@ namespace ogc::compare {
 template <class Truth, class In>
 using Ask = std::function<Truth(const In&)>;
 
-/// Makes a form from the truth of the stage; `change(right, in)` returns the form's answer to the question.
+/// Makes a form: `change(right, in)` returns its answer to the question `in`, where `right` is the authority's function
+/// of the stage.
 template <class Truth, class In, class Change>
 WrongForm form(std::string name, std::string meaning, Ask<Truth, In> Authority::*stage, Change change) {
   return form_of(std::move(name), std::move(meaning), [stage, change](const Authority& authority) {

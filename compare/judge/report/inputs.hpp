@@ -17,12 +17,12 @@ struct Quantity {
   std::vector<std::string> labels{};  ///< one for each entry; may be empty
   bool is_list = false;               ///< distinguishes a list of one entry from a single value
 
-  /// Returns the number of entries, which are numbers or words.
+  /// Returns the number of entries: groups of `width` numbers, or words.
   std::size_t entries() const { return words.empty() ? numbers.size() / width : words.size(); }
 };
 
-/// Returns the inputs in the order of the case's contract (compare/stages); for scenes mesh, bodies, settings and
-/// states.
+/// Returns the inputs in the order of the case's contract (compare/stages). Inputs of a scene are its mesh, bodies,
+/// settings and states.
 std::vector<Quantity> inputs_of(const TestCase& test);
 
 }  // namespace ogc::compare

@@ -36,7 +36,7 @@ Quantity numbers(std::string name, std::string unit, const Numbers& values) {
   return {.name = std::move(name), .unit = std::move(unit), .numbers = {values.begin(), values.end()}, .is_list = true};
 }
 
-/// Returns points; a single point is not a list.
+/// Makes a quantity of points. A single point is not a list.
 template <class Points>
 Quantity points(std::string name, std::string unit, const Points& all) {
   Quantity quantity{.name = std::move(name), .unit = std::move(unit), .width = 3, .is_list = all.size() != 1};

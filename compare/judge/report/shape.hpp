@@ -30,14 +30,14 @@ struct Shape {
 Shape shape_of(const TestCase& test);
 
 /// Returns the shape as a legal mesh: OBJ text that `ogc audit` reads. Illegal triangles and lines are omitted: those
-/// without length or area, out of range, or present twice; a flat triangle is replaced by its longest side. A point
+/// without length or area, out of range, or present twice. A flat triangle is replaced by its longest side. A point
 /// without triangles and lines gets a line that leads away from all other points, so that distances to the point do not
-/// change. Comments name the points that the question concerns, and each vertex's number in the case if it differs. The
-/// text is empty if nothing is left.
+/// change. Comments name the points that the question concerns, and the index of a vertex in the case if the OBJ index
+/// differs. The text is empty if nothing is left.
 std::string print_shape_obj(const Shape& shape);
 
 /// Returns a static SVG picture, to scale: a parallel projection along the direction of the shape's smallest extent.
-/// Vertices have their numbers if they are few. The text is empty for an empty shape.
+/// Vertices are labelled by index if they are few. The text is empty for an empty shape.
 std::string print_shape_svg(const Shape& shape, const std::string& title);
 
 }  // namespace ogc::compare

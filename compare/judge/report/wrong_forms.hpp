@@ -31,7 +31,7 @@ struct WrongForm {
   /// returns an authority that has the form as the truth; empty if the form depends on the answer
   std::function<Authority(const Authority&)> wrong{};
   /// true if the form states what wrong answers have in common, not how they are computed; tried only if no other form
-  /// is named
+  /// fits
   bool is_vague = false;
 };
 

@@ -2,7 +2,7 @@
 // backwards and forwards. Ladders approach
 // - borders of faces that are barely hit or missed, parallel edges, motions in one plane,
 // - long slides at a small gap, gaps of 0, faces that touch at the start,
-// - edges that turn through each other.
+// - edges that rotate through each other.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -129,7 +129,8 @@ CaseData bits(Random& random) {
   return c;
 }
 
-/// Makes small integers: collapsed faces, faces on one plane or line, contacts at the start and at the end.
+/// Makes faces whose coordinates are small integers: collapsed faces, faces on one plane or line, contacts at the start
+/// and at the end of the motion.
 CaseData lattice(Random& random) {
   CcdCase c{.kind = some_kind(random)};
   const double size = std::ldexp(1.0, random.below(9) - 4);
@@ -194,8 +195,8 @@ CaseData planar(Random& random) {
   return placed(random, draft);
 }
 
-/// Moves each vertex of the second face up or down, so that the face rotates about a point near the first face. It
-/// passes through the first face and back, or beside it.
+/// Moves each vertex of the second face up or down, so that the face rotates about a point near the first face. The
+/// second face passes through the first face, perhaps twice, or beside it.
 CaseData turning(Random& random) {
   Draft draft{.kind = some_kind(random), .at = 0.5};
   draft.x = touching_faces(random, draft.kind, inside(random), inside(random), random.between(0.2, 1));

@@ -1,6 +1,6 @@
 // Makes the traits of stage closest_face. In the canonical frame of the ladders, corner a is the origin, corner b is on
-// the x axis, and corner c is in the xy plane. So the planes between the blocks of a and ab are coordinate planes,
-// which the point can approach by any power of ten.
+// the x axis, and corner c is in the xy plane. So the planes between the blocks of a and ab are coordinate planes, and
+// the point's distance from them can be any power of ten.
 #include <array>
 #include <span>
 

@@ -192,8 +192,8 @@ void take_corner(const ClosestFaceIn& in, std::size_t i, std::size_t corner, Clo
   round_answer(truth, i);
 }
 
-/// Makes a form that replaces the truth by `choose(authority, in, i, truth)` for triangles with an area whose closest
-/// point is not in the interior.
+/// Makes a form that replaces the truth by `choose(authority, in, i, truth)` if the triangle has an area and its
+/// closest point is not in the interior.
 template <class Choose>
 WrongForm chosen_outside(std::string name, std::string meaning, Choose choose) {
   return form_of(std::move(name), std::move(meaning), [choose](const Authority& authority) {
@@ -295,8 +295,9 @@ constexpr unsigned inside_bit = 1u << static_cast<unsigned>(TriangleFeature::int
 /// Limit of the rounding error of a sum of three weights; each weight has ten roundings in double.
 constexpr double sum_rounding = 30 * 0x1p-53;
 
-/// Makes the form that decides by areas whether the foot is inside. It is inside if the areas of its three triangles,
-/// added without signs, exceed the triangle's area by at most `slack(area)`. All areas are doubled [m²].
+/// Makes the form that decides by areas whether the foot is inside. Inside means that the triangles between foot and
+/// edges have areas without sign whose sum exceeds the triangle's area by at most `slack(area)`. All areas are doubled
+/// [m²].
 template <class Slack>
 WrongForm areas_add_up(std::string name, const std::string& slack_text, Slack slack) {
   return face_told(std::move(name),
@@ -345,7 +346,7 @@ void add_areas(std::vector<WrongForm>& forms) {
 
 // Forms with thresholds.
 
-/// Takes an interior point with a weight below epsilon as a point of the edge.
+/// Counts an interior point with a weight below epsilon as a point of the opposite edge.
 void without_small_weights(ClosestFaceTruth& truth, std::size_t i, double epsilon) {
   if (truth.exact.feature[i] != TriangleFeature::interior) return;
   const auto least = std::min_element(truth.weights[i].begin(), truth.weights[i].end());
@@ -403,8 +404,8 @@ bool is_nan_of_needle(const Evidence& evidence, const Authority& authority) {
   return is_nan ? is_needle(in) : agrees(evidence, authority);
 }
 
-/// If the closest point is not in the interior, checks whether `distance` is the distance to the triangle's plane, or
-/// the answer is right. Otherwise checks whether the answer is right.
+/// Checks whether the answer is right. If the closest point is not in the interior, the distance to the triangle's
+/// plane also counts as right.
 bool is_distance_of_plane(const Evidence& evidence, const Authority& authority) {
   const ClosestFaceIn in = question_of(evidence);
   const ClosestFaceTruth truth = authority.closest_face(in);

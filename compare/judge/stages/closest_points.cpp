@@ -57,7 +57,8 @@ CaseData threshold(Random& random) {
   return placed(random, crossing(random, 1e-3 * (1 + random.rung()), height(random)));
 }
 
-/// Makes edges that are parallel or tilted by a rung. Along the first edge they overlap by a rung or are a rung apart.
+/// Makes edges that are parallel or tilted by a rung. Measured along the first edge, they overlap by a rung or have a
+/// gap of a rung.
 CaseData overlap(Random& random) {
   const double length = random.magnitude(-1, 1), shift = random.one_in(2) ? 1 : -length,
                tilt = random.one_in(2) ? 0 : random.rung();
@@ -298,8 +299,9 @@ EdgeFeature feature_at(double t) {
   return t <= 0 ? EdgeFeature::end_0 : t >= 1 ? EdgeFeature::end_1 : EdgeFeature::interior;
 }
 
-/// Takes the start of the first edge and the closest point of the second edge to it. If this point is an end, replaces
-/// the start by the closest point of the first edge to that end. This is right for parallel edges.
+/// Replaces the closest points by the start a of the first edge and the point b of the second edge that is nearest to
+/// a. If b is an end, a is replaced by the point of the first edge that is nearest to b. The result is right for
+/// parallel edges.
 void from_start(const ClosestPointsIn& in, ClosestPointsTruth& truth, std::size_t i) {
   const Vec3 e = difference(in.first[i][1], in.first[i][0]), f = difference(in.second[i][1], in.second[i][0]),
              r = difference(in.first[i][0], in.second[i][0]);

@@ -42,8 +42,8 @@ WrongForm without_weights(std::string name, std::string meaning, int of_force, i
       });
 }
 
-/// Makes the form whose block is 0 for d ≥ r. `force_scale`, the unit of the force's error, is 0 only for d > r. If the
-/// force is below its error, d < r and d ≥ r cannot be distinguished; then the right block and 0 are accepted.
+/// Makes the form whose block is 0 for d ≥ r. `force_scale`, the error scale of the force, is 0 only for d > r. If the
+/// force is within its error limit, d may be below r or not; then the right block and a block of 0 are both accepted.
 WrongForm block_ends_at_radius() {
   return told("block_ends_at_radius", "no block from d = r on, where the curvature at r is asked for",
               &Authority::contact_force, [](const ContactForceIn&, ForceTruth& truth) {

@@ -18,7 +18,7 @@ std::vector<std::string> contact_roles(ContactSides sides);
 /// Notes what makes the contact illegal.
 void check_contact(const ContactForceCase& c, FirstProblem& problem);
 
-/// Returns the vertices that a contact of these sides has, which are the first ones of `all`.
+/// Returns the first 2, 3 or 4 entries of `all`, one per vertex of a contact with these sides.
 template <class Vertices>
 auto vertices_of(Vertices& all, ContactSides sides) {
   return std::span(all).first(static_cast<std::size_t>(vertex_count(sides)));

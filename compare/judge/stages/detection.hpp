@@ -125,10 +125,10 @@ inline double length(const Vec3f& a, const Vec3f& b) {
   return std::hypot(double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z);
 }
 
-/// Estimates from above the unit of error for a smallest distance. The exact unit is max(d, Σ|δ|) of the nearest pair,
-/// but the judge does not know this pair. δ is a vertex of the pair relative to its first vertex, and |δ| sums the
-/// moduli of the coordinates of δ. Each δ is at most d + (longest sides) long, so |δ| is at most √3 times that. A pair
-/// of four vertices has three δ.
+/// Returns an upper limit of the error scale of a smallest distance. The scale is max(d, Σ|δ|) of the nearest pair, but
+/// the judge does not know this pair. δ is the position of a vertex of the pair relative to its first vertex. Its
+/// length is at most d + `sides`, where `sides` adds the longest sides, so the sum |δ| of its moduli is at most √3 (d +
+/// `sides`). A pair of four vertices has three δ.
 inline double pair_scale(double d, double sides) { return 3 * std::sqrt(3.0) * (d + sides); }
 
 /// A stage whose answer is the contacts of a state. `S::kept(out)` returns the contacts as a set; `S::moved(out, to)`
@@ -202,7 +202,7 @@ struct DetectionStage : MeshStage<S, contestant, authority>, InEveryRun {
   /// `question` returns a view of the case, `add` adds the bits of an answer.
   static In question(const Case& c) { return detect_question(c); }
   static void add(Bits& bits, const Out& out) { bits.add(out); }
-  /// Returns how many decisions are grey.
+  /// Returns a text with the number of grey decisions; empty if there are none.
   static std::string note(const Truth& truth) {
     return truth.grey.empty()
                ? ""
@@ -258,7 +258,8 @@ std::vector<WrongForm> question_forms(Detection<Truth> stage) {
           })};
 }
 
-/// Returns the index of the list that holds a contact: its vertex, triangle or edge, or one index for all contacts.
+/// Returns the index of the vertex, triangle or edge whose list holds a contact; the same for all contacts if there is
+/// one list.
 template <class Contact>
 using Owner = Index (*)(const Contact&);
 

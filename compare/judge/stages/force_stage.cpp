@@ -28,8 +28,8 @@ bool is_within(const ForceErrors& errors, std::span<const MetricInfo> infos) {
   return errors.force <= infos[0].tolerance && errors.block <= infos[1].tolerance;
 }
 
-/// Returns the accepted answer for which the ratio of error to tolerance is least. The larger ratio of force and block
-/// counts.
+/// Returns the accepted answer with the least error. The error is that of the force or of the block, divided by its
+/// tolerance, whichever is larger.
 const ForceAnswer& nearest(const std::vector<ForceAnswer>& accepted, const Vec3f& force,
                            const std::array<float, 6>& block, std::span<const MetricInfo> infos) {
   const auto share = [&](const ForceAnswer& exact) {

@@ -83,7 +83,7 @@ struct ForceStage : BatchStage<S, contestant, authority>, TakenWhole, Parameters
   }
   static auto arrays(const Out& out) { return std::tie(out.force, out.block); }
 
-  /// Returns the number of accepted answers if it is above one.
+  /// Returns a text with the number of accepted answers; empty if there is one.
   static std::string note(const Truth& truth) {
     const std::size_t accepted = truth.accepted[0].size();
     return accepted == 1 ? ""

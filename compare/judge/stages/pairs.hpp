@@ -46,8 +46,8 @@ inline bool judge_below(float below, float exact, double distance, double scale,
 /// Checks whether several answers are accepted, that is, whether several bits are set.
 inline bool is_grey(std::uint32_t accepted) { return (accepted & (accepted - 1)) != 0; }
 
-/// Absolute thresholds that programs use. Forms with lengths use the first `length_thresholds`; forms with squares and
-/// products use all. A length below 1e-9 m is below every tolerance here.
+/// Absolute thresholds that are common in programs. Forms that compare a length use the first `length_thresholds`;
+/// forms that compare a square or a product use all. A length below 1e-9 m is below every tolerance here.
 inline constexpr std::size_t length_thresholds = 7;
 inline constexpr std::array<std::pair<const char*, double>, 10> thresholds{{{"1e-3", 1e-3},
                                                                             {"1e-4", 1e-4},

@@ -123,7 +123,8 @@ WrongForm plane_asked(std::string name, std::string meaning, Change change) {
   });
 }
 
-/// Makes a form that accepts certain deviations: `accept(out, freedom)` sets them to 0 in `freedom`.
+/// Makes a form that accepts certain deviations of planes: `accept(out, freedom)` sets their counts or sizes in
+/// `freedom` to 0.
 WrongForm plane_accepted(std::string name, std::string meaning, void (*accept)(const PlaneOut&, PlaneFreedom&)) {
   return {std::move(name), std::move(meaning), [accept](const Evidence& evidence, const Authority& authority) {
             Authority wrong = authority;

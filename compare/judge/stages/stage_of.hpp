@@ -73,7 +73,7 @@ constexpr StageTraits make_traits() {
 
 /// A case that cannot be made smaller.
 struct TakenWhole {
-  /// Returns what StageTraits needs for a case that stays whole.
+  /// Implement the functions of StageTraits that shrink cases: there is no mesh, and no number to shorten.
   template <class Case>
   static const Topology* mesh(const Case&) {
     return nullptr;
@@ -113,7 +113,7 @@ struct NoParameters {
 /// A stage whose parameters are numbers of the case: `S::parameter(case, name)` points to one.
 template <class S>
 struct ParametersOfCase {
-  /// Sets each number that is named in the values.
+  /// Sets each parameter that `values` name.
   template <class Case>
   static std::string set(Case& c, std::span<const Override> values) {
     for (const Override& value : values) *S::parameter(c, value.name) = value.value;
@@ -121,7 +121,7 @@ struct ParametersOfCase {
   }
 };
 
-/// Returns an empty text, because every run has cases.
+/// A stage that has cases in every run.
 struct InEveryRun {
   /// Returns an empty text.
   static std::string missing_in(const States&) { return {}; }
@@ -216,8 +216,8 @@ struct BatchStage : SameQuestion<S, contestant, authority>, Numbered, OwnCases {
   }
 };
 
-/// A stage whose cases are meshes. Each case makes one question, a view of the case. The class needs
-/// `S::question(case)`, `S::judge(test, truth, out, tally)` and `S::add(bits, out)`, which adds an answer's bits.
+/// A stage whose cases are meshes. The question of a case is a view of the case. The class needs `S::question(case)`,
+/// `S::judge(test, truth, out, tally)` and `S::add(bits, out)`, which adds an answer's bits.
 template <class S, auto contestant, auto authority>
 struct MeshStage : SameQuestion<S, contestant, authority> {
   using typename SameQuestion<S, contestant, authority>::In;
@@ -244,7 +244,7 @@ struct MeshStage : SameQuestion<S, contestant, authority> {
     return all;
   }
 
-  /// Returns the number of vertices, which a benchmark counts.
+  /// Returns the number of vertices, the unit of a benchmark's rate.
   template <class Case>
   static std::int64_t items(const Case& c) {
     return c.topology->vertex_count;

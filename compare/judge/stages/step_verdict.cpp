@@ -307,7 +307,7 @@ class StepVerdict {
                       std::to_string(cuts.certain) + " and " + std::to_string(cuts.doubtful) + " in doubt");
   }
 
-  /// Judges a prescribed vertex that touches, which must stay from the second round on.
+  /// Judges a prescribed vertex in contact, which must not move from the second round on.
   void judge_staying(std::size_t i, std::size_t v, const HeldMove& held) {
     ++decisions_;
     grey_ += held.grey;
@@ -333,7 +333,7 @@ class StepVerdict {
     return least;
   }
 
-  /// Returns the distance from a position to the nearest X_prev + s m with s in [first, last] [m].
+  /// Returns the distance [m] from x to the segment X_prev + s m, s in [first, last].
   double off_way(std::size_t v, const Vec3f& x, const Vec3& m, double first, double last) const {
     const Vec3f& p = at_[v];
     const Vec3 d{double{x.x} - p.x, double{x.y} - p.y, double{x.z} - p.z};
@@ -343,8 +343,8 @@ class StepVerdict {
   }
 
   /// Judges a free vertex with contacts, which must be at X_prev + m, truncated. Truncation to a ball increases no
-  /// distance, so m's accuracy also holds after it. With half-spaces a cut vertex may slide to any point of its region;
-  /// without sliding it stops on the segment from X_prev to X_prev + m.
+  /// distance, so the error limit of m also holds for the truncated move. With half-spaces a cut vertex may slide to
+  /// any point of its region; without sliding it stops on the segment from X_prev to X_prev + m.
   void judge_held(std::size_t i, std::size_t v, const HeldMove& held, Cuts& cuts) {
     const Vec3f &x = out_.events[i].position[v], &p = at_[v];
     ++decisions_;

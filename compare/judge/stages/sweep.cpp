@@ -54,8 +54,8 @@ bool judge_bounds(const SweepIn& in, const SweepOut& out, const std::vector<Inde
   return true;
 }
 
-/// Returns the number of decisions: one for each vertex (cut or not), and one for each of its stencils (which side of a
-/// jump).
+/// Returns the number of decisions: one per vertex (cut or not), and one per segment and per vertex of each element and
+/// contact (which value at a jump).
 std::uint64_t decisions(const SweepIn& in) {
   constexpr std::array<std::uint64_t, 3> corners{1, 2, 3};
   std::uint64_t count = in.old.size();
@@ -244,7 +244,7 @@ std::vector<WrongForm> sweep_forms() {
   return forms;
 }
 
-/// Checks that free items, and no others, have a colour that differs from all neighbours' colours.
+/// Checks that exactly the free items have a colour, and that no two neighbours share one.
 bool are_coloured(std::span<const Index> colour, std::span<const Index> groups, const Neighbours& near) {
   bool legal = colour.size() == groups.size();
   for (std::size_t i = 0; i < groups.size() && legal; ++i) {

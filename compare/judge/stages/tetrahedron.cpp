@@ -57,7 +57,7 @@ void set_material(Random& random, TetrahedronCase& question) {
 }
 
 /// Places the deformed corners `x` and the corners at the start of the time step by one rigid motion. In half of the
-/// cases the latter are near x, otherwise at rest.
+/// cases the corners at the start are near x, otherwise at rest.
 CaseData placed(Random& random, TetrahedronCase question, const Corners& rest, const Corners& x, double size,
                 bool lattice) {
   std::array<Vec3, 8> points;
@@ -202,7 +202,7 @@ constexpr std::array<Generator, 10> table{{{"uniform", 30, true, uniform},
                                            {"ladder.needle", 15, false, needle},
                                            {"ladder.sliver", 10, false, sliver}}};
 
-/// Limits of the contract: weights [m], i = 1/(6V) [1/m³], growth (longest side)³ i, and strain.
+/// Limits of the contract: weights [m], i = 1/(6V) [1/m³], growth = i (longest side)³, and strain.
 constexpr float most_weight = 0x1p60f, least_inverse = 0x1p-70f, most_inverse = 0x1p80f;
 constexpr double most_growth = 0x1p30, most_strain = 0x1p20;
 

@@ -117,8 +117,8 @@ TruncateIn truncate_question(Cases cases) {
   return in;
 }
 
-/// Checks whether the stored position is the exact one up to the tolerance. The bound is not checked here, because a
-/// form may miss it by a rounding.
+/// Checks whether the stored position is the exact one up to the tolerance. The bound is not checked here, because the
+/// position of a form may exceed the bound by a rounding error.
 bool lies_there(const Vec3f& stored, const Vec3& exact, const Vec3f& previous, double bound) {
   const double error = std::hypot(stored.x - exact.x, stored.y - exact.y, stored.z - exact.z);
   const double size = std::max({std::abs(previous.x), std::abs(previous.y), std::abs(previous.z)});
@@ -181,7 +181,7 @@ std::vector<WrongForm> truncate_forms() {
             })};
 }
 
-/// Checks whether the vertex obeys the half-space by a margin of 2⁻⁵⁰ times the sum of the moduli of its terms.
+/// Checks whether n·x is below o by at least 2⁻⁵⁰ (Σ|n_k x_k| + |o|).
 bool keeps_with_room(const HalfSpace& h, const Vec3f& x) {
   const double a = double{h.normal.x} * x.x, b = double{h.normal.y} * x.y, c = double{h.normal.z} * x.z;
   return a + b + c + 0x1p-50 * (std::abs(a) + std::abs(b) + std::abs(c) + std::abs(h.offset)) <= h.offset;

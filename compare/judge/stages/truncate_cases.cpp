@@ -132,8 +132,8 @@ Vec3 direction(Random& random) {
   return scaled(a, 1 / std::max(length(a), 0.1));
 }
 
-/// Makes one to six half-spaces at any distance within the ball. The proposed position lies within three times the
-/// ball.
+/// Makes one to six half-spaces at any distance within the ball. The proposed position is at most three radii of the
+/// ball from X_prev.
 CaseData regions(Random& random) {
   const double bound = random.magnitude(-4, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);
@@ -143,7 +143,7 @@ CaseData regions(Random& random) {
   return region.finish(scaled(direction(random), bound * random.between(0.1, 3)));
 }
 
-/// Makes small integers: heights and offsets are exact, and steps end on half-spaces.
+/// Makes regions of small integers: heights and offsets are exact, and proposed positions may be exactly on a plane.
 CaseData regions_lattice(Random& random) {
   RegionBuilder region(random, on_lattice(random, 3), 1 + random.below(6));
   for (int k = 1 + random.below(3); k > 0; --k) {
@@ -230,7 +230,7 @@ CaseData stiff(Random& random) {
   return region.finish(scaled(direction(random), bound * random.between(0.1, 2)));
 }
 
-/// Makes as many half-spaces as a vertex can have, and more.
+/// Makes regions with very many half-spaces.
 CaseData crowded(Random& random) {
   const double bound = random.magnitude(-4, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);

@@ -19,9 +19,9 @@ namespace ogc::compare {
 /// is never above the exact distance.
 void judge_closest_face(Cases cases, const ClosestFaceIn& in, const ClosestFaceTruth& truth, const ClosestFaceOut& out,
                         Tally& tally);
-/// Checks that the combination of features and nearly-parallel flag is accepted. If the flag is not the exact one, the
-/// contact points are elsewhere. Then only the ranges of the parameters, `distance_below`, and `contact_distance` ≥
-/// `distance_below` are checked.
+/// Checks that the combination of features and nearly-parallel flag is accepted. If the flag differs from the exact
+/// one, the contact points differ, too. Then only the ranges of the parameters, `distance_below`, and
+/// `contact_distance` ≥ `distance_below` are checked.
 void judge_closest_points(Cases cases, const ClosestPointsIn& in, const ClosestPointsTruth& truth,
                           const ClosestPointsOut& out, Tally& tally);
 void judge_activation(Cases cases, const ActivationIn& in, const ActivationTruth& truth, const ActivationOut& out,
@@ -34,8 +34,8 @@ void judge_position(const Vec3f& previous, const Vec3f& asked, float bound, cons
 void judge_truncate(Cases cases, const TruncateIn& in, const TruncateTruth& truth, const TruncateOut& out,
                     Tally& tally);
 
-/// Returns the question of stage truncate that follows from an answer: X_prev, the stored y (X_prev if y is not finite)
-/// and the bound.
+/// Returns the question of stage truncate about an answer: X_prev, the stored y (X_prev if y is not finite) and the
+/// bound.
 TruncateIn cut_question(const InitialGuessIn& in, const InitialGuessOut& out);
 /// Checks that the frames of the question's segments are within their tolerances.
 void judge_turns(Cases cases, const InitialGuessIn& in, const InitialGuessTruth& truth, const InitialGuessOut& out,
@@ -50,7 +50,7 @@ void judge_force(Cases cases, const ForceTruth& truth, const ForceOut& out, Tall
 /// Checks that stencils and bodies are equal and numbers within their tolerances. An angle that cannot be distinguished
 /// from ±π may have either sign.
 void judge_rest_state(const TestCase& test, const RestStateTruth& truth, const RestStateOut& out, Tally& tally);
-/// Checks that answers to all questions that are not grey are equal.
+/// Checks that all answers equal the exact ones, except for grey questions.
 void judge_block(const TestCase& test, const BlockTruth& truth, const BlockOut& out, Tally& tally);
 
 /// Check that sets are equal except for grey decisions, and that smallest distances are never above the exact ones.
@@ -72,14 +72,14 @@ void judge_step(const TestCase& test, const StepIn& in, const StepTruth& truth, 
 /// Checks whether each array by vertex has one entry for each vertex. Reports a mismatch if not.
 bool can_judge_step(const TestCase& test, const StepIn& in, const StepOut& out, Tally& tally);
 /// Checks whether the answer is complete and valid enough to compute the truth about it; reports a mismatch if not. The
-/// answer needs one bound and one row for each vertex. A row has finite planes in ascending order of pairs that contain
-/// the vertex; it is empty for a fixed vertex.
+/// answer needs one bound and one row of planes per vertex. A row lists finite planes of pairs that contain the vertex,
+/// in ascending order of pairs. The row of a fixed vertex is empty.
 bool can_judge_plane(const TestCase& test, const PlaneIn& in, const PlaneOut& out, Tally& tally);
 /// Checks that every pair is separated, and that no vertex is restricted more than the separation requires.
 void judge_plane(const TestCase& test, const PlaneIn& in, const PlaneTruth& truth, const PlaneOut& out, Tally& tally);
 /// Judges each part separately. A point inside a part of triangles must have one contact, which is accepted. A point
-/// outside must have all certain contacts, and may have possible ones. In a part of tetrahedra each certain sheet with
-/// a path to the boundary must have a contact. Numbers must be within their tolerances.
+/// outside must have all certain contacts, and may have possible ones. In a part of tetrahedra each sheet that
+/// certainly exists and has a path to the boundary must have a contact. Numbers must be within their tolerances.
 void judge_volume_depth(const TestCase& test, const VolumeDepthTruth& truth, const VolumeDepthOut& out, Tally& tally);
 /// Checks that bounds are never above γ_p · min(…).
 void judge_bound(const TestCase& test, const BoundTruth& truth, const BoundOut& out, Tally& tally);

@@ -39,7 +39,7 @@ class PartVerdict {
               const Topology& topology, Tally& tally)
       : point_(point), truth_(truth), mine_(std::move(mine)), topology_(topology), tally_(tally) {}
 
-  /// Least and largest number of sheets that the answer may report as being without a way.
+  /// Least and largest number of sheets without a way that the answer may report.
   struct Unresolved {
     std::size_t least = 0, most = 0;
   };
@@ -71,8 +71,8 @@ class PartVerdict {
     return find(sheet.accepted, c) != nullptr;
   }
 
-  /// Checks that each contact belongs to a sheet, that each certain sheet with a way has a contact, and that there are
-  /// not more contacts than sheets.
+  /// Checks that each contact belongs to a sheet, that each sheet that certainly exists and has a way has a contact,
+  /// and that there are not more contacts than sheets.
   void judge_solid() {
     const bool inside = std::ranges::any_of(mine_, [](const VolumeContact& c) { return c.inside != 0; });
     if (inside != truth_.inside) tally_.answered_not_exactly();

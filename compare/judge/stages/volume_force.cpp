@@ -124,7 +124,7 @@ VolumeForceCase placed(Random& random, const Pressed& p) {
   return question;
 }
 
-/// Returns a share φ/r: inside, outside or beyond r.
+/// Returns φ/r: below 0 (inside), between 0 and 1, or above 1 (farther than r).
 double some_share(Random& random) { return random.between(-3, 1.2); }
 
 Pressed pressed(Random& random, double share) {
@@ -159,7 +159,7 @@ CaseData bits(Random& random) {
   return question;
 }
 
-/// Makes sums without rounding: φ = r, ‖u‖ = ε_v h and 0 are exact ties.
+/// Makes cases without rounding errors, so that φ = r, ‖u‖ = ε_v h and ‖u‖ = 0 occur exactly.
 CaseData lattice(Random& random) {
   Pressed p;
   p.size = std::ldexp(1.0, random.below(9) - 8);
@@ -196,7 +196,7 @@ CaseData still(Random& random) {
   return placed(random, p);
 }
 
-/// Moves along n by many times the slip and ε_v h.
+/// Makes displacements whose component along n is 1 to 10⁴ times ε_v h.
 CaseData lift(Random& random) {
   Pressed p = pressed(random, some_share(random));
   move(random, p, random.one_in(2) ? 0 : random.between(0, 3), random.magnitude(0, 4));

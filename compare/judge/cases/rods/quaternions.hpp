@@ -74,11 +74,11 @@ inline Four frame_along(Random& random, const Vec3& d) {
   const Four twist = rotation({0, 0, 1}, random.between(-3, 3));
   const Vec3 half = length > 0 ? placement::sum(placement::scaled(d, 1 / length), {0, 0, 1}) : Vec3{};
   if (std::hypot(half.x, half.y, half.z) < 0x1p-20) return some_orientation(random);
-  return product(unit({half.x, half.y, half.z, 0}), twist);  // half a turn about the middle of e₃ and d
+  return product(unit({half.x, half.y, half.z, 0}), twist);  // a rotation by π about the bisector of e₃ and d
 }
 
-/// A segment made from an edge of a stored state of a run. Its rest length is about the current one, and its start is
-/// moved a little.
+/// A segment made from an edge of a stored state of a run. Its rest length is about the length of the edge. Its ends at
+/// the start of the step are the ends of the edge, moved a little.
 struct EdgeOfState {
   std::array<Vec3f, 2> vertex, start;
   double length = 0;  ///< l [m]

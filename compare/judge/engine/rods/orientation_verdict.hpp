@@ -10,7 +10,7 @@ namespace ogc::compare {
 /// Errors of an answer relative to one minimiser, each in its unit (compare/stages/orientation.hpp).
 struct OrientationErrors {
   double orientation = 0, residual = 0, energy = 0;
-  /// Returns the largest ratio of an error to its tolerance plus `more`. Ratios up to 1 are accepted.
+  /// Returns the largest error / (tolerance + `more`) of the three errors. Values up to 1 are accepted.
   double share(double more = 0) const;
 };
 

@@ -22,9 +22,10 @@ std::string wrong_segment_colour(const Scene& scene, const StepOut& out);
 /// if nothing is.
 std::string wrong_orientation_count(const Scene& scene, const StepOut& out);
 
-/// If the scene has no orientations, returns a rotation for each segment whose ends at the start differ from rest: from
-/// the rest direction to the direction at the start. All other segments must start with the frame of the scene or of
-/// the answer's rest state. If one does not, `wrong` names it.
+/// Returns the segments whose frame must turn at the start, because the scene has no orientations and the segment
+/// differs from rest. Their frames turn from the rest direction to the direction at the start. All other segments must
+/// start with the frame of the scene or, without one, of the answer's rest state; `wrong` names a segment that does
+/// not.
 TurnedFrames start_frames(const StepIn& in, const StepOut& out, std::string& wrong);
 
 /// Returns the rotations of segments in the guess loop, which ended at x. Free segments have one if the setting

@@ -196,8 +196,8 @@ CaseData lattice(Random& random) {
   return question;
 }
 
-/// Takes random bits for coordinates and constants. The rest length is at least 2⁻⁷ m, so that the length is at most
-/// the legal 2³⁰ times as large.
+/// Takes random bits for coordinates and constants. The rest length is at least 2⁻⁷ m, so that no segment is longer
+/// than 2³⁰ rest lengths, the legal limit.
 CaseData bits(Random& random) {
   auto question = case_of<OrientationCase>(uniform(random));
   const std::array<Vec3, 4> points = points_of_bits(random);
@@ -238,7 +238,7 @@ CaseData sign(Random& random) {
   return question;
 }
 
-/// Returns a target whose director is −D/‖D‖: the aim after a half turn about an axis across D, except for a rung.
+/// Returns a target whose director is −D/‖D‖: the aim, rotated by π about an axis perpendicular to D, then by a rung.
 Four against(Random& random, const Draft& draft) {
   const double angle = random.between(0, 2 * std::numbers::pi);
   const Four half{std::cos(angle), std::sin(angle), 0, 0};
@@ -269,8 +269,8 @@ CaseData reversed(Random& random) {
   return question;
 }
 
-/// Approaches β₋ = 2σ (compare/rods.md) with targets whose directors are opposite to D. There the pull of neighbours
-/// towards −D and the stretch balance.
+/// Approaches β₋ = 2σ (compare/rods.md) with targets whose directors are opposite to D. There the stretch force
+/// balances the pull of the neighbours towards −D.
 CaseData balance(Random& random) {
   const Draft draft = straight(random);
   OrientationCase question = placed(random, draft);
@@ -280,8 +280,8 @@ CaseData balance(Random& random) {
   return question;
 }
 
-/// Approaches b = 0, where the pulls of both neighbours cancel: their targets are nearly half turns from the old q in
-/// opposite senses.
+/// Approaches b = 0 (compare/rods.md), where the pulls of both neighbours cancel. The targets are nearly the old q
+/// rotated by +π and by −π about one axis.
 CaseData opposed(Random& random) {
   if (random.one_in(2)) random.be_fine();
   const Draft draft = near_rest(random);
@@ -318,7 +318,8 @@ CaseData antiparallel(Random& random) {
   return question;
 }
 
-/// Approaches σ = 2 k_s ‖D‖ ‖c‖ = 0: D nears 0, or c = e₃ + k R(qᵗ)ᵀ Dᵗ/l does, because its damping part cancels e₃.
+/// Approaches σ = 2 k_s ‖D‖ ‖c‖ = 0 (compare/rods.md): D nears 0, or the damping part of c = e₃ + k R(qᵗ)ᵀ Dᵗ/l cancels
+/// e₃.
 CaseData soft(Random& random) {
   Draft draft = near_rest(random);
   draft.length = random.magnitude(-2, 0);  // so that a rung times this length is a legal length

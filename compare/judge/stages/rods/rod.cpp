@@ -40,7 +40,7 @@ CaseData placed(Random& random, double rest_length, const Vec3& apart, const Vec
   return question;
 }
 
-/// Returns R(q) (strain + e₃) l, the D of a segment with this strain relative to q.
+/// Returns D = l R(q) (e₃ + strain), the vector along a segment with this strain relative to q.
 Vec3 strained(const Four& q, double length, const Vec3& strain) {
   return scaled(rod_cases::turned(q, {strain.x, strain.y, strain.z + 1}), length);
 }

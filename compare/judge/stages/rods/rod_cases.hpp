@@ -22,7 +22,7 @@ inline void check_ends(FirstProblem& problem, std::span<const Vec3f> ends, float
   problem.require(length <= 0x1p30 * rest_length, "it has grown beyond the contract");
 }
 
-/// Checks the members that segments of both stages have.
+/// Checks the members that cases of rod and orientation share.
 template <class Case>
 void check_segment(FirstProblem& problem, const Case& c) {
   problem.number("a rest length", c.rest_length, least_length, most_length);
@@ -34,7 +34,7 @@ void check_segment(FirstProblem& problem, const Case& c) {
   problem.number("a damping", c.damping, 0, most_length);
 }
 
-/// Parameters that both stages have.
+/// Parameters of the stages rod and orientation.
 inline constexpr std::array segment_parameters{ParameterInfo{"k_s", "stiffness of stretch [N]", 0x1p-30f, ranges::vast},
                                                ParameterInfo{"l", "rest length [m]", ranges::least, ranges::most},
                                                ranges::damping};

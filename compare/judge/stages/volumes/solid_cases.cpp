@@ -88,7 +88,7 @@ VolumeBody some_solid(Random& random) {
   return body;
 }
 
-/// Makes points at heights `height_of` above random feet on a body's surface.
+/// Makes points above or below random feet on a body's surface. `height_of` chooses their heights.
 template <class HeightOf>
 CaseData beside(Random& random, VolumeBody body, HeightOf height_of) {
   const double radius = some_radius(random);
@@ -137,8 +137,8 @@ CaseData grid(Random& random) {
                 std::ldexp(1.0, random.below(21) - 10));
 }
 
-/// Makes ways along the lines of the cells and through their vertices, or one rung from them. The body is low along one
-/// axis, and the points are above corners and lines of cells.
+/// Makes points whose ways (straight paths to the boundary) lead along lines of the cells or through their vertices, or
+/// one rung beside them. The body is low along z, so that the shortest ways are parallel to z.
 CaseData ray(Random& random) {
   const int height = 2 + random.below(3);
   VolumeBody body = block({3, 3, height});
@@ -224,8 +224,8 @@ CaseData inverted(Random& random) {
 }
 
 /// Makes a tetrahedron with another one behind each of its four triangles. Most of these four are inside out. If all
-/// are, no point of the first tetrahedron has a way (straight path to the boundary). Otherwise ways lead through those
-/// that are not inside out.
+/// four are inside out, no point of the first tetrahedron has a way (straight path to the boundary). Otherwise ways
+/// lead through the tetrahedra that are not inside out.
 CaseData lost(Random& random) {
   VolumeBody body;
   body.x = {Vec3{0, 0, 0}, Vec3{2, 0, 0}, Vec3{0, 2, 0}, Vec3{0, 0, 2}};

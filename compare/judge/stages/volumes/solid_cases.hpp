@@ -13,7 +13,7 @@ std::span<const Generator> solid_depth_generators();
 
 /// Returns why the tetrahedra or c.own are illegal; empty if they are legal. Reasons are
 /// - a tetrahedron without four different vertices of the volume,
-/// - a triangle of three tetrahedra, or of two that lie on one side of it,
+/// - a triangle that belongs to three tetrahedra, or to two tetrahedra on the same side of the triangle,
 /// - a part whose triangles are not the boundary of its tetrahedra,
 /// - an entry of c.own that is not a vertex of the surface, or not at the position of its point.
 std::string solid_problem(const VolumeDepthCase& c);

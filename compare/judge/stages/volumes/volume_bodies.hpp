@@ -51,8 +51,8 @@ Place any_place(Random& random, const VolumeBody& body);
 using Points = std::vector<Vec3>;
 
 /// Applies a symmetry of the cube to body and points, rotates them in half of the cases, and scales them. Triangles
-/// stay counterclockwise and volumes positive. Triangles are shuffled, because answers must not depend on their
-/// numbers. `own` holds for each point its vertex, or −1; it is empty if no point is a vertex.
+/// stay counterclockwise and volumes positive. Triangles are shuffled, because answers must not depend on their order.
+/// own[i] is the index of the vertex at point i, or −1; `own` is empty if no point is a vertex.
 VolumeDepthCase placed(Random& random, VolumeBody body, Points points, double radius, bool may_turn, double scale,
                        std::vector<Index> own = {});
 

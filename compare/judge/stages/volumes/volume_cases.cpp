@@ -1,7 +1,7 @@
 // Makes cases of volume_depth: closed surfaces, surfaces with rims and of several parts, and points near their faces.
 // Ladders approach
 // - a height of 0, d = r, and the medial axis,
-// - the ends of the blocks of ridges, valleys, vertices of all kinds and rims,
+// - the boundaries of blocks at ridges, valleys, rims and vertices of all kinds,
 // - plates without thickness, parts that overlap, touch or contain each other, and voids.
 #include <algorithm>
 #include <array>
@@ -193,7 +193,8 @@ CaseData lattice(Random& random) {
                 std::ldexp(1.0, random.below(21) - 10));
 }
 
-/// Makes points at heights `height_of` above feet on a body's surface, which `place_of` returns.
+/// Makes points above or below the surface. `place_of` chooses the foot of each point, `height_of` its height above the
+/// foot.
 template <class PlaceOf, class HeightOf>
 CaseData beside(Random& random, VolumeBody body, PlaceOf place_of, HeightOf height_of) {
   const double radius = some_radius(random);
