@@ -17,10 +17,10 @@ enum class IntersectionKind : std::uint8_t { edge_triangle, vertex_triangle, edg
 /// One intersection, of one of three kinds:
 ///
 /// - Edge `first` meets triangle `second` without sharing a vertex; touching counts.
-/// - Vertex `first` lies on triangle `second`, which does not contain it.
-/// - Edges `first` < `second` meet, and neither meets a triangle of the other as above. Either both belong to no
-///   triangle; edges with a common vertex then meet if the other end of one lies on the other. Or one is the edge of a
-///   triangle opposite to a vertex of the other.
+/// - Vertex `first` lies on triangle `second`, of which it is no corner.
+/// - Edges `first` < `second` meet, and neither meets a triangle of the other in the first way. There are two cases:
+///   - Both edges belong to no triangle. If they share a vertex, the other end of one edge lies on the other edge.
+///   - One edge shares a vertex with a triangle, and the other is this triangle's edge opposite to that vertex.
 struct Intersection {
   IntersectionKind kind = IntersectionKind::edge_triangle;  ///< kind of the faces
   Index first = -1, second = -1;                            ///< an edge or a vertex; a triangle or an edge
@@ -36,7 +36,7 @@ struct AuditOptions {
 struct AuditResult {
   std::vector<Intersection> intersections;  ///< ascending
   std::size_t count = 0;                    ///< number of all intersections
-  /// pairs of edges and triangles, and of edges, whose boxes meet; excluded pairs do not count
+  /// pairs of an edge and a triangle, or of two edges, whose boxes meet; excluded pairs do not count
   std::size_t pairs_tested = 0;
 };
 

@@ -25,7 +25,7 @@ struct MeetingsResult {
   std::vector<Meeting> meetings;  ///< pairs with vertices first, then ascending
   std::size_t count = 0;          ///< number of all meetings
   std::size_t pairs_tested = 0;   ///< pairs whose swept boxes meet, without excluded ones
-  /// tested pairs for which no rounded direction proves that they are apart, so that they are decided exactly
+  /// tested pairs that first_meeting_filter.cpp cannot prove to be apart, so that exact arithmetic decides them
   std::size_t pairs_in_doubt = 0;
 };
 
@@ -40,8 +40,8 @@ MeetingsResult meetings(const Topology& topology, std::span<const Vec3> from, st
 /// Estimated cost of `meetings` for a motion, from a sample of at most 2,000 of its vertices and edges.
 struct MeetingsCost {
   double pairs = 0;       ///< estimate of pairs_tested
-  double seconds = 0;     ///< with the caller's threads
-  std::size_t bytes = 0;  ///< largest memory besides that of the mesh
+  double seconds = 0;     ///< estimated time with the caller's threads [s]
+  std::size_t bytes = 0;  ///< largest memory that `meetings` needs besides the mesh
 };
 
 /// Estimates the cost of `meetings`; throws the same errors.

@@ -38,10 +38,10 @@ struct LeastSquare {
   }
 };
 
-/// Keeps a number that is not above the least quotient.
+/// Keeps a lower bound of the least quotient.
 struct SquareBelow {
-  double value = std::numeric_limits<double>::infinity();  ///< lower bound of the smallest quotient
-  /// Keeps a lower bound of n/d if it is less than the value so far. The lower bound is 0 if d may be 0.
+  double value = std::numeric_limits<double>::infinity();  ///< the lower bound
+  /// Lowers the bound to a lower bound of n/d if the latter is less. The lower bound of n/d is 0 if d may be 0.
   void offer(const Interval& n, const Interval& d) { value = std::min(value, d.inf() > 0 ? (n / d).inf() : 0.0); }
 };
 
