@@ -21,7 +21,7 @@ double length(const Vec3& a);
 double force_left(const Trajectory& run);
 
 /// Returns the number of steps by which friction's normal force may lag: 1, because a solve uses the force of the
-/// previous one; 2 with barriers, whose force is 0 at the start.
+/// previous solve; 2 with barriers, because their force is 0 at the start.
 double lagged_steps(const Trajectory& run);
 
 /// Returns m_v [kg]: a third of each triangle's, a quarter of each tetrahedron's, half of each segment's mass at rest

@@ -37,7 +37,7 @@ using namespace law_shapes;
 
 constexpr double cell = 0.025;
 
-/// Returns the stretch of a row that bears `load` = T/(μ w) [1]: s (s² − 1) rises from s = 1.
+/// Returns the stretch s ≥ 1 of a row that bears `load` = T/(μ w): the root of s (s² − 1) = load.
 double stretch(double load) {
   double low = 1, high = 2 + load;
   for (int k = 0; k < 100; ++k) {
