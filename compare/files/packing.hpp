@@ -14,7 +14,7 @@ namespace ogc::compare {
 /// CRC of the preceding ones. It detects damage, but no forgery.
 std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0);
 
-/// Largest and smallest number of rows of a chunk. With 3 floats a row, the largest chunk has 768 KiB, which fits
+/// Largest and smallest number of rows of a chunk. With 3 floats per row, the largest chunk has 768 KiB, which fits
 /// HDF5's default chunk cache of 1 MiB. If chunks had fewer rows than the smallest, their index would take more space
 /// than compression saves.
 inline constexpr std::size_t largest_chunk_rows = 1 << 16, smallest_chunk_rows = 1 << 10;
