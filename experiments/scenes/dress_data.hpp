@@ -28,7 +28,7 @@ struct DressData {
   std::vector<compare::Index> panel_of_triangle;  ///< panel of each triangle, from 0
   std::vector<Stitch> stitches;                   ///< stitches of the garment
   compare::Mesh body;                             ///< at the start [m]
-  /// the body's vertices in each frame [m], translated so that frame 0 is at the body's start
+  /// the body's vertices in each frame [m], translated so that frame 0 is at the positions of `body`
   std::vector<std::vector<compare::Vec3>> motion;
 };
 

@@ -43,7 +43,7 @@ struct CapsuleCells {
 };
 
 /// Returns a capsule: a round bar from `from` to `to` [m] that ends in half balls of `radius`. All vertices lie on the
-/// round surface; normals point outward. `around` ≥ 3, the others ≥ 1.
+/// round surface; normals point outward. `around` ≥ 3, `along` and `cap` ≥ 1.
 compare::Mesh capsule(const CapsuleCells& cells, double radius, const compare::Vec3& from, const compare::Vec3& to);
 
 /// Returns a closed box from corner `low` to corner `high` [m] with `cells` ≥ 1 along x, y and z. Normals point
