@@ -54,7 +54,7 @@ struct Reading {
 enum class Verdict {
   holds,   ///< within the tolerance
   limit,   ///< beyond the tolerance, within the derived limit
-  broken,  ///< beyond both
+  broken,  ///< beyond the tolerance and the limit
 };
 
 /// Judges a reading by tolerance and limit.

@@ -46,9 +46,8 @@ double largest_coordinate(const Trajectory& run);
 /// worst case all of one sign.
 double flight_rounding(std::int64_t n, double largest_coordinate);
 
-/// Returns the velocity v' after a step of implicit Euler of a body that slides with velocity v against friction
-/// (method.md §4.4): v' = v + h (drive − brake f₁(|v'|/ε_v) sign v'). The right side falls as v' rises, so v' is
-/// unique.
+/// Returns the velocity v' of a body that slides with velocity v against friction (method.md §4.4), after one step of
+/// implicit Euler: v' = v + h (drive − brake f₁(|v'|/ε_v) sign v'). The right side falls as v' rises, so v' is unique.
 double slid(double velocity, double drive, double brake, double friction_velocity, double time_step);
 
 /// `bounced` returns height and velocity of a mass after a step of implicit Euler from height x. A plane at 0 repels

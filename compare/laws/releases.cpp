@@ -95,8 +95,8 @@ std::vector<Scene> beyond_scenes(LawSize) {
   return {with, without};
 }
 
-/// Reads the difference of both runs. A step may leave a share force_left of the forces that move the sheet away from
-/// free flight.
+/// Reads the largest difference between the two runs. Unfinished steps may leave a share force_left of the forces that
+/// move the sheet away from free flight.
 std::vector<Reading> read_beyond(std::span<const Trajectory> runs) {
   const Trajectory &with = runs[0], &without = runs[1];
   double most = 0, elastic = 0;

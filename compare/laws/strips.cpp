@@ -47,7 +47,7 @@ double stretch(double load) {
   return low;
 }
 
-/// Returns the mass of the vertices from row `first` on, with `width` vertices in a row.
+/// Returns the mass of all vertices from row `first` on; a row has `width` vertices.
 double mass_below(const std::vector<double>& m, std::size_t first, std::size_t width) {
   double sum = 0;
   for (std::size_t v = first * width; v < m.size(); ++v) sum += m[v];

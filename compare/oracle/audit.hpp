@@ -40,12 +40,12 @@ struct AuditResult {
   std::size_t pairs_tested = 0;
 };
 
-/// Audits a state exactly: rounding decides nothing, and the answer does not depend on the number of threads. Two
-/// primitives with common vertices intersect if they meet outside of the face that these vertices span (method.md
-/// §5.5). A collapsed triangle is the segment or point that it covers; an edge of length zero is a point. Isolated
-/// vertices belong to no surface and are left out. A vertex on a triangle is listed in addition to its edges, which
-/// also touch the triangle. An audit of states does not prove the motion between them (compare/oracle/meetings.hpp).
-/// Throws InputError if a position is not finite or sizes do not match.
+/// Audits a state exactly: the answer depends neither on rounding nor on the number of threads. Two primitives with
+/// common vertices intersect if they meet outside of the face that these vertices span (method.md §5.5). A collapsed
+/// triangle is the segment or point that it covers; an edge of length zero is a point. Isolated vertices belong to no
+/// surface and are left out. A vertex on a triangle is listed in addition to its edges, which also touch the triangle.
+/// An audit of states does not prove the motion between them (compare/oracle/meetings.hpp). Throws InputError if a
+/// position is not finite or sizes do not match.
 AuditResult audit(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions = {},
                   const AuditOptions& options = {});
 

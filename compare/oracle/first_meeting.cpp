@@ -56,7 +56,7 @@ class Paths {
     return time.sign(component(area({i, j, k}), axis));
   }
 
-  /// Returns whether coordinate `axis` of k lies between those of i and j, ends included.
+  /// Returns whether coordinate `axis` of k lies in the closed interval between the coordinates of i and j.
   bool between(Moment& time, std::size_t i, std::size_t j, std::size_t k, std::size_t axis) const {
     const auto beyond = [&](std::size_t end) {
       return time.sign(component(points_[k], axis) - component(points_[end], axis));

@@ -19,7 +19,8 @@ namespace ogc::compare {
 using Interval = CGAL::Interval_nt<false>;
 using Exact = CGAL::Mpzf;
 
-/// Return whether the number may have this sign. An exact number has it; an interval contains a number that has it.
+/// Return whether the number may have this sign. For an exact number: whether it has the sign. For an interval: whether
+/// it contains a number with this sign.
 inline bool may_be_positive(const Exact& x) { return static_cast<int>(x.sign()) > 0; }
 inline bool may_be_negative(const Exact& x) { return static_cast<int>(x.sign()) < 0; }
 inline bool may_be_zero_or_more(const Exact& x) { return static_cast<int>(x.sign()) >= 0; }

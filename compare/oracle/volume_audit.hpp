@@ -14,7 +14,8 @@
 
 namespace ogc::compare {
 
-/// What is inside volumes at one state. Surfaces may be inside a volume for a moment, so this alone is no failure.
+/// Holds what is inside volumes at one state. Surfaces may be inside a volume for a moment, so this alone is no
+/// failure.
 struct VolumePenetration {
   std::size_t vertices_inside = 0;  ///< vertices of surfaces and of free volumes that lie inside a part
   Index deepest_vertex = -1;        ///< the vertex inside a part that is farthest from the part's triangles

@@ -126,7 +126,7 @@ void MshCollector::place_nodes() {
     mesh_.source.vertices.push_back(file_number(node.tag, node.place));
   }
   if (nodes_.back().tag != std::ssize(nodes_)) return;
-  mesh_.source.vertices.clear();  // the file's numbers are those of the mesh
+  mesh_.source.vertices.clear();  // the file and the mesh number vertices equally
   if (is_binary_) return;
   for (const Node& node : nodes_) mesh_.source.vertex_lines.push_back(node.place);
 }

@@ -74,7 +74,7 @@ double read_between(const JsonNode& node, double least, double most, const char*
   return value;
 }
 
-/// Reads E and ν in place of both Lamé constants.
+/// Reads E and ν, which replace both Lamé constants.
 void read_elasticity(JsonObject& object, Material& material) {
   std::optional<double> modulus, ratio;
   object.optional("solid_young", [&](const JsonNode& node) {
