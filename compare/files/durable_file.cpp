@@ -14,8 +14,8 @@
 namespace ogc::compare {
 namespace {
 
-/// Throws for a failed action. A missing folder or a read-only disk is a ResourceError here: both were fine when the
-/// program began to write, so the machine failed, not the user.
+/// Throws for a failed action. A missing folder or a read-only disk is a ResourceError here: the folder existed and the
+/// disk was writable when the program began to write, so the machine failed, not the user.
 [[noreturn]] void refuse(const std::filesystem::path& path, const char* action, int error) {
   if (error != ENOENT && error != EROFS) refuse_path(path, action, {error, std::generic_category()});
   throw ResourceError(path.string() + ": can't " + action + " (" + std::strerror(error) +

@@ -45,7 +45,7 @@ class Hdf5File {
   /// Empties or creates the file and reserves `size` bytes on the disk before HDF5 opens it, because HDF5 1.10 crashes
   /// if a write fails while it closes a file. `close` releases unused bytes.
   static Hdf5File create(const std::filesystem::path& path, std::size_t size);
-  /// Creates a file in memory only, which messages call `name`; `image` returns its bytes.
+  /// Creates a file in memory only. Messages call the file `name`; `image` returns its bytes.
   static Hdf5File create_in_memory(const std::filesystem::path& name);
   static Hdf5File open(const std::filesystem::path& path);
 
@@ -66,7 +66,7 @@ class Hdf5File {
 
   /// Writes an array that is already packed.
   void write_packed(const std::string& name, const PackedArray& array);
-  /// Reads a dataset of floats as a packed array. If the file does not store it so, it is packed after reading.
+  /// Reads a dataset of floats as a packed array. Packs it after reading if the file stores it in another way.
   PackedArray read_packed(const std::string& name) const;
   /// Makes a dataset without rows, for append_packed.
   void create_growing(const std::string& name, std::size_t columns, std::size_t chunk_rows);
@@ -102,7 +102,7 @@ class Hdf5File {
 
   /// Returns the bytes that the file would have on the disk.
   std::string image();
-  /// Flushes and closes the file; throws ResourceError at the latest here if the disk has failed.
+  /// Flushes and closes the file. Throws ResourceError if the disk failed, also if that happened before this call.
   void close();
 
  private:

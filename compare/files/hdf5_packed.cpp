@@ -17,7 +17,7 @@ constexpr std::uint32_t no_filter = 0, every_filter = 3;
 
 int rank_of(const PackedArray& array) { return array.columns > 0 ? 2 : 1; }
 
-/// Returns a creation list for chunks that are shuffled and deflated as `pack` does.
+/// Returns HDF5's creation list for a dataset whose chunks are shuffled and deflated as `pack` does.
 Hdf5Handle packed_list(std::size_t columns, std::size_t chunk_rows) {
   Hdf5Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(list.id(), false);

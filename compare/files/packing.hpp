@@ -10,11 +10,11 @@
 
 namespace ogc::compare {
 
-/// Returns the CRC-32 (ISO 3309, as in zlib and PNG) of `bytes`, or of preceding bytes and `bytes` if `before` is the
-/// CRC of the preceding ones. It detects damage, but no forgery.
+/// Returns the CRC-32 (ISO 3309, as in zlib and PNG) of `bytes`. If `before` is the CRC of preceding bytes, returns the
+/// CRC of these bytes and `bytes` together. It detects damage, but no forgery.
 std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0);
 
-/// Largest and smallest number of rows of a chunk. With 3 floats a row, the largest chunk has 768 KiB, which fits
+/// Largest and smallest number of rows of a chunk. With 3 floats per row, the largest chunk has 768 KiB, which fits
 /// HDF5's default chunk cache of 1 MiB. If chunks had fewer rows than the smallest, their index would take more space
 /// than compression saves.
 inline constexpr std::size_t largest_chunk_rows = 1 << 16, smallest_chunk_rows = 1 << 10;

@@ -13,7 +13,7 @@ namespace ogc::compare {
 enum class ScalarType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
 inline constexpr std::array<std::size_t, 10> scalar_sizes{1, 1, 2, 2, 4, 4, 8, 8, 4, 8};  ///< by ScalarType [bytes]
-/// Returns the bytes of one number.
+/// Returns the size of one number [bytes].
 inline std::size_t size_of(ScalarType type) { return scalar_sizes[static_cast<std::size_t>(type)]; }
 /// Returns whether the type is a floating-point type.
 inline bool is_floating(ScalarType type) { return type == ScalarType::float32 || type == ScalarType::float64; }

@@ -28,7 +28,7 @@ struct LineRules {
 /// text and the name must outlive the reader.
 class TextLines {
  public:
-  /// Starts before the first line; `name` is the file's, for errors.
+  /// Starts before the first line; `name` is the file's name in errors.
   TextLines(std::string_view text, const std::string& name, LineRules rules = {})
       : text_(text), name_(name), rules_(rules) {}
 

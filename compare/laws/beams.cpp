@@ -48,7 +48,7 @@
 // largest kinetic energy. The trace of a vertex's stiffness is a sum, on a lattice of spacing a:
 //
 // - the membrane: A (λ + 3μ) ‖∇N‖² for each corner, together 4 (λ + 3μ)
-// - hinges: c ‖∇θ‖² for each corner, up to 18 k_b/a² for each of two cell sides and 48 k_b/a² for a diagonal
+// - hinges: c ‖∇θ‖² for each corner, c from (1): up to 18 k_b/a² for each of two cell sides, 48 k_b/a² for a diagonal
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -69,7 +69,7 @@ constexpr double flap_side = 0.1, flap_bending = 2e-3;
 
 /// Returns θ of (1), by fixed-point iteration.
 double hinge_angle(const Scene& scene) {
-  // e² over the sum of both areas is 1, since both triangles are as high as they are long.
+  // e²/(A₀ + A₁) in (1) is 1, since both triangles are as high as they are long.
   const double load = masses(scene)[3] * standard_gravity * flap_side / (3 * flap_bending);
   double angle = 0;
   for (int round = 0; round < 200; ++round) angle = load * std::cos(angle);
@@ -110,8 +110,7 @@ std::vector<Reading> read_hinge(std::span<const Trajectory> runs) {
 
 constexpr double tetrahedron_side = 0.1, tetrahedron_mu = 2e4, tetrahedron_lambda = 3e4;
 
-/// Returns one corner of a cube with its three neighbours. The corners in the plane x = 0 are held, the one along x is
-/// free.
+/// Returns a tetrahedron with three corners held in the plane x = 0. The fourth corner is free.
 std::vector<Scene> tetrahedron_scenes(LawSize) {
   Scene scene = empty_scene("cantilever_tetrahedron", 0.005, 100, 40);
   scene.gravity = {1, -standard_gravity, 2};
@@ -130,7 +129,8 @@ std::vector<Scene> tetrahedron_scenes(LawSize) {
   return {scene};
 }
 
-/// Reads the free corner at the distance a from the plane x = 0. There ∇N = (1/a, 0, 0), so H is diagonal.
+/// Reads the displacement H⁻¹ m g of the free corner, see (2). The corner is at the distance a from the plane x = 0, so
+/// ∇N = (1/a, 0, 0) and H is diagonal.
 std::vector<Reading> read_tetrahedron(std::span<const Trajectory> runs) {
   const Trajectory& run = runs[0];
   const double a = tetrahedron_side, volume = a * a * a / 6, m = masses(run.scene)[1];
@@ -260,7 +260,7 @@ std::vector<Reading> read_swing(std::span<const Trajectory> runs) {
 
 constexpr double arc_cell = 0.03, arc_density = 0.3, arc_lame = 500, arc_bending = 0.005;
 
-/// Returns N, the number of sweeps that this file's head derives.
+/// Returns N of this file's head: the number of sweeps that nearly solve a step.
 double solving_sweeps(double time_step) {
   const double trace = 16 * arc_lame + 84 * arc_bending / (arc_cell * arc_cell);
   const double mass = arc_density * arc_cell * arc_cell;
@@ -290,7 +290,8 @@ Scene pinned_arc(double time_step, std::int64_t steps, std::int64_t iterations) 
   return scene;
 }
 
-/// Returns the runs until the sheet has swung down: the last has N sweeps of a short step, the others have few sweeps.
+/// Returns the runs until the sheet has swung down. The last run has short steps of N sweeps (solving_sweeps), the
+/// other runs have few sweeps per step.
 std::vector<Scene> pinned_scenes(LawSize size) {
   constexpr double brief = 1. / 480;
   const Scene solved = pinned_arc(brief, 240, std::lround(std::ceil(solving_sweeps(brief))));
@@ -314,7 +315,7 @@ double work_left(const Trajectory& run, std::size_t n) {
 }
 
 Reading read_energy(const Trajectory& run) {
-  // Finds the largest rise of the energy, and the sum of (5) over the steps of this rise.
+  // Finds the largest rise of the energy, and the sum of work_left over the steps of this rise.
   double least = std::numeric_limits<double>::infinity(), rise = 0, largest = 0, done = 0, done_at_least = 0, work = 0;
   for (std::size_t n = 1; n < run.states.size(); ++n) {
     const StepMetrics& row = run.rows[n - 1];

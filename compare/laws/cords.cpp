@@ -93,7 +93,7 @@ std::vector<Reading> read_clamped(std::span<const Trajectory> runs) {
 
 constexpr double span = 0.08;
 
-/// Returns the nodes of a chain that hangs by both ends as in (2).
+/// Returns the nodes of a chain that is held at both ends and obeys (2).
 std::vector<Vec3> hanging(const std::vector<double>& m, double across) {
   const auto chain_of = [&](double pull) {
     double inner = 0;

@@ -30,7 +30,7 @@ Moving angle(Moving s, Moving c) {
           (c.value * s.rate - s.value * c.rate) / (c.value * c.value + s.value * s.value)};
 }
 
-/// A vector with its rate of change along d.
+/// A vector with its rate of change along the displacement d.
 struct MovingVec {
   Vec3 value{}, rate{};
 };
@@ -45,7 +45,7 @@ MovingVec normal(const MovingVec& a, const MovingVec& b) {
   return {cross(a.value, b.value), plus(cross(a.rate, b.value), cross(a.value, b.rate))};
 }
 
-/// Positions with their rates of change along d, by vertex.
+/// Positions by vertex. Their rate of change along the displacement d is d itself (`along`).
 struct Points {
   const std::vector<Vec3>&x, &along;
   MovingVec operator[](Index v) const { return {x[static_cast<std::size_t>(v)], along[static_cast<std::size_t>(v)]}; }

@@ -8,14 +8,15 @@
 
 namespace ogc::compare::law_measures {
 
-/// The elastic energy at a state, and its rate along a direction.
+/// The elastic energy U at a state x, and its rate along a direction d.
 struct Elastic {
   double energy = 0;  ///< U(x) [J]
   double change = 0;  ///< ∇U(x)·d [J]
 };
 
-/// Returns the sum over all bodies that are not fixed: St. Venant–Kirchhoff membranes (method.md §4.6) and discrete
-/// hinges (§4.7). `along` is d by vertex [m]. Throws InputError if a body has another membrane or bending model.
+/// Returns the energy of all bodies that are not fixed, and its rate along the direction d: St. Venant–Kirchhoff
+/// membranes (method.md §4.6) and discrete hinges (§4.7). `along` holds d by vertex [m]. Throws InputError if a body
+/// has another membrane or bending model.
 Elastic elastic(const Scene& scene, const std::vector<Vec3>& x, const std::vector<Vec3>& along);
 
 }  // namespace ogc::compare::law_measures

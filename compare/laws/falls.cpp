@@ -75,8 +75,8 @@ double error_of_fall(const Trajectory& run) {
 }
 
 std::vector<Reading> read_order(std::span<const Trajectory> runs) {
-  // The error is g h t/2 with h, and half of that with h/2. A relative rounding error of either error is a relative
-  // error of their ratio.
+  // The error is g h t/2 with h, and half of that with h/2. If rounding changes one of these errors by a share, it
+  // changes their ratio by the same share.
   std::vector<Reading> readings;
   for (std::size_t k = 1; k < runs.size(); ++k) {
     const double coarse = error_of_fall(runs[k - 1]), fine = error_of_fall(runs[k]);

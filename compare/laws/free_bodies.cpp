@@ -12,9 +12,10 @@
 // By (2) L decreases in each step by a share of about φ². A sheet extends by a strain of ρ ω² R²/E, which changes R,
 // and L contains R².
 //
-// A step that is not solved leaves a force. Newton leaves newton_tolerance of the mean |f*|, the force after the guess;
-// sweeps leave what they have not yet removed. So the tolerances below are shares of the impulses that inner forces
-// exchange, Σ ‖m Δv‖: 10⁻⁴ (newton_tolerance) and 10⁻² (the most that sweeps of a stiff body may leave).
+// A step that is not solved exactly leaves a force. Newton leaves newton_tolerance of the mean |f*|, the force after
+// the guess loop; sweeps leave the force that they have not yet removed. So the tolerances below are shares of the
+// impulses that inner forces exchange, Σ ‖m Δv‖: 10⁻⁴ (newton_tolerance) and 10⁻² (the most that sweeps of a stiff body
+// may leave).
 #include <cmath>
 
 #include "compare/laws/groups.hpp"

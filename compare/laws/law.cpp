@@ -12,7 +12,8 @@
 namespace ogc::compare {
 namespace {
 
-/// Returns how far a reading is from its answer; for Side::at_most, how far above it. Not-a-number gives not-a-number.
+/// Returns the distance of a reading from its answer; for Side::at_most, its excess over the answer. Not-a-number gives
+/// not-a-number.
 double excess(const Reading& reading) {
   const double off = reading.measured - reading.answer;
   return reading.side == Side::both ? std::abs(off) : off;

@@ -12,8 +12,8 @@
 
 namespace ogc::compare {
 
-/// State at the start or at the end of a step: the doubles of a solver with a state in double, otherwise widened
-/// floats.
+/// State at the start or at the end of a step. A solver that stores doubles gives its doubles; otherwise its floats are
+/// converted to double.
 struct LawState {
   std::vector<Vec3> positions, velocities;  ///< by vertex [m], [m/s]
 };
@@ -54,17 +54,17 @@ struct Reading {
 enum class Verdict {
   holds,   ///< within the tolerance
   limit,   ///< beyond the tolerance, within the derived limit
-  broken,  ///< beyond both
+  broken,  ///< beyond the tolerance and the limit
 };
 
 /// Judges a reading by tolerance and limit.
 Verdict verdict(const Reading& reading);
-/// Returns the worst verdict; holds if there is none.
+/// Returns the worst verdict; Verdict::holds if there are no readings.
 Verdict verdict(std::span<const Reading> readings);
-/// Returns the reading with the largest error in units of its tolerance; null if there is none.
+/// Returns the reading with the largest error in units of its tolerance; null if there are no readings.
 const Reading* worst(std::span<const Reading> readings);
 
-/// How much is run: only what is needed to show a broken law (for CI), or everything.
+/// Selects what is run: only the scenes that are needed to show a broken law (for CI), or all scenes.
 enum class LawSize { least, whole };
 
 /// A law with its name, scenes and readings.

@@ -17,7 +17,7 @@ void each_vertex(const Body& body, Visit visit) {
   for (Index v = body.first_vertex; v < body.first_vertex + body.vertex_count; ++v) visit(static_cast<std::size_t>(v));
 }
 
-/// Returns Σ m q of a body over its mass.
+/// Returns the mean of `values` over a body's vertices, weighted by mass.
 Vec3 mean(const Scene& scene, std::size_t body, const std::vector<Vec3>& values) {
   const std::vector<double> m = masses(scene);
   Vec3 sum{};

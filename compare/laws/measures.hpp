@@ -21,7 +21,7 @@ double length(const Vec3& a);
 double force_left(const Trajectory& run);
 
 /// Returns the number of steps by which friction's normal force may lag: 1, because a solve uses the force of the
-/// previous one; 2 with barriers, whose force is 0 at the start.
+/// previous solve; 2 with barriers, because their force is 0 at the start.
 double lagged_steps(const Trajectory& run);
 
 /// Returns m_v [kg]: a third of each triangle's, a quarter of each tetrahedron's, half of each segment's mass at rest
@@ -46,9 +46,8 @@ double largest_coordinate(const Trajectory& run);
 /// worst case all of one sign.
 double flight_rounding(std::int64_t n, double largest_coordinate);
 
-/// Returns the velocity v' after a step of implicit Euler of a body that slides with velocity v against friction
-/// (method.md §4.4): v' = v + h (drive − brake f₁(|v'|/ε_v) sign v'). The right side falls as v' rises, so v' is
-/// unique.
+/// Returns the velocity v' of a body that slides with velocity v against friction (method.md §4.4), after one step of
+/// implicit Euler: v' = v + h (drive − brake f₁(|v'|/ε_v) sign v'). The right side falls as v' rises, so v' is unique.
 double slid(double velocity, double drive, double brake, double friction_velocity, double time_step);
 
 /// `bounced` returns height and velocity of a mass after a step of implicit Euler from height x. A plane at 0 repels

@@ -10,8 +10,8 @@
 //
 // With a convex potential U implicit Euler loses at least m (v' − v)²/2 in each step, so m v²/2 + m g x + U never
 // rises. That requires that a contact is listed in the step in which its distance falls below r. But a detection lists
-// only contacts that are below r at the start of the step. So in the step of the impact the triangle moves up to h v
-// below r, and the contact does not yet do the work k_c (h v)²/2. The bounce gains up to that energy. With v² = 2 g H
+// only contacts whose distance is below r when the step starts. So in the step of the impact the triangle moves up to h
+// v below r, and the contact does not yet do the work k_c (h v)²/2. The bounce gains up to that energy. With v² = 2 g H
 // after a fall of H the gain is a share κ of the fall's energy. This limit is derived, and `contact_margin` changes it.
 #include <algorithm>
 #include <cmath>
@@ -44,7 +44,8 @@ Scene leaving(const char* name, const Vec3& gravity, double floor_speed) {
   return scene;
 }
 
-/// Returns the largest distance of the sheet's vertices from free flight at any step, in roundings.
+/// Returns the largest distance of the sheet's vertices from free flight at any step, in units of the rounding error
+/// (flight_rounding).
 Reading distance_from_flight(const Trajectory& run) {
   const double h = run.scene.settings.time_step, largest = largest_coordinate(run);
   double most = 0;
@@ -76,7 +77,8 @@ std::vector<Scene> with_early_lists(const Scene& scene) {
   return {scene, early};
 }
 
-/// Returns two scenes, with a floor and without: a sheet at d = r is thrown up askew, so that it stretches.
+/// Returns two scenes, with a floor and without. A sheet at d = r is thrown up with unequal velocities, so that it
+/// stretches.
 std::vector<Scene> beyond_scenes(LawSize) {
   Scene with = leaving("beyond_contact", {0, 0, 0}, 0);
   with.settings.contact_margin = 1;
@@ -93,8 +95,8 @@ std::vector<Scene> beyond_scenes(LawSize) {
   return {with, without};
 }
 
-/// Reads the difference of both runs. A step may leave a share force_left of the forces that move the sheet away from
-/// free flight.
+/// Reads the largest difference between the two runs. Unfinished steps may leave a share force_left of the forces that
+/// move the sheet away from free flight.
 std::vector<Reading> read_beyond(std::span<const Trajectory> runs) {
   const Trajectory &with = runs[0], &without = runs[1];
   double most = 0, elastic = 0;
@@ -137,8 +139,8 @@ std::vector<Height> heights_by_law(const Trajectory& run) {
 }
 
 /// Returns the largest distance of the centre's height from (1). Each step in contact leaves up to 10⁻⁴ of its force;
-/// forty sweeps leave no more, because each vertex has one spring. Fewer than ten steps are in contact, hence 10⁻³ of
-/// the way.
+/// forty sweeps leave no more, because each vertex has one spring. Fewer than ten steps are in contact, so the
+/// tolerance is 10⁻³ of the path of the height.
 Reading distance_of_height(const Trajectory& run) {
   const std::vector<Height> law = heights_by_law(run);
   double most = 0, way = 0;

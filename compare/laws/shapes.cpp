@@ -24,8 +24,8 @@ Mesh sheet(Index rows, Index columns, double spacing, double height) {
 }
 
 Mesh floor_triangle(double reach, double height) {
-  // The distance of an equilateral triangle's corners from its centre is twice that of its edges. The further factor
-  // 3/2 keeps the edges away from bodies.
+  // An equilateral triangle's corners are twice as far from its centre as its edges are. The further factor 3/2 keeps
+  // the edges away from bodies.
   const double corner = 3 * reach;
   return {.positions = {{corner, height, 0},
                         {-corner / 2, height, -corner * std::numbers::sqrt3 / 2},

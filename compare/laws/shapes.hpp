@@ -17,15 +17,15 @@ inline constexpr Vec3 down{0, -standard_gravity, 0};
 constexpr double degrees(double angle) { return angle * std::numbers::pi / 180; }
 
 /// Returns a sheet in the plane y = `height` about the y axis: `rows` × `columns` vertices, each ≥ 2, `spacing` apart
-/// [m], rows along x. Vertex (i, j) has number i · columns + j; diagonals alternate.
+/// [m], rows along x. Vertex (i, j) has index i · columns + j; diagonals alternate.
 Mesh sheet(Index rows, Index columns, double spacing, double height);
 
-/// Returns one triangle in the plane y = `height` that contains a circle of radius `reach` [m] about the y axis. As a
-/// floor it has no inner edges, so each vertex that rests on it has one contact.
+/// Returns one triangle in the plane y = `height` that contains a circle of radius `reach` [m] about the y axis. A
+/// vertex that rests on this floor has one contact, because the floor has no inner edges.
 Mesh floor_triangle(double reach, double height);
 
 /// Returns a box of `cells` cubes of side `spacing` [m] along x, y and z from corner `low`, with six tetrahedra about
-/// the diagonal of each cube. Vertex (i, j, k) has number (i (cells[1] + 1) + j) (cells[2] + 1) + k.
+/// the diagonal of each cube. Vertex (i, j, k) has index (i (cells[1] + 1) + j) (cells[2] + 1) + k.
 Mesh box(const std::array<Index, 3>& cells, double spacing, const Vec3& low);
 
 /// Returns a chain of loose edges through the points, in their order.

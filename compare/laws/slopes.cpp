@@ -37,12 +37,12 @@ constexpr double radius = 0.01, sheet_side = 0.2, block_side = 0.1;
 
 Vec3 tilted(double angle) { return {standard_gravity * std::sin(angle), -standard_gravity * std::cos(angle), 0}; }
 
-/// Adds a floor of 49 vertices a metre apart; bodies cross its edges and vertices.
+/// Adds a floor of 49 vertices at distances of 1 m, so that bodies cross its edges and vertices.
 void add_floor(Scene& scene, const Material& material) {
   append_body(scene, {.name = "floor", .fixed = true, .material = material}, sheet(7, 7, 1, 0));
 }
 
-/// Returns a sheet at the depth at which `vertices` springs support its weight.
+/// Returns a sheet at the depth at which the springs of its 25 vertices support its weight.
 Scene sheet_on(const char* name, const Slope& slope, std::int64_t steps) {
   Scene scene = empty_scene(name, 0.005, steps, 40);
   scene.gravity = tilted(slope.angle);
@@ -139,8 +139,8 @@ std::vector<Reading> read_stick(std::span<const Trajectory> runs) {
   const double way = centre(run.scene, 0, run.states[last]).x - centre(run.scene, 0, run.states[half]).x;
   const double share = run.scene.gravity.x / (-run.scene.gravity.y * run.scene.bodies[0].material.friction);
   const double creep = run.scene.settings.friction_velocity * (1 - std::sqrt(1 - share));
-  // Let y be the creep over ε_v. A relative error e of the normal force λ changes f₁(y) by e f₁, and y by e f₁/(2 (1 −
-  // y)). Rounding changes x by at most one rounding error in each step.
+  // Let y be the creep over ε_v. A relative error e of the normal force λ changes f₁(y) by e f₁, so it changes y by e
+  // f₁/(2 (1 − y)). Rounding changes x by at most one rounding error per step.
   const double error = (lagged_steps(run) / static_cast<double>(run.rows.size()) + force_left(run)) * share /
                        (2 * std::sqrt(1 - share)) * run.scene.settings.friction_velocity;
   return {{.what = "creep",
@@ -161,7 +161,7 @@ std::vector<Reading> read_frictionless(std::span<const Trajectory> runs) {
            .tolerance = share * law.velocity}};
 }
 
-/// Reads the distance until the body rests, after the time v/(μ g), and checks that it rests.
+/// Reads the distance that the body slides until it rests at the time v/(μ g), and checks that it rests then.
 std::vector<Reading> read_stop(std::span<const Trajectory> runs) {
   const Trajectory& run = runs[0];
   const Slid law = slid_down(run, run.rows.size());

@@ -37,7 +37,7 @@ using namespace law_shapes;
 
 constexpr double cell = 0.025;
 
-/// Returns the stretch of a row that bears `load` = T/(μ w) [1]: s (s² − 1) rises from s = 1.
+/// Returns the stretch s ≥ 1 of a row that bears `load` = T/(μ w): the root of s (s² − 1) = load.
 double stretch(double load) {
   double low = 1, high = 2 + load;
   for (int k = 0; k < 100; ++k) {
@@ -47,7 +47,7 @@ double stretch(double load) {
   return low;
 }
 
-/// Returns the mass of the vertices from row `first` on, with `width` vertices in a row.
+/// Returns the mass of all vertices from row `first` on; a row has `width` vertices.
 double mass_below(const std::vector<double>& m, std::size_t first, std::size_t width) {
   double sum = 0;
   for (std::size_t v = first * width; v < m.size(); ++v) sum += m[v];

@@ -17,10 +17,10 @@ enum class IntersectionKind : std::uint8_t { edge_triangle, vertex_triangle, edg
 /// One intersection, of one of three kinds:
 ///
 /// - Edge `first` meets triangle `second` without sharing a vertex; touching counts.
-/// - Vertex `first` lies on triangle `second`, which does not contain it.
-/// - Edges `first` < `second` meet, and neither meets a triangle of the other as above. Either both belong to no
-///   triangle; edges with a common vertex then meet if the other end of one lies on the other. Or one is the edge of a
-///   triangle opposite to a vertex of the other.
+/// - Vertex `first` lies on triangle `second`, of which it is no corner.
+/// - Edges `first` < `second` meet, and neither meets a triangle of the other in the first way. There are two cases:
+///   - Both edges belong to no triangle. If they share a vertex, the other end of one edge lies on the other edge.
+///   - One edge shares a vertex with a triangle, and the other is this triangle's edge opposite to that vertex.
 struct Intersection {
   IntersectionKind kind = IntersectionKind::edge_triangle;  ///< kind of the faces
   Index first = -1, second = -1;                            ///< an edge or a vertex; a triangle or an edge
@@ -36,16 +36,16 @@ struct AuditOptions {
 struct AuditResult {
   std::vector<Intersection> intersections;  ///< ascending
   std::size_t count = 0;                    ///< number of all intersections
-  /// pairs of edges and triangles, and of edges, whose boxes meet; excluded pairs do not count
+  /// pairs of an edge and a triangle, or of two edges, whose boxes meet; excluded pairs do not count
   std::size_t pairs_tested = 0;
 };
 
-/// Audits a state exactly: rounding decides nothing, and the answer does not depend on the number of threads. Two
-/// primitives with common vertices intersect if they meet outside of the face that these vertices span (method.md
-/// §5.5). A collapsed triangle is the segment or point that it covers; an edge of length zero is a point. Isolated
-/// vertices belong to no surface and are left out. A vertex on a triangle is listed in addition to its edges, which
-/// also touch the triangle. An audit of states does not prove the motion between them (compare/oracle/meetings.hpp).
-/// Throws InputError if a position is not finite or sizes do not match.
+/// Audits a state exactly: the answer depends neither on rounding nor on the number of threads. Two primitives with
+/// common vertices intersect if they meet outside of the face that these vertices span (method.md §5.5). A collapsed
+/// triangle is the segment or point that it covers; an edge of length zero is a point. Isolated vertices belong to no
+/// surface and are left out. A vertex on a triangle is listed in addition to its edges, which also touch the triangle.
+/// An audit of states does not prove the motion between them (compare/oracle/meetings.hpp). Throws InputError if a
+/// position is not finite or sizes do not match.
 AuditResult audit(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions = {},
                   const AuditOptions& options = {});
 

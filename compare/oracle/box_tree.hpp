@@ -13,7 +13,7 @@
 
 namespace ogc::compare {
 
-/// Closed box [low, high] [m]; a new one is empty.
+/// Closed box [low, high] [m]; a new box is empty.
 struct Box {
   std::array<double, 3> low{1e308, 1e308, 1e308}, high{-1e308, -1e308, -1e308};  ///< corners [m]
   void add(const Vec3& point);                                                   ///< grows to contain the point

@@ -20,8 +20,8 @@ struct MotionCertificate {
   bool kept() const { return violations == 0; }
 };
 
-/// Compares each motion with its bound exactly, on the stored single-precision values; only `worst_ratio` is rounded.
-/// The arrays are those of a Snapshot: positions x, X_prev and b_v of the last detection [m], one entry for each
+/// Compares each vertex's motion with its bound exactly, on the stored single-precision values; only `worst_ratio` is
+/// rounded. The arrays are from a Snapshot: positions x, X_prev and b_v of the last detection [m], one entry for each
 /// vertex. Throws InputError if their lengths differ.
 MotionCertificate motion_certificate(std::span<const Vec3f> positions, std::span<const Vec3f> previous,
                                      std::span<const float> bounds);

@@ -32,7 +32,7 @@ std::optional<int> projection_axis(const Vec3& a, const Vec3& b, const Vec3& c) 
   return std::nullopt;
 }
 
-/// Returns whether c lies in the box of a and b: for collinear points, on the closed segment ab.
+/// Returns whether c lies in the box around a and b. If the points are collinear, this is the closed segment ab.
 bool within(const Point2& a, const Point2& b, const Point2& c) {
   const auto between = [](double s, double t, double u) { return std::min(s, t) <= u && u <= std::max(s, t); };
   return between(a.x(), b.x(), c.x()) && between(a.y(), b.y(), c.y());

@@ -43,7 +43,7 @@ class Paths {
     return all;
   }
 
-  /// Returns whether the faces meet at `time`, at which the volume must be 0.
+  /// Returns whether the faces meet at `time`. The volume of the four points must be 0 at this time.
   bool meets(Moment& time) const { return kind_ == MeetingKind::edge_edge ? edges_meet(time) : vertex_meets(time); }
 
  private:
@@ -56,7 +56,7 @@ class Paths {
     return time.sign(component(area({i, j, k}), axis));
   }
 
-  /// Returns whether coordinate `axis` of k lies between those of i and j, ends included.
+  /// Returns whether coordinate `axis` of k lies in the closed interval between the coordinates of i and j.
   bool between(Moment& time, std::size_t i, std::size_t j, std::size_t k, std::size_t axis) const {
     const auto beyond = [&](std::size_t end) {
       return time.sign(component(points_[k], axis) - component(points_[end], axis));
@@ -64,14 +64,14 @@ class Paths {
     return beyond(i) * beyond(j) <= 0;
   }
 
-  /// Returns whether k, seen along an axis, lies in the box of i and j. For collinear points that is the closed
-  /// segment.
+  /// Returns whether k, seen along an axis, lies in the box around i and j. If the points are collinear, this is the
+  /// closed segment.
   bool within(Moment& time, std::size_t i, std::size_t j, std::size_t k, std::size_t axis) const {
     return between(time, i, j, k, (axis + 1) % 3) && between(time, i, j, k, (axis + 2) % 3);
   }
 
-  /// Returns whether the edges meet. Points of a plane are projected along an axis on which the plane does not become a
-  /// line, so the projection is one-to-one.
+  /// Returns whether the edges meet. Projects the points along an axis that is not parallel to their plane, so the
+  /// projection is one-to-one.
   bool edges_meet(Moment& time) const {
     for (const Triple& t : triples)
       for (std::size_t axis = 0; axis < 3; ++axis)

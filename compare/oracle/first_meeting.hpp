@@ -22,7 +22,7 @@ struct MovingPair {
 /// The first time at which the closed faces share a point; 0 if they touch at the start. low ≤ time ≤ high are doubles,
 /// equal or adjacent.
 struct MeetingTime {
-  double low = 0, high = 0;  ///< shares of the motion
+  double low = 0, high = 0;  ///< fractions of the motion
 };
 
 /// Returns the first time at which the faces share a point; none if they share no point at any time in [0, 1]. Faces

@@ -48,8 +48,8 @@ Vector toward(const Vector& normal, const Vector& side) {
   return dot(normal, side) < 0 ? Vector{-normal.x, -normal.y, -normal.z} : normal;
 }
 
-/// Returns two guesses of a direction from the second face to the first: the normal of both faces, and the vector
-/// between near points.
+/// Returns two guesses of a direction from the second face to the first: the triangle's normal or the common normal of
+/// both edges, and the vector between two near points of the faces.
 std::array<Vector, 2> guesses(MeetingKind kind, const Points& x) {
   if (kind == MeetingKind::vertex_triangle) {
     const Vector n = cross(minus(x[2], x[1]), minus(x[3], x[1]));

@@ -28,7 +28,7 @@ class MotionAuditor {
         triangles_(tree_over(topology.triangles)),
         edges_(tree_over(topology.edges)) {}
 
-  /// Returns the number of vertices and edges; each searches for partners.
+  /// Returns the number of searches: one per vertex and one per edge.
   std::size_t asking() const { return at(topology_.vertex_count) + topology_.edges.size(); }
 
   /// Returns the meetings of every `stride`-th vertex or edge.

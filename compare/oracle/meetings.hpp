@@ -24,24 +24,24 @@ struct Meeting {
 struct MeetingsResult {
   std::vector<Meeting> meetings;  ///< pairs with vertices first, then ascending
   std::size_t count = 0;          ///< number of all meetings
-  std::size_t pairs_tested = 0;   ///< pairs whose swept boxes meet, without excluded ones
-  /// tested pairs for which no rounded direction proves that they are apart, so that they are decided exactly
+  std::size_t pairs_tested = 0;   ///< pairs whose swept boxes meet, without excluded pairs
+  /// tested pairs that first_meeting_filter.cpp cannot prove to be apart, so that exact arithmetic decides them
   std::size_t pairs_in_doubt = 0;
 };
 
-/// Finds the meetings of a motion in which each vertex v moves straight from from[v] at time 0 to to[v] at time 1 [m],
-/// including those of loose edges. The answer is exact on any number of threads. Touching counts, also at times 0 and
-/// 1; so a pair that touches in a state counts in the motion before it and in the motion after it. As in `audit`, pairs
-/// with a common vertex, pairs of `exclusions`, isolated vertices and everything off the surface are left out. At most
-/// `limit` meetings are listed. Throws InputError if a position is not finite or sizes do not match.
+/// Finds the meetings of a motion, also of loose edges. Each vertex v moves straight from from[v] at time 0 to to[v] at
+/// time 1 [m]. The answer is exact on any number of threads. Touching counts, also at times 0 and 1; so a pair that
+/// touches in a state counts in the motion before it and in the motion after it. As in `audit`, pairs with a common
+/// vertex, pairs of `exclusions`, isolated vertices and everything off the surface are left out. At most `limit`
+/// meetings are listed. Throws InputError if a position is not finite or sizes do not match.
 MeetingsResult meetings(const Topology& topology, std::span<const Vec3> from, std::span<const Vec3> to,
                         const ExclusionView& exclusions = {}, std::size_t limit = 1000);
 
 /// Estimated cost of `meetings` for a motion, from a sample of at most 2,000 of its vertices and edges.
 struct MeetingsCost {
   double pairs = 0;       ///< estimate of pairs_tested
-  double seconds = 0;     ///< with the caller's threads
-  std::size_t bytes = 0;  ///< largest memory besides that of the mesh
+  double seconds = 0;     ///< estimated time with the caller's threads [s]
+  std::size_t bytes = 0;  ///< largest memory that `meetings` needs besides the mesh
 };
 
 /// Estimates the cost of `meetings`; throws the same errors.

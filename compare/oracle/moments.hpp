@@ -1,5 +1,5 @@
-// Defines exact polynomials of time and the moments at which they vanish; the oracle decides motions with them. Only
-// .cpp files of compare/oracle include this header, since it exposes CGAL's number types.
+// Defines exact polynomials of time and the moments at which they vanish. The oracle decides with them whether moving
+// faces meet. Only .cpp files of compare/oracle include this header, since it exposes CGAL's number types.
 #pragma once
 
 #include <CGAL/Mpzf.h>
@@ -29,7 +29,7 @@ Polynomial operator*(const Polynomial& a, const Polynomial& b);
 
 /// Two doubles around a moment: low ≤ t ≤ high, equal or adjacent.
 struct MomentBracket {
-  double low = 0, high = 0;  ///< shares of the motion
+  double low = 0, high = 0;  ///< fractions of the motion
 };
 
 /// An exact time in [0, 1] at which a polynomial vanishes: a dyadic number, or the only root of `square_free` in the
@@ -54,7 +54,8 @@ class Moment {
   int sign_after_ = 0;  ///< sign of the polynomial between the root and high_
 };
 
-/// Returns the times in [0, 1] at which a polynomial vanishes, ascending, each once. The polynomial must not be 0.
+/// Returns the times in [0, 1] at which a polynomial vanishes, ascending and without repetition. The polynomial must
+/// not be 0.
 std::vector<Moment> moments(const Polynomial& p);
 
 }  // namespace ogc::compare

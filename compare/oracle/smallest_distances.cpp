@@ -49,8 +49,8 @@ struct Nearest {
   LeastSquare square;
   Index first = -1, second = -1;
 
-  /// Returns whether this pair is nearer than the pair (i, j), whose squared distance is `other`, or equally near and
-  /// of smaller indices.
+  /// Returns whether this pair is nearer than the pair (i, j), or is equally near and has smaller indices. `other` is
+  /// the squared distance of (i, j).
   bool keeps(const LeastSquare& other, Index i, Index j) const {
     if (first < 0) return false;
     const Exact difference = other.numerator * square.denominator - square.numerator * other.denominator;
@@ -78,8 +78,8 @@ class Search {
     if (nearer) lower(square_above(square));
   }
 
-  /// Returns `box` grown by at least the nearest distance. The root and the sums are each wrong by at most half a unit
-  /// in the last place; moving each outwards to the next double covers more than that.
+  /// Returns `box` grown by at least the smallest distance found so far. The root and each sum have an error of at most
+  /// half a unit in the last place; moving each outwards to the next double covers more than that.
   Box search_box(Box box) const {
     const double reach = std::nextafter(std::sqrt(limit_.load(std::memory_order_relaxed)), infinity);
     for (std::size_t k = 0; k < 3; ++k) {

@@ -17,9 +17,9 @@ struct SmallestDistances {
   Index edge = -1, other_edge = -1;                                  ///< edge < other_edge
 };
 
-/// Returns the smallest distances, rounded down. The nearest pairs are found exactly; of equally near pairs the one
-/// with the smallest numbers is returned. Adjacent pairs and those of `exclusions` are left out. Throws InputError for
-/// positions that are not finite.
+/// Returns the smallest distances, rounded down. The nearest pairs are found exactly; of equally near pairs the pair
+/// with the smallest indices is returned. Adjacent and excluded pairs are left out. Throws InputError for positions
+/// that are not finite.
 SmallestDistances smallest_distances(const Topology& topology, std::span<const Vec3> positions,
                                      const ExclusionView& exclusions = {});
 

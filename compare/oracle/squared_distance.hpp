@@ -19,7 +19,8 @@ namespace ogc::compare {
 using Interval = CGAL::Interval_nt<false>;
 using Exact = CGAL::Mpzf;
 
-/// Return whether the number may have this sign. An exact number has it; an interval contains a number that has it.
+/// Return whether the number may have this sign. For an exact number: whether it has the sign. For an interval: whether
+/// it contains a number with this sign.
 inline bool may_be_positive(const Exact& x) { return static_cast<int>(x.sign()) > 0; }
 inline bool may_be_negative(const Exact& x) { return static_cast<int>(x.sign()) < 0; }
 inline bool may_be_zero_or_more(const Exact& x) { return static_cast<int>(x.sign()) >= 0; }
@@ -38,10 +39,10 @@ struct LeastSquare {
   }
 };
 
-/// Keeps a number that is not above the least quotient.
+/// Keeps a lower bound of the least quotient.
 struct SquareBelow {
-  double value = std::numeric_limits<double>::infinity();  ///< lower bound of the smallest quotient
-  /// Keeps a lower bound of n/d if it is less than the value so far. The lower bound is 0 if d may be 0.
+  double value = std::numeric_limits<double>::infinity();  ///< the lower bound
+  /// Lowers the bound to a lower bound of n/d if the latter is less. The lower bound of n/d is 0 if d may be 0.
   void offer(const Interval& n, const Interval& d) { value = std::min(value, d.inf() > 0 ? (n / d).inf() : 0.0); }
 };
 

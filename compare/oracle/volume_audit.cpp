@@ -1,7 +1,7 @@
-// Computes winding numbers from the crossings of a ray along +x. The ray starts at (x, y + ε, z + ε²) with vanishing ε,
-// so that it meets no edge. This start and the point have the same winding number if the point is not on the surface.
-// The ray crosses a triangle if the point lies inside the triangle's projection along the x axis, and the triangle's
-// plane lies ahead.
+// Computes the winding number of a point (x, y, z) from the crossings of a ray along +x. The ray starts at (x, y + ε, z
+// + ε²) with vanishing ε, so that it meets no edge. This start and the point have the same winding number if the point
+// is not on the surface. The ray crosses a triangle if the point lies inside the triangle's projection along the x
+// axis, and the triangle's plane lies ahead.
 #include "compare/oracle/volume_audit.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -36,8 +36,7 @@ int crossing(const Corners& t, const Vec3& x) {
   const int seen = side_seen(t[0], t[1], x);
   if (seen == 0 || side_seen(t[1], t[2], x) != seen || side_seen(t[2], t[0], x) != seen) return 0;
   const auto point = [](const Vec3& v) { return Kernel::Point_3(v.x, v.y, v.z); };
-  // `seen` is the sign of the normal's x component. The plane lies ahead if x is on that side of the plane which faces
-  // −x.
+  // `seen` is the sign of the normal's x component. The plane lies ahead if its side towards −x contains the point.
   const int above = CGAL::orientation(point(t[0]), point(t[1]), point(t[2]), point(x));
   return above == -seen ? seen : 0;
 }
@@ -126,8 +125,8 @@ class PlacedPart {
     return is_inside;
   }
 
-  /// Returns the distance from a vertex of the part to the part's triangles, without those that share a vertex with a
-  /// triangle around the vertex. Returns 0 if no triangle remains.
+  /// Returns the distance from a vertex of the part to the part's triangles. Skips triangles that share a vertex with a
+  /// triangle around `vertex`. Returns 0 if no triangle remains.
   double distance_of_own(Index vertex) const {
     std::vector<Index> around;
     for (const Triangle& t : triangles_)

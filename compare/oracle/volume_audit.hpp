@@ -14,13 +14,15 @@
 
 namespace ogc::compare {
 
-/// What is inside volumes at one state. Surfaces may be inside a volume for a moment, so this alone is no failure.
+/// Holds what is inside volumes at one state. Surfaces may be inside a volume for a moment, so this alone is no
+/// failure.
 struct VolumePenetration {
   std::size_t vertices_inside = 0;  ///< vertices of surfaces and of free volumes that lie inside a part
   Index deepest_vertex = -1;        ///< the vertex inside a part that is farthest from the part's triangles
   double deepest = 0;               ///< its distance from them, rounded [m]
   /// number of edges of surfaces that meet a triangle of a volume, and of edges of volumes that meet a triangle of a
-  /// surface. If a free volume is involved, also edges that meet a triangle of another volume or of the same one
+  /// surface; also of edges of volumes that meet a triangle of a volume, if the edge or the triangle is of a free
+  /// volume
   std::size_t edges_meeting = 0;
 };
 
@@ -48,7 +50,7 @@ class VolumeAuditor {
  private:
   /// A part with closed rims.
   struct Part {
-    std::vector<Triangle> triangles;      ///< vertex numbers of the scene
+    std::vector<Triangle> triangles;      ///< indices of the scene's vertices
     std::vector<std::vector<Edge>> rims;  ///< edges of each closed rim, each reversed against its triangle
     std::vector<Tetrahedron> tetrahedra;  ///< of a body of tetrahedra
   };
@@ -56,7 +58,7 @@ class VolumeAuditor {
   struct Asker {
     Index vertex, part;
   };
-  /// Numbers of edges that may meet triangles, and of these triangles, in the topology.
+  /// Edges that may meet triangles, and these triangles, as indices in the topology.
   struct Meeting {
     std::vector<Index> edges, triangles;
   };

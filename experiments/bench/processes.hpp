@@ -1,7 +1,7 @@
 // Repeats a measurement in several processes, because only processes are independent samples of the noise. All
 // repetitions inside one process share its memory layout and everything else that is fixed when a process starts.
-// Measured on 2 cores: a part of 16 us differed by 16 % between two processes, while repetitions within each process
-// agreed to 5 %.
+// Measured on 2 cores: a benchmark of 16 us differed by 16 % between two processes, while repetitions within each
+// process agreed to 5 %.
 #pragma once
 
 #include <filesystem>

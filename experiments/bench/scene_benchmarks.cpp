@@ -41,7 +41,7 @@ class Windows {
   std::vector<std::string> stage_names() const { return simulation_->stage_names(); }
   std::string device() const { return simulation_->device(); }
   const fast::SweepWork& work() const { return work_; }
-  /// Returns the work of one detection at the end of the windows.
+  /// Returns the work of one detection's searches at the state after the last repetition.
   const fast::SearchWork& searches() {
     if (!searches_) {
       const compare::Snapshot end = simulation_->snapshot();
@@ -79,7 +79,7 @@ double mean(const Rows& rows, const std::function<double(const StepMetrics&)>& o
   return rows.empty() ? 0 : sum / static_cast<double>(rows.size());
 }
 
-/// Selects the counted work that belongs to a step or to a part of one.
+/// Selects which counted work a step, or a part of a step, contains.
 enum class Counted { nothing, sweep, searches, both };
 
 Counted counted_of(std::string_view stage) {
@@ -89,7 +89,7 @@ Counted counted_of(std::string_view stage) {
 
 double detections(const StepMetrics& row) { return static_cast<double>(row.discrete_detections); }
 
-/// Holds the work of the mean step, and its floor [s] if the machine's limits are known.
+/// Holds the mean work of a step, and its floor [s] if the machine's limits are known; otherwise the floor is 0.
 struct Work {
   double flop = 0, bytes = 0, floor = 0;
 };
@@ -166,8 +166,8 @@ class Registrar {
   }
 
  private:
-  /// Names of the parts of a step on the fast path, in the order of StepMetrics::stage_ms; a measurement checks its
-  /// name.
+  /// Names of the measured parts of a step, in the order of StepMetrics::stage_ms. A measurement compares them with the
+  /// names that the simulation gives.
   static constexpr std::array<std::string_view, 5> stages{"begin", "detection", "initial_guess", "sweep", "metrics"};
 
   void add_one(const std::string& name, const std::function<BenchScene()>& make, fast::Backend backend,

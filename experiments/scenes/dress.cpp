@@ -70,21 +70,22 @@ Vec3 laid_flat(double upper, double lower, double slant, double down, double tur
   return {from_apex * std::sin(angle), from_apex * std::cos(angle), 0};
 }
 
-/// Holds the point of the band above to which a vertex of the upper edge is stitched. It divides the line between slots
-/// `second` and `second` + 1 (positions around the body, see Band) at `ratio`.
+/// Holds the point of the upper band to which a vertex of the lower band's upper edge is stitched. The point divides
+/// the line from position `second` to `second` + 1 around the body (see Band) at `ratio`.
 struct StitchPoint {
   Index second;
   double ratio;
 };
 
-/// Builds four panels around the body, from one height down to another. A slot is a position around the body, counted
+/// Builds four panels around the body, from one height down to another. A `slot` is a position around the body, counted
 /// from +z to +x over all panels. Where two panels meet, a slot has two vertices.
 class Band {
  public:
   Band(const char* name, std::array<Index, 2> cells, std::array<double, 2> heights, std::array<double, 2> radii)
       : name_(name), rows_(cells[0]), columns_(cells[1]), heights_(heights), radii_(radii) {}
 
-  /// Appends the band. Its upper edge lies on the straight lines between the slots of the lower edge of `above`.
+  /// Appends the band. Its upper edge lies on the straight lines between neighbouring vertices of the lower edge of
+  /// `above`.
   void append(Scene& scene, const Band* above) {
     const Mesh cut{{}, cross_diagonals(rows_ + 1, columns_ + 1), {}};
     for (Index panel = 0; panel < quarters; ++panel) {
@@ -109,7 +110,7 @@ class Band {
   }
 
   Index slots() const { return quarters * columns_; }
-  /// Returns the vertices at a slot of a row: one, or two where panels meet.
+  /// Returns the vertices of a row at position `slot` around the body: one, or two where panels meet.
   std::vector<Index> vertices_at(Index row, Index slot) const {
     const Index panel = slot / columns_ % quarters, column = slot % columns_;
     if (column > 0) return {vertex(panel, row, column)};
@@ -160,7 +161,8 @@ class Band {
 };
 
 /// Appends a strap: half a cone about an axis along x. The strap leads over the shoulder from the front of the bodice's
-/// upper edge to its back. Each of its columns of vertices begins and ends at a slot of the bodice. `side`: −1 or 1.
+/// upper edge to its back. Each column of the strap's vertices begins and ends at a vertex of the bodice. `side`: −1 or
+/// 1.
 void append_strap(Scene& scene, const Band& bodice, Index cells, int side) {
   const Index around = bodice.slots();
   const auto slot_at = [&](double radians) {
@@ -200,7 +202,7 @@ Vec3 without_dust(const Vec3& v) {
   return {swept(v.x), swept(v.y), swept(v.z)};
 }
 
-/// Appends the triangles and vertices of panel `number` in their order. Stores the vertices' numbers in the scene in
+/// Appends the triangles and vertices of panel `number` in their order. Stores the vertices' indices in the scene in
 /// `renumbered`.
 void append_panel(Scene& scene, const DressData& data, Index number, std::vector<Index>& renumbered) {
   const auto first = static_cast<Index>(scene.mesh.positions.size());

@@ -7,8 +7,9 @@
 
 namespace ogc::experiments {
 
-/// Holds the numbers of cells of the stand-in's panels, [along the body, around a panel]. With the defaults the
-/// stand-in has about as many as the data set. The contact radius is proportional to the spacing.
+/// Holds the sizes of the generated stand-in for the data set's dress: numbers of cells of its panels, [along the body,
+/// around a panel]. The defaults give about as many cells as the data set has. The contact radius is proportional to
+/// the spacing.
 struct DressSizes {
   std::array<compare::Index, 2> bodice{40, 30}, hips{28, 37}, hem{26, 48};  ///< cells of each panel
   compare::Index strap = 50;                                                ///< cells along a strap
@@ -37,7 +38,7 @@ struct DressSizes {
 /// all 968 steps, and distances stay above 0.45 r.
 ///
 /// Stitches have 1000 N/m, the scripts' `k_stitch`, and are 7.5 mm apart. A seam under 3 N/m opens by 22 µm, a
-/// hundredth of r. Cloth under this load has a strain of 12 %, more than 99 % of the published start.
+/// hundredth of r. Cloth under this load has a strain of 12 %; 99 % of the published start is strained less.
 compare::Scene dress(const DressSizes& sizes = {});
 
 /// Returns the scene of the data set. Each panel becomes a body with its own numbering; the character is the last body.

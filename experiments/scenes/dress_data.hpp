@@ -28,14 +28,14 @@ struct DressData {
   std::vector<compare::Index> panel_of_triangle;  ///< panel of each triangle, from 0
   std::vector<Stitch> stitches;                   ///< stitches of the garment
   compare::Mesh body;                             ///< at the start [m]
-  /// the body's vertices in each frame [m], translated so that frame 0 is at the body's start
+  /// the body's vertices in each frame [m], translated so that frame 0 is at the positions of `body`
   std::vector<std::vector<compare::Vec3>> motion;
 };
 
 /// Reads the data set from `folder` or its subfolders dress_knife and Rumba_Dancing. stage.obj has the pattern (`vt`),
 /// the panels and the stitches; drape.obj has the garment and the body at the start; shell0.obj … have the body every
 /// 0.04 s. Throws compare::InputError that names the file if it is missing or unreadable, has other counts, stitches a
-/// vertex that does not exist, or begins the motion with another shape than that of the start.
+/// vertex that does not exist, or if the first frame's body differs in shape from the body at the start.
 DressData read_dress_data(const std::filesystem::path& folder, const DressCounts& counts = {});
 
 }  // namespace ogc::experiments

@@ -6,7 +6,7 @@
 
 namespace ogc::experiments {
 
-/// Returns the numbers of the bodies of triangles whose vertices are all prescribed.
+/// Returns the indices of the driven bodies: bodies of triangles whose vertices all have a prescribed motion.
 std::vector<std::size_t> driven_bodies(const compare::Scene& scene);
 
 /// Sets the kind of contact of driven bodies and of bodies with tetrahedra. If there are driven bodies, also sets γ_e.

@@ -52,7 +52,7 @@ std::vector<Vec3> control_points() {
 }
 
 /// A centripetal Catmull–Rom curve: consecutive knots differ by the square root of the chord. One more point is added
-/// at both ends: the neighbour of the end point, reflected in the end point.
+/// at each end of the curve: its neighbour, reflected in the end point.
 class Curve {
  public:
   explicit Curve(const std::vector<Vec3>& through) {

@@ -12,7 +12,8 @@ struct LargeRadiusTwistSizes {
   std::int64_t steps = 1200;             ///< 4 s: half a turn of one end relative to the other
 };
 
-/// Returns the scene: cloth and handles of twist, which rotate at ±π/8 rad/s. IPC's barrier distance is r.
+/// Returns the scene: the cloth and handles of the scene twist; the handles rotate at ±π/8 rad/s. IPC's barrier
+/// distance is r.
 compare::Scene large_radius_twist(const LargeRadiusTwistSizes& sizes = {});
 
 }  // namespace ogc::experiments

@@ -1,5 +1,5 @@
 // A limb first rotates about the x axis through its joint, then everything rotates about the y axis. Knees stay
-// straight, because the hollow of a bent knee would pinch the cloth, which would stop the leg.
+// straight, because a bent knee would pinch the cloth in its hollow, and the cloth would stop the leg.
 #include "experiments/scenes/mannequin.hpp"
 
 #include <algorithm>

@@ -16,8 +16,8 @@ struct MannequinSizes {
 /// Appends the mannequin as a body without energies. All of its vertices have one motion, so that overlapping capsules
 /// are not in contact. It stands upright on the y axis and faces +z. Keyframes are 0.04 s apart, as in Codimensional
 /// IPC's data set. Thighs swing by ±0.4 rad, arms swing in the opposite direction, and the body rotates by ±0.15 rad,
-/// with a step every 0.8 s. The motion starts from rest within 0.8 s. These numbers are our choice; no vertex is faster
-/// than 2 m/s (tests/experiments/scenes/dress.cpp).
+/// with a footstep every 0.8 s. The motion starts from rest within 0.8 s. These numbers are our choice; no vertex is
+/// faster than 2 m/s (tests/experiments/scenes/dress.cpp).
 void append_mannequin(compare::Scene& scene, const MannequinSizes& sizes, const compare::Material& surface);
 
 }  // namespace ogc::experiments

@@ -113,7 +113,8 @@ compare::Mesh table(double spacing) {
   return mesh;
 }
 
-/// Holds the pose of both grippers [m]: the upper side of the lower jaws, and the distance of the upper jaws from it.
+/// Holds the pose of both grippers [m]: the position (y, z) of the upper side of the lower jaws, and the distance
+/// `opening` of the upper jaws above it.
 struct Pose {
   double y, z, opening;
 };
@@ -145,7 +146,7 @@ class Trajectory {
   }
 
  private:
-  /// Returns a swing with an amplitude of 1.5 cm that grows and fades.
+  /// Returns the displacement [m] of the shake at time t. Its amplitude grows to 1.5 cm and fades.
   static double shake(double t) {
     constexpr double begin = 2.0, end = 3.0, hertz = 2.5;
     if (t <= begin || t >= end) return 0;
@@ -198,7 +199,7 @@ Scene robot_shirt(const RobotShirtSizes& sizes) {
   const Trajectory trajectory(radius);
   append_gripper(scene, "left_gripper", -0.15, spacing, trajectory);
   append_gripper(scene, "right_gripper", 0.15, spacing, trajectory);
-  // a step thus moves the jaws by the same fraction of r at every scale
+  // Makes a step move the jaws by the same fraction of r at every scale.
   scene.settings.time_step = 1.0 / 600 * 56 / sizes.across;
   scene.settings.steps = sizes.steps;
   scene.settings.iterations = 10;

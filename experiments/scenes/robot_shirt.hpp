@@ -26,8 +26,8 @@ struct RobotShirtSizes {
 /// The table ends 6 cm before the shoulders; the lower jaws start under the shoulders at y = 0. Jaws are closed boxes.
 /// Each gripper is one motion with keyframes 1/60 s apart: approach and pinch (0.5 s), lift, shake, move back, lay
 /// down, fold over, open and withdraw (6 s). The pinch narrows the jaws to 2.2 r, which presses the two layers, because
-/// at rest each layer is r away from its neighbours. While they hold the shirt, jaws move at most at 0.35 m/s, 0.3 r a
-/// step. Jaws are volumes with the paper's γ_e = 0.01; the table is a surface.
+/// at rest each layer is r away from its neighbours. While they hold the shirt, jaws move at most at 0.35 m/s, 0.3 r
+/// per step. Jaws are volumes with the paper's γ_e = 0.01; the table is a surface.
 /// As surfaces (`--set body_contact=surface`) jaws obey bounds, up to γ_p r_q = 3.6 mm in one detection. Cloth that a
 /// jaw lifts is closer than r, so both move by less than r/2. With a lift at 1 m/s and γ_e = 0.01 the few vertices
 /// between jaws and shirt trigger no detection. Distances then fall below the spacing of single precision, and the

@@ -9,12 +9,12 @@ namespace ogc::experiments {
 
 /// Returns a square sheet of `side` × `side` [m] in the plane y = `height`, centred on the y axis, with `count` ×
 /// `count` vertices, `count` ≥ 2. Each cell has two triangles with alternating ("cross") diagonals: cell (i, j) is cut
-/// from (i, j) to (i+1, j+1) if i + j is even. Vertex (i, j) has number i · count + j, where i counts along x and j
+/// from (i, j) to (i+1, j+1) if i + j is even. Vertex (i, j) has index i · count + j, where i counts along x and j
 /// along z. Normals point up.
 compare::Mesh grid(compare::Index count, double side, double height);
 
 /// Returns the triangles of a sheet of `rows` × `columns` vertices, both ≥ 2, which is cut like `grid`. Vertex (i, j)
-/// has number i · `columns` + j.
+/// has index i · `columns` + j.
 std::vector<compare::Triangle> cross_diagonals(compare::Index rows, compare::Index columns);
 
 /// Returns a ground of 4 m × 4 m at `height` [m] for a cloth of 1 m with `vertices_a_side`. Its triangles are at most a
@@ -43,7 +43,7 @@ struct CapsuleCells {
 };
 
 /// Returns a capsule: a round bar from `from` to `to` [m] that ends in half balls of `radius`. All vertices lie on the
-/// round surface; normals point outward. `around` ≥ 3, the others ≥ 1.
+/// round surface; normals point outward. `around` ≥ 3, `along` and `cap` ≥ 1.
 compare::Mesh capsule(const CapsuleCells& cells, double radius, const compare::Vec3& from, const compare::Vec3& to);
 
 /// Returns a closed box from corner `low` to corner `high` [m] with `cells` ≥ 1 along x, y and z. Normals point

@@ -13,7 +13,7 @@ struct ThreeClothsSizes {
   std::int64_t iterations = 500;        ///< sweeps in each step
 };
 
-/// Returns the scene: the sphere of cloth_on_sphere and three of its cloths, at y = 0.30 m and 2 r and 4 r above.
+/// Returns the scene: the sphere of cloth_on_sphere and three of its cloths, which lie 0, 2 r and 4 r above y = 0.30 m.
 compare::Scene three_cloths_on_sphere(const ThreeClothsSizes& sizes = {});
 
 }  // namespace ogc::experiments

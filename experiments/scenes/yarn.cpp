@@ -1,8 +1,8 @@
 // The curve of a row is from Crane (2023, A Simple Parametric Model of Plain-Knit Yarns): x = w t/2π + a sin 2t, y = h
 // cos t, z = d cos 2t. The lengths are our choice: neighbouring yarns start 2.95 mm apart, within their contact radius
 // of 3 mm. Half circles join consecutive rows, so that the cloth is one rod, as in hand knitting. Yarn of 1 g/m,
-// contact radius and time step are the paper's (Table 1, §5.2). k_s, k_b, speeds and the held vertices are from the
-// second author's public yarn code; 222 N/m is its k_c in this unit.
+// contact radius and time step are the paper's (Table 1, §5.2). k_s, k_b, k_c (222 N/m after conversion), speeds and
+// the held vertices are from the second author's public yarn code.
 #include "experiments/scenes/yarn.hpp"
 
 #include <algorithm>
@@ -59,7 +59,7 @@ std::vector<double> equal_arcs() {
 /// Sets numbers below 1 nm to 0, so that exact arithmetic stays cheap.
 double tidy(double x) { return std::abs(x) < 1e-9 ? 0 : x; }
 
-/// Returns the yarn from end to end, centred in the plane z = 0. Wales run along y.
+/// Returns the yarn from end to end, centred in the plane z = 0. Wales (columns of loops) run along y.
 std::vector<Vec3> knit(const YarnSizes& sizes) {
   const std::vector<double> parameters = equal_arcs();
   std::vector<Vec3> row;

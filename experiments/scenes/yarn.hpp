@@ -1,4 +1,5 @@
-// Fig. 15 and 16: a plain knit of one yarn is pulled apart at two edges across the wales, or twisted between them.
+// Fig. 15 and 16: a plain knit of one yarn is pulled apart along its wales (columns of loops), or twisted about their
+// direction.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@ struct YarnSizes {
 compare::Scene yarn_stretch(const YarnSizes& sizes = {});
 
 /// Returns the twisted knit. It hangs vertically with its upper edge held. Its lower edge rotates about the vertical at
-/// π rad/s and is then held.
+/// π rad/s for `turns` turns and is then held.
 compare::Scene yarn_twist(const YarnSizes& sizes = {.steps = 27500});
 
 }  // namespace ogc::experiments

@@ -65,8 +65,8 @@ class FrameArray : public MeshSequence {
     source_(bytes_, frame);
   }
 
-  /// Sets `begin_` to where the current frame, in C order, begins in `bytes_`. Reads the array again unless the
-  /// last pass gathered this frame.
+  /// Sets `begin_` to the position in `bytes_` at which the current frame begins, in C order. Reads the array again
+  /// unless the last pass gathered this frame.
   void gather(const std::string& frame) {
     if (next_ >= gathered_end_) {
       gathered_ = next_;
@@ -78,7 +78,7 @@ class FrameArray : public MeshSequence {
     begin_ = (next_ - gathered_) * layout_.frame_bytes();
   }
 
-  /// Reads the whole array once and gathers frames. Number e of the array is coordinate e / (frames · vertices) of
+  /// Reads the whole array once and gathers frames. Entry e of the array is coordinate e / (frames · vertices) of
   /// vertex e / frames mod vertices in frame e mod frames.
   void pass(const std::string& frame) {
     const std::size_t width = size_of(layout_.type);

@@ -18,7 +18,7 @@ class InputFile {
   const std::string& name() const { return name_; }     ///< its name in messages
   std::uint64_t size() const { return size_; }          ///< size when it was opened [bytes]
   std::uint64_t position() const { return position_; }  ///< position of the next byte
-  /// Fills `bytes` from the current position. If the file ends before that, throws InputError that names `what` and the
+  /// Fills `bytes` from the current position. If the file ends earlier, throws InputError that names `what` and the
   /// byte.
   void read(std::span<char> bytes, const std::string& what);
 

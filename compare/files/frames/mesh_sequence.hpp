@@ -34,10 +34,10 @@ std::unique_ptr<MeshSequence> mesh_files_sequence(std::vector<std::filesystem::p
 /// - Positions: `positions` [frames, vertices, 3], or [vertices, 3] for one frame, or one numbered array for each frame
 ///   (`frame_0`, `frame_1`; `arr_0`, …). Other names: x, vertices, points, verts, v, V, and SMPL's v_template.
 /// - Faces, whole numbers: `triangles` [n, 3] and `edges` [n, 2] (edges without a triangle). Other names of triangles:
-///   faces, f, F. Without any such name one numbered array of whole numbers [n, 3] has the triangles.
+///   faces, f, F. If no array has such a name, one numbered array of whole numbers [n, 3] has the triangles.
 ///
-/// If the archive has neither faces nor edges, those of `topology` are used. A topology with positions must have as
-/// many as a frame.
+/// If the archive has neither faces nor edges, the faces and edges of `topology` are used. If `topology` has positions,
+/// it must have as many vertices as a frame.
 std::unique_ptr<MeshSequence> npz_sequence(const std::filesystem::path& file, const Mesh* topology);
 
 /// Reads the frames of arrays of positions (numpy.save), one file after another, with the shapes and orders of
@@ -53,8 +53,8 @@ Mesh faces_in_arrays(const std::filesystem::path& file);
 /// little-endian).
 std::unique_ptr<MeshSequence> pc2_sequence(const std::filesystem::path& file, const Mesh* topology);
 
-/// Returns the files of a folder that have one of these extensions (".obj"; in any case), in natural order. Throws
-/// InputError if there are several kinds of such files, or none.
+/// Returns the files of a folder that have one of these extensions (".obj"; upper and lower case are equal), in natural
+/// order. Throws InputError if the files have several of these extensions, or if there is no such file.
 std::vector<std::filesystem::path> mesh_files_in(const std::filesystem::path& folder,
                                                  const std::vector<std::string>& extensions);
 

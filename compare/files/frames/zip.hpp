@@ -22,7 +22,7 @@ class ZipFile {
   const std::vector<std::string>& members() const { return members_; }  ///< names in the archive's order
   /// Opens a member at its beginning; only the last opened member can be read. Throws InputError.
   void open(const std::string& member);
-  /// Fills `bytes` from the open member. If the member ends before that or is damaged, throws InputError that names the
+  /// Fills `bytes` from the open member. If the member ends earlier or is damaged, throws InputError that names the
   /// archive, the member, `what` and the byte. The checksum is compared at the member's end.
   void read(std::span<char> bytes, const std::string& what);
   /// Returns the size of the open member, unpacked [bytes].

@@ -174,8 +174,8 @@ class GltfReader {
                     " bytes; write it with a mesh for each node");
   }
 
-  /// Adds all vertices that occur in `corners` to the mesh, transformed. Returns the corners as vertex numbers of the
-  /// mesh.
+  /// Adds all vertices that occur in `corners` to the mesh, transformed. Returns the corners as indices of the mesh's
+  /// vertices.
   std::vector<Index> place(const std::vector<double>& x, const std::vector<double>& corners, const Transform& transform,
                            const std::string& owner) {
     std::vector<Index> number(x.size() / 3, -1), placed;

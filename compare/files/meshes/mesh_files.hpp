@@ -31,7 +31,7 @@ Mesh read_mesh(const std::filesystem::path& path);
 /// Returns the extensions that can be read: ".obj", …
 std::vector<std::string> mesh_extensions();
 
-/// Returns whether the extension is one of a mesh file that can be read, in capitals or not.
+/// Returns whether mesh files with this extension can be read. Upper and lower case are equal.
 bool is_mesh_file(const std::filesystem::path& path);
 
 enum class PlyEncoding { ascii, binary };  ///< format of a PLY file

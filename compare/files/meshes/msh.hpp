@@ -1,5 +1,5 @@
-// Reads and writes Gmsh's mesh files, formats 2.2 and 4.1 in text: nodes and tetrahedra are read; of other contents
-// only the length is checked.
+// Reads and writes Gmsh's mesh files, formats 2.2 and 4.1 in text. Reads nodes and tetrahedra, and checks only the
+// length of other contents.
 #pragma once
 
 #include <string>

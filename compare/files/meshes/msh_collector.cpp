@@ -107,7 +107,7 @@ std::string MshCollector::elements_left_out() const {
   return text.empty() ? "nothing" : text;
 }
 
-/// Converts a tag, which counts from 1, to a number of MeshSource, which counts from 0. Throws InputError if the tag is
+/// Converts a tag, which counts from 1, to an index of MeshSource, which counts from 0. Throws InputError if the tag is
 /// not from 1 to 2³¹ − 1.
 Index MshCollector::file_number(std::int64_t tag, std::size_t place) const {
   if (tag < 1 || tag > std::numeric_limits<Index>::max())
@@ -126,7 +126,7 @@ void MshCollector::place_nodes() {
     mesh_.source.vertices.push_back(file_number(node.tag, node.place));
   }
   if (nodes_.back().tag != std::ssize(nodes_)) return;
-  mesh_.source.vertices.clear();  // the file's numbers are those of the mesh
+  mesh_.source.vertices.clear();  // the file and the mesh number vertices equally
   if (is_binary_) return;
   for (const Node& node : nodes_) mesh_.source.vertex_lines.push_back(node.place);
 }

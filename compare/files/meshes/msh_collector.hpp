@@ -38,14 +38,14 @@ class MshCollector {
   /// Starts without nodes. `name` is the file's name and must outlive the collector.
   MshCollector(const std::string& name, bool is_binary);
 
-  /// Returns the type with this number. Throws InputError for unknown types and for elements with volume other than
+  /// Returns the type with this number. Throws InputError for unknown types, and for volume elements that are no
   /// tetrahedra of four nodes.
   const MshElementType& type_of(std::int64_t number, std::size_t place) const;
   void add_node(std::int64_t tag, std::size_t place, const Vec3& position);  ///< adds a node
   /// Adds an element. Elements other than tetrahedra are only counted.
   void add_element(const MshElementType& type, std::int64_t tag, std::size_t place,
                    std::span<const std::int64_t> nodes);
-  /// Returns the mesh; tetrahedra refer to nodes by their numbers in the mesh. Throws InputError if there is no node or
+  /// Returns the mesh; tetrahedra refer to nodes by their indices in the mesh. Throws InputError if there is no node or
   /// no tetrahedron, or if a tag is repeated, unknown, or not from 1 to 2³¹ − 1.
   PolygonMesh finish();
 

@@ -1,5 +1,5 @@
-// A face may name vertices that come later, so indices are checked when the whole file is read; each face keeps its
-// line for the message.
+// A face may name vertices that come later. So indices are checked after the whole file is read, and each face stores
+// its line number for error messages.
 #include "compare/files/meshes/obj.hpp"
 
 #include <algorithm>
@@ -55,8 +55,8 @@ class ObjParser {
     mesh_.source.vertex_lines.push_back(line_);
   }
 
-  /// Returns the number of the corner's vertex, counted from 0. Vertices may follow later, so the upper limit is
-  /// checked when the whole file is read.
+  /// Returns the index of the corner's vertex, counted from 0. Vertices may follow later, so the upper limit is checked
+  /// after the whole file is read.
   Index corner(std::string_view word) const {
     std::int64_t i = 0;
     if (!parse_number(word.substr(0, word.find('/')), i) || i == 0) {

@@ -10,8 +10,8 @@
 namespace ogc::compare {
 
 /// Parses vertices (x, y, z of any scalar type), faces (list vertex_indices or vertex_index, three entries or more) and
-/// edges (vertex1, vertex2: the loose ones); other properties and elements are skipped, triangle strips refused. `name`
-/// begins the errors. Throws InputError that names the element.
+/// loose edges (vertex1, vertex2). Other properties and elements are skipped, triangle strips refused. `name` begins
+/// the errors. Throws InputError that names the element.
 PolygonMesh parse_ply(std::string_view bytes, const std::string& name);
 
 /// Returns the file with positions as double; binary in the byte order of this machine.

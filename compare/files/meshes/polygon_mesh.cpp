@@ -143,7 +143,7 @@ class MeshMaker {
     for (const Index v : kept) in_.source.first_faces.push_back(first_face[at(v)]);
   }
 
-  /// Cuts all faces into triangles, and notes the number of each triangle's face. Some triangles may name a vertex
+  /// Cuts all faces into triangles, and stores the index of each triangle's face. Some triangles may name a vertex
   /// twice.
   void cut() {
     std::size_t cut_faces = 0, made = 0, first = 0;

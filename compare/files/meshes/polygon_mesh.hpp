@@ -16,7 +16,7 @@ namespace ogc::compare {
 /// A mesh of polygons. All indices are valid; positions are finite. `triangles` is empty, because the polygons replace
 /// them.
 struct PolygonMesh : Mesh {
-  std::vector<Index> corners;        ///< of all faces, one after the other, each face in its own order
+  std::vector<Index> corners;        ///< corners of all faces, face after face
   std::vector<Index> face_ends{};    ///< by face: index in `corners` after its last corner
   MeshSource source;                 ///< places of its elements in the file
   std::vector<std::string> notes{};  ///< contents of the file that the mesh lacks
@@ -37,8 +37,7 @@ struct MeshOptions {
   bool drop_unused = true;  ///< leave out vertices that belong to no face and no edge
   bool weld = false;  ///< merge vertices with exactly equal coordinates; formats without shared vertices (STL, glTF)
                       ///< are always welded
-  /// neither leave out nor refuse unused vertices, and do not check positions: for a mesh whose vertices and positions
-  /// another file gives
+  /// keep unused vertices and do not check positions, because another file gives the vertices and positions
   bool keep_unused = false;
   bool strict = false;  ///< refuse collapsed, zero-area and repeated faces, and inverted tetrahedra
   /// also leave out triangles that have no area once dust is 0 and coordinates are rounded to single precision, as
@@ -50,7 +49,7 @@ struct MeshOptions {
   friend bool operator==(const MeshOptions&, const MeshOptions&) = default;
 };
 
-/// Holds a mesh, where its elements are in the file, and a sentence for each change. The triangles of a mesh of
+/// Holds a mesh, the places of its elements in the file, and a sentence for each change. The triangles of a mesh of
 /// tetrahedra are their boundary.
 struct LoadedMesh {
   Mesh mesh;                       ///< of triangles
@@ -59,7 +58,8 @@ struct LoadedMesh {
   Vec3 origin{};                   ///< point that positions are relative to, in the file's coordinates [m]
 };
 
-/// Leaves out faces and loose edges, with a note, if the mesh has tetrahedra, which determine the surface of a solid.
+/// Leaves out faces and loose edges, with a note, if the mesh has tetrahedra, because these determine the solid's
+/// surface.
 void keep_solid(PolygonMesh& mesh);
 
 /// Makes a mesh of triangles. Leaves out, with a note, faces that name fewer than three different vertices or have no

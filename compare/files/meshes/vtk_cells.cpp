@@ -28,7 +28,7 @@ constexpr std::array<Kind, 10> kinds{{{1, 1, false, "vertex"},
                                       {9, 4, false, "quad"},
                                       {10, 4, false, "tetrahedron"}}};
 
-/// Kinds that have volume and are no tetrahedra of four vertices.
+/// Kinds of volume cells that cannot be read: all except tetrahedra of four vertices.
 constexpr std::array<std::pair<int, std::string_view>, 8> unread{{{11, "a voxel"},
                                                                   {12, "a hexahedron"},
                                                                   {13, "a wedge"},

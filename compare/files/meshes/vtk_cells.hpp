@@ -1,4 +1,4 @@
-// Reads cells of VTK's files; its XML and its older format use the same numbers for their kinds.
+// Reads cells of VTK's files. VTK's XML format and its older format use the same numbers for kinds of cells.
 #pragma once
 
 #include <functional>
@@ -10,14 +10,15 @@
 
 namespace ogc::compare {
 
-/// Makes the cells of a file, given by VTK's numbers for their kinds, into tetrahedra, faces and loose edges of a mesh.
+/// Converts the cells of a file to tetrahedra, faces and loose edges of a mesh. VTK's numbers give the cells' kinds.
 class VtkCells {
  public:
-  /// Adds to `mesh`. `name` is the file's, for errors and notes. Both must outlive this object.
+  /// Adds to `mesh`. `name` is the file's name, for errors and notes. Both must outlive this object.
   VtkCells(PolygonMesh& mesh, const std::string& name) : mesh_(mesh), name_(name) {}
 
-  /// Adds a cell, whose corners are vertices of the mesh. Throws InputError that names the cell if its kind is not read
-  /// (hexahedra, wedges, pyramids, cells of higher order), or if its kind has another number of corners.
+  /// Adds a cell, whose corners are vertices of the mesh. Throws InputError that names the cell if this kind of cell
+  /// cannot be read (hexahedra, wedges, pyramids, cells of higher order), or if this kind has another number of
+  /// corners.
   void add(int kind, std::span<const Index> corners);
   /// Leaves out, with a note, single points and, if there are tetrahedra, all other cells.
   void finish();
@@ -31,10 +32,10 @@ class VtkCells {
   std::size_t cells_ = 0, points_ = 0;
 };
 
-/// VTK's numbers for the kinds of cells in its lists of PolyData.
+/// VTK's numbers for kinds of cells that PolyData lists.
 inline constexpr int vtk_poly_line = 4, vtk_strip = 6, vtk_polygon = 7;
 
-/// Converts a number of an array to a cell's kind; returns −1 if the number cannot be one.
+/// Converts a number of an array to a kind of cell; returns −1 if no kind can have this number.
 int vtk_kind(double value);
 
 /// Holds the corners of all cells of a piece in one list, cell after cell. Corners count from 0 in the piece, whose
@@ -47,8 +48,9 @@ struct VtkCellLists {
   std::size_t count = 0;        ///< number of vertices of the piece
 };
 
-/// Calls use(number of the cell, its corners as vertices of the mesh) for each cell. Throws InputError that names the
-/// cell: ends that do not ascend or exceed the corners, a corner that is no vertex of the piece.
+/// Calls use(index of the cell, its corners as vertices of the mesh) for each cell. Throws InputError that names the
+/// cell: an end that is less than the previous end or exceeds the number of corners, a corner that is no vertex of the
+/// piece.
 void each_vtk_cell(const VtkCellLists& lists, const std::function<void(std::size_t, std::span<const Index>)>& use);
 
 /// Appends points to the mesh, three numbers each. Throws InputError that begins with `where` if the numbers are no

@@ -1,5 +1,5 @@
-// Reads VTK's older format (.vtk), in text and in binary. Versions before 5 and from 5 on write cells differently; both
-// are read.
+// Reads VTK's older format (.vtk), in text and in binary. Reads the cells of versions before 5 and of version 5, which
+// differ.
 #pragma once
 
 #include <string>

@@ -11,8 +11,8 @@
 
 namespace ogc::compare {
 
-/// Returns the orientations of an open file, which messages call `path`; empty if it has none. Their length is not
-/// checked. Throws InputError.
+/// Returns the orientations of an open file; empty if it has none. Does not check that they have length 1. Throws
+/// InputError, which calls the file `path`.
 std::vector<Quaternion> read_orientations(const Hdf5File& file, const std::string& path);
 
 /// Throws InputError that names the first entry that is no unit quaternion, if there is one.

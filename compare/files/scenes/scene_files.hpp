@@ -29,7 +29,7 @@ Scene read_scene(const std::filesystem::path& file);
 struct SceneFile {
   Scene scene;                     ///< the valid scene, rounded to single precision
   MeshSources sources;             ///< places of the bodies' elements in their files
-  std::vector<std::string> notes;  ///< a sentence for each change against the file
+  std::vector<std::string> notes;  ///< a sentence for each difference from the file
   Vec3 origin{};                   ///< point that positions are relative to, in the coordinates of a mesh's file [m]
 };
 
@@ -40,8 +40,8 @@ SceneFile load_scene_file(const std::filesystem::path& file);
 /// positions). Returns the path of the JSON file.
 std::filesystem::path write_scene(const std::filesystem::path& folder, const Scene& scene);
 
-/// Returns the `excluded_pairs` of a scene file: one entry for each run of pairs between the same two bodies, in the
-/// order of `pairs`. Vertices are numbered within each body.
+/// Returns the `excluded_pairs` of a scene file: one entry for each sequence of pairs between the same two bodies, in
+/// the order of `pairs`. Vertices are numbered within each body.
 nlohmann::ordered_json excluded_pairs_json(std::span<const Body> bodies, std::span<const std::array<Index, 2>> pairs);
 
 /// Returns the JSON Schema of scene files.

@@ -74,7 +74,7 @@ double read_between(const JsonNode& node, double least, double most, const char*
   return value;
 }
 
-/// Reads E and ν in place of both Lamé constants.
+/// Reads E and ν, which replace both Lamé constants.
 void read_elasticity(JsonObject& object, Material& material) {
   std::optional<double> modulus, ratio;
   object.optional("solid_young", [&](const JsonNode& node) {
@@ -388,7 +388,7 @@ class SceneReader {
     return false;
   }
 
-  // Reads a vertex, given by a body and a number within the body. Returns −1 and notes a problem if there is no such
+  // Reads a vertex, given by a body and an index within the body. Returns −1 and notes a problem if there is no such
   // vertex.
   Index read_end(const JsonNode& node) {
     JsonObject object(node);
@@ -412,8 +412,8 @@ class SceneReader {
     return nullptr;
   }
 
-  // Reads a selection: all vertices of a body, those in a box, or those listed; numbered within the body. Boxes refer
-  // to the positions in the mesh file, without dust.
+  // Reads a selection: all vertices of a body, the vertices in a box, or listed vertices, whose indices count within
+  // the body. Boxes refer to the positions in the mesh file, without dust.
   void read_selection(const JsonNode& node, std::vector<Index>& vertices) {
     JsonObject object(node);
     const Body* body = nullptr;
