@@ -13,13 +13,13 @@ namespace ogc::compare {
 template <std::size_t capacity>
 class Expansion {
  public:
-  /// Adds a b, which takes two components.
+  /// Adds the product a b as two components.
   void add_product(double a, double b) {
     const double product = a * b;
     add(std::fma(a, b, -product));
     add(product);
   }
-  /// Adds a b c, which takes four components.
+  /// Adds the product a b c as four components.
   void add_product(double a, double b, double c) {
     const double product = a * b;
     add_product(std::fma(a, b, -product), c);

@@ -8,10 +8,10 @@
 
 namespace ogc::compare {
 
-/// Nearly parallel edges that overlap (compare/stages/closest_points.hpp) are a contact of their interiors if they are
-/// nearer than r and their closest points lie in each other's blocks. If they are exactly parallel, the closest points
-/// at either end of the overlap count. Two edges without triangles are a contact if they are nearer than r, whatever
-/// the blocks.
+/// Nearly parallel edges that overlap (compare/stages/closest_points.hpp) are a contact of their interiors if two
+/// conditions hold: they are nearer than r, and each closest point lies in the block of the other edge. Exactly
+/// parallel edges have a pair of closest points at each end of the overlap; one of these pairs must satisfy the second
+/// condition. Two edges without triangles need only the first condition.
 ///
 /// A contact is an unordered pair {p, q}, each a vertex or the interior of an edge, first < second as faces.
 /// `first_edge` contains `first`, and `second_edge` contains `second`. If several pairs of edges generate the contact,

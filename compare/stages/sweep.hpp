@@ -74,9 +74,9 @@ struct SweepOut {
 /// `accepted` is also infinite if half-spaces cut a free vertex, or may cut it. The judge then only requires that the
 /// vertex lies in its region. Stage truncate judges how it slides.
 struct SweepTruth {
-  std::vector<Vec3> position;          ///< computed from the answer's positions of the neighbours [m]
-  std::vector<double> accepted;        ///< largest error [m]
-  std::vector<std::uint8_t> grey;      ///< 1 where a decision may go either way
+  std::vector<Vec3> position;      ///< computed from the answer's positions of the neighbours [m]
+  std::vector<double> accepted;    ///< largest error [m]
+  std::vector<std::uint8_t> grey;  ///< 1 where a decision may go either way
   /// number of certain cuts, and of doubtful ones (proposals within their error of the bound)
   Index cut = 0, cut_doubtful = 0;
   std::vector<Index> free_segments{};  ///< segments with an entry in `orientation`, ascending

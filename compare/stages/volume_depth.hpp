@@ -80,7 +80,7 @@ struct VolumeAnswer {
 /// A group of sheets of a part of tetrahedra at one point, and its accepted contacts. Sheets that cannot be told apart
 /// with certainty form one group; most groups have one sheet.
 struct VolumeSheetTruth {
-  int exact = 0;                       ///< number of the group's sheets in the exact answer
+  int exact = 0;            ///< number of the group's sheets in the exact answer
   bool is_certain = false;  ///< whether the group has exactly one sheet for every outcome of the grey decisions
   std::vector<VolumeAnswer> accepted;  ///< each is accepted as the group's contact; the exact ones come first
   int exact_contacts = 0;              ///< number of exact contacts at the front of `accepted`
