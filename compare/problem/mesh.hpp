@@ -55,9 +55,9 @@ struct Topology {
   std::vector<Index> non_manifold_edges;  ///< edges with three or more triangles
   std::vector<Index> component;           ///< component number of each vertex, numbered by first vertex
 
-  /// By vertex: 1 for a vertex inside a solid (a vertex of tetrahedra without edges in this topology), and for each
-  /// vertex of a volume (§3.9). Edges and triangles of volumes are then off the surface, too. Empty if all vertices are
-  /// on the surface.
+  /// By vertex: 1 for a vertex inside a solid (on a tetrahedron, but in no edge of this topology), and for each vertex
+  /// of a volume (§3.9). Edges and triangles of volumes are then off the surface, too. Empty if all vertices are on the
+  /// surface.
   std::vector<std::uint8_t> off_surface;
 
   /// Returns whether a vertex is on the surface. All other vertices take no part in detection, contact among surfaces

@@ -132,7 +132,7 @@ struct TetrahedraOfMesh {
 /// All lists of elements that a mesh has. The triangles come first; they contain the surface of the tetrahedra.
 using MeshLists = std::tuple<TrianglesOfMesh, LooseEdgesOfMesh, TetrahedraOfMesh>;
 
-/// Is true for lists of elements with consecutive ranges by body.
+/// Is true for lists in which the elements of each body are consecutive.
 template <class List>
 concept HasRange = requires {
   List::first;
@@ -160,8 +160,8 @@ bool has_volume(const Mesh& mesh);
 /// Returns the boundary of a mesh's elements with volume, or its triangles if it has none.
 std::vector<Triangle> surface_triangles(const Mesh& mesh);
 
-/// Holds positions at given times. Vertices move along straight lines from one to the next, and rest before the first
-/// and after the last.
+/// Holds positions at given times. Between two times vertices move along straight lines; before the first and after the
+/// last they rest.
 struct Keyframes {
   std::vector<double> times;     ///< ascending [s]; empty or at least two
   std::vector<Vec3f> positions;  ///< [m]; frame by frame, the vertices of each in the order of the motion

@@ -1,7 +1,7 @@
 // Stage membrane: force and block of one corner of one triangle, damping included (method.md §4.6, §4.9). There are two
-// models: St. Venant–Kirchhoff, and stable Neo-Hookean (Smith, de Goes and Kim 2018: ψ = μ/2 (I_C − d) − μ (J − 1) +
-// λ'/2 (J − 1)²) on a membrane's F. F is 3×2, so d = 2 and J is the ratio of areas. λ' = λ + μ makes its stiffness at
-// rest that of St. Venant–Kirchhoff with the same λ, μ.
+// models: St. Venant–Kirchhoff, and stable Neo-Hookean on a membrane's 3×2 F (Smith, de Goes and Kim 2018: ψ = μ/2 (I_C
+// − d) − μ (J − 1) + λ'/2 (J − 1)² with d = 2 and J the ratio of areas). With λ' = λ + μ both models have the same
+// stiffness at rest.
 #pragma once
 
 #include "compare/problem/scene.hpp"
