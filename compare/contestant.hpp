@@ -61,17 +61,17 @@ struct StepLedger {
   double energy_commit = 0;  ///< change from the last x to the start of the next step
   Vec3 momentum_start, momentum_guess, momentum_sweep, momentum_truncation;  ///< Σ m v at the start, and its changes
   double motion_proposed = 0, motion_taken = 0;  ///< motion that sweeps propose, and the part that truncation takes
-  /// parts of motion_taken along, and away from, the nearest pair
+  /// parts of motion_taken across, and against, the normal towards the nearest pair's other side
   double motion_taken_tangential = 0, motion_taken_leaving = 0;
   double motion_taken_unpaired = 0;  ///< part of motion_taken at vertices without a pair within r_q
-  /// number of free vertices whose step ends at xᵗ bit for bit; number of them that the last iteration cut
+  /// number of free vertices whose final position is xᵗ bit for bit; number of these that the last iteration cut
   double vertices_still = 0, vertices_held = 0;
 };
 
 /// One row of steps.csv. Times are in ms. A quantity that was not requested is not-a-number.
 struct StepMetrics {
   std::int64_t step = 0;  ///< number of the step that this row describes, from 1
-  /// CPU: steady clock; CUDA: device events over the frame, divided by its steps
+  /// time of the step: by a steady clock, or by device events if CUDA replays a recorded step
   double wall_ms = 0;
   std::int64_t vertex_facet_contacts = 0, edge_edge_contacts = 0;  ///< at the last detection
   /// number of passes that built or refitted the trees and searched them once for all pairs
@@ -91,28 +91,34 @@ struct StepMetrics {
   /// √(Σ m ‖Δx‖²) of free vertices in the last sweep or iteration, divided by its value for the whole step; 0 if
   /// nothing moves [1]
   double last_motion = std::numeric_limits<double>::quiet_NaN();
-  /// Three quantities that only some steps report (method.md §6): Eq. 29 with the contacts of the step, over free
-  /// vertices that no bound holds; the part of this residual that rounded positions may cause [1]; the number of free
-  /// vertices that a bound holds.
+  /// Quantities that only some steps report (method.md §6):
+  ///
+  /// - left_residual: Eq. 29 with the contacts of the step, over free vertices that no bound holds
+  /// - left_rounding: upper limit of the part of left_residual that rounding of positions causes [1]
+  /// - left_held: number of free vertices that a bound holds
   double left_residual = std::numeric_limits<double>::quiet_NaN(),
          left_rounding = std::numeric_limits<double>::quiet_NaN(), left_held = std::numeric_limits<double>::quiet_NaN();
   double kinetic_energy = 0, elastic_energy = 0, contact_energy = 0, gravity_energy = 0;  ///< [J]
   double smallest_distance = 0;          ///< smallest d_min at the last detection (r_q if no pair is near) [m]
   std::int64_t inverted_tetrahedra = 0;  ///< tetrahedra with J ≤ 0 at the end of the step
-  /// at the last detection: contacts with volumes; tested vertices inside a volume; their largest distance from the
-  /// surface [m]; sheets of tetrahedra around them that have no way out
+  /// At the last detection:
+  ///
+  /// - volume_contacts: contacts with volumes
+  /// - vertices_inside: tested vertices inside a volume
+  /// - deepest: largest distance of these vertices from the surface [m]
+  /// - depth_unresolved: sheets of tetrahedra at these vertices from which no way leads to the boundary
   std::int64_t volume_contacts = 0, vertices_inside = 0;
   double deepest = 0;
   std::int64_t depth_unresolved = 0;
   /// pairs of faces that shared a point during the step (compare/meetings.md)
   double meetings = std::numeric_limits<double>::quiet_NaN();
-  /// at the end of a step of a scene with rods: smallest distance of active contacts (not-a-number if there are none)
-  /// [m], mean and largest ‖D‖/l − 1 of the segments [1]
+  /// At the end of a step of a scene with rods: smallest distance of active contacts (not-a-number if there are none)
+  /// [m], mean and largest strain ‖D‖/l − 1 of the segments [1].
   double smallest_contact_distance = 0, mean_stretch = 0, largest_stretch = 0;
   std::int64_t repeats = 0;  ///< times the step was repeated because a list grew
   std::uint32_t status = step_clean;
   std::optional<StepLedger> ledger{};  ///< filled if requested
-  /// problems that the solver met, by name, and how it continued; shown to the user, not in steps.csv
+  /// problems that the solver met, by name, and how it continued; for the user, not in steps.csv
   std::vector<std::string> notes;
   std::vector<IterationMetrics> iteration_rows;  ///< with SimulationOptions::iterations
   /// with profile: time of each stage, in the order of Simulation::stage_names()
@@ -126,8 +132,8 @@ struct Snapshot {
   std::vector<Vec3f> previous;               ///< X_prev of the last detection
   std::vector<float> bounds;                 ///< b_v of the last detection
   float query_radius = 0;                    ///< r_q of the last detection
-  /// capacities of growing lists, in the contestant's own order; if one is too small, a step is repeated, but positions
-  /// do not depend on them
+  /// capacities of growing lists, in the contestant's order. If a capacity is too small, the step is repeated;
+  /// positions do not depend on capacities
   std::vector<std::int64_t> capacities{};
   /// unrounded positions and velocities of a solver with a state in double; otherwise empty
   std::vector<Vec3> exact_positions{}, exact_velocities{};
@@ -152,8 +158,8 @@ class Simulation {
   /// example step_not_finite or step_bound_violated.
   virtual std::vector<StepMetrics> advance(std::int64_t steps) = 0;
   virtual Snapshot snapshot() = 0;
-  /// Continues from the positions, velocities, orientations and step number of a snapshot. Reserves room for
-  /// `capacities` unless they are empty. Everything else in a snapshot is recomputed.
+  /// Continues from the positions, velocities, orientations and step number of a snapshot. Reserves lists of
+  /// `capacities` unless it is empty. Recomputes everything else.
   virtual void restore(const Snapshot& snapshot) = 0;
   virtual std::vector<std::string> stage_names() const { return {}; }
   /// Returns one line about the device: "NVIDIA H200, CUDA 13.0" or "2 threads".

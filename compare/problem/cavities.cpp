@@ -17,7 +17,7 @@ namespace {
 int side_seen(const Vec3& a, const Vec3& b, const Vec3& p) {
   const int side = orientation({0, a.y, a.z}, {0, b.y, b.z}, {0, p.y, p.z}, {1, p.y, p.z});
   if (side != 0) return side;
-  // for an area of 0 the move decides: by the sign of −(b.z − a.z), or of b.y − a.y if b.z = a.z
+  // the sign of −(b.z − a.z) ε, or of (b.y − a.y) ε² if b.z = a.z
   if (a.z != b.z) return b.z < a.z ? 1 : -1;
   return a.y < b.y ? 1 : a.y > b.y ? -1 : 0;
 }
@@ -62,8 +62,8 @@ class PlacedShell {
 
   int winding(const Vec3& p) const {
     int count = 0;
-    // Twice tallest_, the largest height of a triangle along y, is above the true height, although tallest_ is a
-    // rounded difference.
+    // tallest_ is the largest height of a triangle along y, as a rounded difference. Twice this is certainly above the
+    // true height.
     auto reach = std::ranges::lower_bound(from_below_, p.y - 2 * tallest_, {}, &Reach::bottom);
     for (; reach != from_below_.end() && reach->bottom <= p.y; ++reach) count += crossing(reach->corners, p);
     return count;

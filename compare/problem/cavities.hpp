@@ -18,15 +18,16 @@ namespace ogc::compare {
 
 /// A connected component of a body's triangles.
 struct Shell {
-  std::span<const Index> triangles;  ///< numbers of triangles of the mesh
-  double volume = 0;  ///< enclosed volume, times any positive factor; 0 if the shell has rims or encloses no volume
+  std::span<const Index> triangles;  ///< indices into the mesh's triangles
+  /// enclosed volume times a positive factor, the same for all shells of the body; 0 if the shell has rims or encloses
+  /// no volume
+  double volume = 0;
 };
 
-/// Returns for each shell of one body the number of the shell in which it is a cavity, or −1. A shell of negative
-/// volume is a cavity in the shell of positive volume that winds around all of its vertices. If several do, the one of
-/// least volume counts. If another cavity of that shell winds around the vertices, too, the shell is no cavity.
-/// Positions [m] are rounded to single precision; then all is decided exactly. A vertex on a shell is treated as if it
-/// were beside the shell.
+/// Returns for each shell of one body the index of the shell in which it is a cavity, or −1. A shell of negative volume
+/// is a cavity in the shell of positive volume that winds around all of its vertices (in the smallest of these if there
+/// are several). Exception: a shell inside another cavity of the same shell is no cavity. Positions [m] are rounded to
+/// single precision; then all is decided exactly. A vertex on a shell is treated as if it were beside the shell.
 std::vector<int> enclosing_shells(const Mesh& mesh, std::span<const Shell> shells);
 
 }  // namespace ogc::compare

@@ -8,7 +8,7 @@
 namespace ogc::compare {
 namespace {
 
-/// Returns the number in the file of element i of the mesh.
+/// Returns the number that element i of the mesh has in the file.
 Index file_number(const std::vector<Index>& numbers, Index i) { return at(i) < numbers.size() ? numbers[at(i)] : i; }
 
 /// Returns "line 7" or "lines 4, 5", the lines of the elements; empty if the file has no lines.
@@ -113,8 +113,7 @@ std::string ElementNames::triangle(Index t, const Triangle& corners) const {
 
 std::string ElementNames::tetrahedron(Index t, const Tetrahedron& corners) const {
   static const NamedBody none;
-  // Several bodies may start at the same tetrahedron; upper_bound finds the last of these bodies (see
-  // body_of_triangle).
+  // Several bodies may have the same first tetrahedron; the last of them has tetrahedra (see body_of_triangle).
   const auto after = std::ranges::upper_bound(bodies_, t, {}, &NamedBody::first_tetrahedron);
   const NamedBody& body = after == bodies_.begin() ? none : *(after - 1);
   const Index local = t - body.first_tetrahedron;

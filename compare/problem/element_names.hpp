@@ -19,14 +19,14 @@ struct MeshSource {
   std::string file;             ///< path of the file
   Index first = 0;              ///< the number that the file gives its first vertex and face: 1 in OBJ
   bool shares_vertices = true;  ///< false: each face has its own corners (STL), and vertices have no numbers
-  std::vector<Index> vertices;  ///< number in the file by vertex, ascending; empty: the same as in the mesh
+  std::vector<Index> vertices;  ///< by vertex: number in the file, ascending; if empty, the number in the mesh
   /// by vertex: number in the file of the first face that has the vertex; only if !shares_vertices
   std::vector<Index> first_faces;
-  /// number in the file by triangle; triangles of one polygon share it. Empty: the same as in the mesh
+  /// by triangle: number in the file; all triangles of one polygon have the same. If empty, the number in the mesh
   std::vector<Index> faces;
   std::vector<std::size_t> vertex_lines, face_lines,
       edge_lines;  ///< from 1, by number in the file; empty in files without lines
-  /// Number in the file and line (from 1) of each tetrahedron, by number in the mesh.
+  /// by tetrahedron: number in the file, and line (from 1)
   std::vector<Index> tetrahedra{};
   std::vector<std::size_t> tetrahedron_lines{};
 };

@@ -9,14 +9,14 @@
 
 namespace ogc::compare {
 
-/// Returns an origin near the centre of the positions' bounding box. Along an axis it is 0, unless the box's centre is
-/// at least 16 times the box's length from 0. Then it is a multiple of the largest power of two that is not above that
-/// length, so that differences from it are exact in double. Relative to the origin single precision then resolves the
-/// box's length along this axis with 23 bits. Along an axis with origin 0 it resolves the length with at least 20 bits.
-/// The origin is 0 for positions that are not finite.
+/// Returns an origin near the centre of the positions' bounding box. Let the box's length be its longest side. A
+/// coordinate of the origin is 0 if the centre's coordinate is below 16 lengths in modulus. Otherwise it is a multiple
+/// of the largest power of two that is not above the length, so that differences from it are exact in double. Single
+/// precision then resolves the length with 23 bits relative to the origin, or with at least 20 bits along an axis whose
+/// coordinate is 0. The origin is 0 for positions that are not finite.
 Vec3 local_origin(const std::vector<Vec3>& positions);
 
-/// Returns x − o of all positions [m].
+/// Returns the positions minus `origin` [m].
 std::vector<Vec3> relative_to(const Vec3& origin, std::vector<Vec3> positions);
 
 /// Returns the double with the fewest decimal digits whose distance from `origin` rounds to `local` in single
@@ -26,8 +26,8 @@ double typed_at(double origin, float local);
 /// Returns local positions in the coordinates of the file; unchanged if `origin` is 0.
 std::vector<Vec3> in_file(const Vec3& origin, const std::vector<Vec3f>& local);
 
-/// Returns "coordinates lie 5e+06 m from 0, 1e+05 times the mesh's size; REMEDY" for a mesh with that origin, as a note
-/// for the user; empty if the origin is 0.
+/// Returns "coordinates lie 5e+06 m from 0, 1e+05 times the mesh's size; REMEDY", a note for the user about a mesh with
+/// this origin; empty if the origin is 0.
 std::string describe_origin(const std::vector<Vec3>& positions, const Vec3& origin, const std::string& remedy);
 
 }  // namespace ogc::compare

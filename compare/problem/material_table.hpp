@@ -16,8 +16,8 @@ struct MaterialInfo {
   double Material::*field;               ///< the member that it sets
 };
 
-/// Returns the rows of all constants, in the order of the struct. Ranges keep squares and products of two of them
-/// finite and normal in single precision.
+/// Returns the rows of all constants, in the order of the struct. Ranges are so small that squares of constants and
+/// products of two constants are finite and normal in single precision.
 std::span<const MaterialInfo> material_table();
 
 /// Holds what files and settings may give in place of a solid's Lamé constants.

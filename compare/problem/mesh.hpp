@@ -40,7 +40,7 @@ struct Hinge {
 /// Holds the adjacency of a complex of `vertex_count` vertices. Both contestants share the edge numbers: all edges of
 /// triangles and all loose edges, without repetition, sorted by smaller, then larger vertex.
 struct Topology {
-  Index vertex_count = 0;                            ///< includes vertices of no face
+  Index vertex_count = 0;                            ///< also counts vertices that no face contains
   std::vector<Triangle> triangles;                   ///< as given
   std::vector<Edge> edges;                           ///< the smaller vertex first, ascending
   std::vector<std::array<Index, 3>> triangle_edges;  ///< k-th entry: the edge from corner k to corner k+1 (mod 3)
@@ -55,7 +55,7 @@ struct Topology {
   std::vector<Index> non_manifold_edges;  ///< edges with three or more triangles
   std::vector<Index> component;           ///< component number of each vertex, numbered by first vertex
 
-  /// By vertex: 1 for a vertex inside a solid (on a tetrahedron, but on no edge of the topology), and for each vertex
+  /// By vertex: 1 for a vertex inside a solid (on a tetrahedron, but in no edge of this topology), and for each vertex
   /// of a volume (§3.9). Edges and triangles of volumes are then off the surface, too. Empty if all vertices are on the
   /// surface.
   std::vector<std::uint8_t> off_surface;

@@ -34,7 +34,7 @@ constexpr auto required = std::to_array<RequiredSetting>({
 
 std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
 
-/// Returns whether the setting has the row's value or, if that is "", any value but its default.
+/// Returns whether the setting has the row's value; if that is "", whether the setting differs from its default.
 bool is_asked(const Settings& settings, const SettingInfo& info, const Readers& row) {
   if (!row.value.empty()) return setting_text(settings, info) == row.value;
   return get_setting(settings, info) != get_setting(Settings{}, info);

@@ -29,7 +29,7 @@ std::span<const RodInfo> rod_table();
 bool in_range(const RodInfo& info, double value);
 std::string describe_range(const RodInfo& info);
 
-/// Returns the numbers of the loose edges that are segments, that is, in bodies with a rod material, ascending. Every
+/// Returns the indices of the loose edges that are segments (edges of bodies with a rod material), ascending. Every
 /// list of orientations has this order. Indices must be valid, and bodies must cover the scene.
 std::vector<Index> rod_segments(const Scene& scene);
 
@@ -55,7 +55,7 @@ Quaternion prescribed_turn(const PrescribedMotion& motion, double from, double t
 /// - orientations that are no unit quaternions, or more or fewer orientations than segments
 void check_rods(std::vector<Problem>& problems, const Scene& scene, const ElementNames& names, std::size_t limit);
 
-/// Returns the number of the first quaternion that is no unit quaternion within unit_quaternion_slack, or −1.
+/// Returns the index of the first quaternion whose length is not 1 within unit_quaternion_slack, or −1.
 std::ptrdiff_t find_no_unit(std::span<const Quaternion> orientations);
 
 }  // namespace ogc::compare

@@ -50,8 +50,8 @@ struct RigidMotion {
 
 Vec3 widened(const Vec3f& v) { return {v.x, v.y, v.z}; }
 
-/// Returns the positions of `count` vertices at time `t`: a + s (b − a) in double, which is exactly a frame at the
-/// frame's time.
+/// Returns the positions of `count` vertices at time `t`, interpolated between two keyframes in double; exactly those
+/// of a keyframe at its time.
 std::vector<Vec3f> between(const Keyframes& frames, std::size_t count, double t) {
   const std::vector<double>& times = frames.times;
   const auto after = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), t) - times.begin());

@@ -1,6 +1,6 @@
-// Holds a scene: everything that a contestant needs to know, as plain data in double. `round_to_single` makes each
-// number one that single precision holds exactly, so that a contestant in single and one in double answer the same
-// question (method.md §2.5).
+// Holds a scene: everything that a contestant needs to know, as plain data in double. `round_to_single` rounds each
+// number to single precision, so that contestants in single and in double precision answer the same question (method.md
+// §2.5).
 #pragma once
 
 #include <cstdint>
@@ -40,13 +40,13 @@ struct RodMaterial {
   double density = 1e-3;   ///< ρ, mass per rest length [kg/m]
   double stretch = 0.1;    ///< k_s = EA, of stretch and shear [N]
   double bend = 2e-7;      ///< k_b = EI = GJ, of bend and twist [N m²]
-  double damping = 0;      ///< k_d of both energies about the strain at the start of a step [s]
+  double damping = 0;      ///< k_d of both energies; damping resists changes of strain since the start of a step [s]
   double diameter = 3e-3;  ///< for drawing only; no force uses it [m]
   friend bool operator==(const RodMaterial&, const RodMaterial&) = default;
 };
 
-/// Constants of one body: of its surface (method.md §4.5 to §4.10), of its volume if it has tetrahedra (method.md §8),
-/// and of its loose edges if it is a rod.
+/// Holds the constants of one body: of its surface (method.md §4.5 to §4.10), of its tetrahedra (method.md §8) and of
+/// its loose edges if it is a rod.
 struct Material {
   double density = 0.2;                                        ///< mass per rest area [kg/m²]
   MembraneModel membrane = MembraneModel::stable_neo_hookean;  ///< energy of triangles
@@ -129,7 +129,7 @@ struct TetrahedraOfMesh {
   static void check_rest(const MeshCheck& check, const std::vector<Vec3>& rest_positions);
 };
 
-/// All lists of elements that a mesh has. Triangles, among them the surface of the tetrahedra, come first.
+/// All lists of elements that a mesh has. The triangles come first; they contain the surface of the tetrahedra.
 using MeshLists = std::tuple<TrianglesOfMesh, LooseEdgesOfMesh, TetrahedraOfMesh>;
 
 /// Is true for lists of elements in which each body has a range.
@@ -160,12 +160,13 @@ bool has_volume(const Mesh& mesh);
 /// Returns the boundary of a mesh's elements with volume, or its triangles if it has none.
 std::vector<Triangle> surface_triangles(const Mesh& mesh);
 
-/// Holds positions at some times, joined by straight lines; at rest before the first and after the last.
+/// Holds positions at given times. Between two times vertices move along straight lines; before the first and after the
+/// last they rest.
 struct Keyframes {
   std::vector<double> times;     ///< ascending [s]; empty or at least two
   std::vector<Vec3f> positions;  ///< [m]; frame by frame, the vertices of each in the order of the motion
   bool is_rigid = false;         ///< axis and ω of the motion give its rotation; no file sets it
-  bool empty() const { return times.empty(); }  ///< whether there are none
+  bool empty() const { return times.empty(); }  ///< whether there are no keyframes
   friend bool operator==(const Keyframes&, const Keyframes&) = default;
 };
 
@@ -213,8 +214,8 @@ struct Scene {
   std::vector<std::array<Index, 2>> excluded_pairs;
   Vec3 gravity{0, -9.81, 0};  ///< [m/s²]
   Settings settings;
-  /// start orientations of all segments, in the order of rod_segments (compare/problem/rods.hpp); empty: those of the
-  /// rest shape, each rotated by the smallest rotation to the start direction of its segment
+  /// start orientations of all segments, in the order of rod_segments (compare/problem/rods.hpp). If empty,
+  /// orientations at rest are used, each rotated by the smallest rotation to the start direction of its segment
   std::vector<Quaternion> orientations{};
   friend bool operator==(const Scene&, const Scene&) = default;
 };
@@ -275,8 +276,8 @@ bool has_field(const Element& element, const ElementField<Element>& field) {
 /// whether it is fixed; its ranges are set here. If the mesh has tetrahedra, their boundary replaces its triangles.
 std::size_t append_body(Scene& scene, Body body, const Mesh& mesh);
 
-/// Rounds every number that a stage sees (positions, rest data, velocities, materials, gravity, settings) to the
-/// nearest single-precision value, in place. Motions stay in double: stages see their targets only.
+/// Rounds every number that a stage gets (positions, rest data, velocities, materials, gravity, settings) to the
+/// nearest single-precision value, in place. Motions stay in double, because stages get only their targets.
 void round_to_single(Scene& scene);
 
 /// Adds the spring of a stitch from vertex `first` to the point (1 − ratio) x_second + ratio x_third. Excludes the
@@ -303,7 +304,7 @@ std::vector<Index> body_of_vertex(const Scene& scene);
 /// Builds the topology of the scene's mesh; vertices of volumes are off the surface.
 Topology build_topology(const Scene& scene);
 
-/// Rounds positions to what stages see.
+/// Rounds positions to single precision, the precision of stages' inputs.
 std::vector<Vec3f> to_single(const std::vector<Vec3>& positions);
 /// Widens positions without loss.
 std::vector<Vec3> to_double(const std::vector<Vec3f>& positions);

@@ -41,7 +41,7 @@ constexpr bool minimises(RodOrientation update) {
   }
   return true;
 }
-/// Orientations at the start of a step: those of the last step, rotated with their segments or unchanged.
+/// Orientations at the start of a step: the orientations after the last step, rotated with their segments or unchanged.
 enum class RodStart : std::int64_t { turned, kept };
 /// Returns whether orientations are rotated with their segments before the first sweep.
 constexpr bool turns(RodStart start) {

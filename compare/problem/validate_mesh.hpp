@@ -1,4 +1,4 @@
-// Checks a mesh's indices and positions; a scene needs some of it twice, for start and for rest positions.
+// Checks a mesh's indices and positions. A scene checks positions twice: at the start and at rest.
 #pragma once
 
 #include <string>

@@ -106,9 +106,9 @@ struct SignedVolume {
     value += sum;
     ++count;
   }
-  /// Returns an upper limit of the error of `value`. Each term is rounded at most n + 12 times (three differences, two
-  /// products, four sums inside a determinant, the sums of n determinants), each a factor of 1 + δ with |δ| ≤ 2⁻⁵³.
-  /// Twice that covers rounding of the moduli and higher orders.
+  /// Returns an upper limit of the error of `value`, twice (n + 12) 2⁻⁵³ times `modulus` for n determinants. Each term
+  /// is rounded at most n + 12 times: by three differences, two products, four sums inside a determinant, and the sums
+  /// of determinants. The factor 2 covers the rounding of the moduli and higher orders.
   double error() const { return static_cast<double>(count + 12) * 0x1p-52 * modulus; }
 };
 

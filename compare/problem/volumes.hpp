@@ -40,8 +40,8 @@ struct VolumeSurface {
 /// bodies must cover the scene.
 VolumeSurface volume_surface(const Scene& scene);
 
-/// Returns `face`, given by the numbers of `volumes`, with the numbers of the scene, whose topology is `scene`. Both
-/// number faces in the same order.
+/// Returns the scene's face with the same vertices as `face`, a face of `volumes`. `scene` is the topology of the
+/// scene.
 Face scene_face(const VolumeSurface& volumes, const Topology& scene, const Face& face);
 
 /// Returns whether any body is a volume.

@@ -5,9 +5,9 @@
 
 namespace ogc::compare {
 
-/// Returns whether the triangle has exactly zero area. Coordinates must be zero or within 2⁻⁴⁵⁰ … 2⁴⁵⁰ m, as numbers of
-/// single precision and meshes without dust are. Then no product overflows, and no rounding error, a multiple of
-/// 2⁻¹⁰⁰⁴, underflows.
+/// Returns whether the triangle has exactly zero area. Coordinates must be zero or within 2⁻⁴⁵⁰ … 2⁴⁵⁰ m; numbers of
+/// single precision and meshes without dust satisfy this. Then no product overflows. Rounding errors are multiples of
+/// 2⁻¹⁰⁰⁴, so that none underflows.
 bool has_zero_area(const Vec3& a, const Vec3& b, const Vec3& c);
 
 }  // namespace ogc::compare

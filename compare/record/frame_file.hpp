@@ -42,12 +42,12 @@ std::string frame_name(std::int64_t step);
 
 /// Returns the same memory as floats, three for each vector, as files store them.
 std::span<const float> as_floats(std::span<const Vec3f> vectors);
-/// Returns the vectors whose floats these are; the inverse of as_floats.
+/// Returns the vectors that consist of these floats; the inverse of as_floats.
 std::vector<Vec3f> as_vectors(const std::vector<float>& floats);
 
 PackedFrame pack(const Frame& frame);  ///< packs a frame without loss
 
-/// Returns the bytes of the file.
+/// Returns the bytes of a frame's file.
 std::string frame_bytes(const PackedFrame& frame);
 
 /// Reads one file of frames/. Throws InputError that names the file if it is missing, no frame, damaged (its content

@@ -41,8 +41,8 @@
 
 namespace ogc::compare {
 
-/// Throws InputError if no new run can be written to the folder: it contains a run, a file has its name, or it can't be
-/// created. Call it before anything is computed.
+/// Throws InputError if no run can begin in the folder: it contains a run, it is a file, or it can't be created. Call
+/// it before anything is computed.
 void expect_new_run_folder(const std::filesystem::path& folder);
 
 /// Writes a run. Throws ResourceError with the path if the disk is full or not writable.
@@ -71,7 +71,7 @@ class RunWriter {
   void save(Checkpoint checkpoint);
   /// Waits until everything that was added is on the disk.
   void flush() { queue_.drain(); }
-  /// Sets an entry of Provenance::extra. The next run.json contains it, at the latest the final one.
+  /// Sets an entry of Provenance::extra, which the next run.json contains; the final one is written at the latest.
   void set_extra(const std::string& key, const std::string& value) { manifest_.provenance.extra[key] = value; }
   /// Replaces Provenance::warnings; the next run.json contains them.
   void set_warnings(std::vector<std::string> warnings) { manifest_.provenance.warnings = std::move(warnings); }
@@ -114,7 +114,8 @@ class RunWriter {
   WritingQueue queue_;  ///< last, so that its threads end before the members that they use are destroyed
 };
 
-/// Reads what is finished of a run, which another process may still write. Throws InputError that names the file.
+/// Reads the finished files of a run; another process may still be writing the run. Throws InputError that names the
+/// file.
 class RunReader {
  public:
   explicit RunReader(std::filesystem::path folder);

@@ -17,7 +17,8 @@ std::string cells(AppendedArrays& appended, const char* kind, const std::vector<
          appended.array("Int32", "offsets", std::span<const Index>(ends)) + "</" + kind + ">\n";
 }
 
-/// Returns the whole file. `data` are the arrays of points and cells, `points` is the array of the positions.
+/// Returns the text of a .vtp file. `data` has the elements of point and cell data, `points` the element of the
+/// positions.
 std::string file_text(const Mesh& mesh, const std::string& data, const std::string& points, AppendedArrays& appended) {
   std::string text =
       std::string(

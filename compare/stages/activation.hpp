@@ -26,15 +26,15 @@ struct ActivationOut {
   std::vector<float> energy, slope, curvature;  ///< by case: g [J], g' [N], g'' [N/m]
 };
 
-/// Values computed with multiprecision and rounded to double, and the units of their errors. A unit is the sum of the
-/// moduli of the terms of the value. It is at least 2⁻¹⁰² for d < r, so that an underflow near r (2⁻¹²⁶) counts as one
+/// Values computed with multiprecision and rounded to double, and their error scales. A scale is the sum of the moduli
+/// of the terms of the value. It is at least 2⁻¹⁰² for d < r, so that an underflow near r (2⁻¹²⁶) counts as one
 /// rounding.
 struct ActivationTruth {
   std::vector<double> energy, slope, curvature;                    ///< by case: g [J], g' [N], g'' [N/m]
-  std::vector<double> energy_scale, slope_scale, curvature_scale;  ///< units of their errors
+  std::vector<double> energy_scale, slope_scale, curvature_scale;  ///< error scales
 };
 
-/// Largest error in units of u · scale, u = 2⁻²⁴. Each item is an operation with its number of rounding errors:
+/// Largest error in units of u · scale, u = 2⁻²⁴. Rounding errors of each activation:
 ///
 /// - Quadratic branch: r − d (1), its square (2), k_c/2 (1).
 /// - Logarithmic branch: r − τ (1), k' (2), logarithm (library, 2), product and sum (2), constant term (4).

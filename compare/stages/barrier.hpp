@@ -33,11 +33,11 @@ struct BarrierOut {
 /// the moduli of the value's terms. It is at least 2⁻¹⁰² for g < H, as in stage activation.
 struct BarrierTruth {
   std::vector<double> energy, slope, curvature;                    ///< by case
-  std::vector<double> energy_scale, slope_scale, curvature_scale;  ///< units of their errors
+  std::vector<double> energy_scale, slope_scale, curvature_scale;  ///< error scales
 };
 
-/// Largest error in units of u · scale, u = 2⁻²⁴. The scale is a sum, so the largest of these counts of rounding errors
-/// decides, plus 1 for second order:
+/// Largest error in units of u · scale, u = 2⁻²⁴. The scale is a sum over inputs, so the largest of their counts of
+/// rounding errors decides (9), plus 1 for second order:
 ///
 /// - D and ξ²: square and difference (2), the quotient g/H (1).
 /// - H: sum and product (2), the difference H − g (1).

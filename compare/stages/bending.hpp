@@ -36,11 +36,10 @@ struct BendingIn {
   std::vector<BendingCase> cases;  ///< independent of each other
 };
 
-/// Largest error of the force in units of u · scale, u = 2⁻²⁴. Rounding errors on the way from the vertices to the
-/// force, 36 in all:
+/// Largest error of the force in units of u · scale, u = 2⁻²⁴. Rounding errors, 36 in all:
 ///
-/// - ∇θ, 20: a difference of vertices (1), the normal and its square (6), the edge's length (4), a closest point on the
-///   edge (4), a quotient (2), two products of these and their sum (3)
+/// - ∇θ, 20: a difference of vertices (1), the normal and its square (6), the edge's length (4), a closest point on
+///   the edge (4), a quotient (2), two products of these and their sum (3)
 /// - θ, 12: a relative error of 4 u, and |θ| ≤ π, while the scale is at least 1
 /// - the moment and the force, 4
 inline constexpr double bending_force_tolerance = 36;
@@ -49,22 +48,27 @@ inline constexpr double bending_gradient = 20;
 /// Largest error of the block in units of u · scale. Rounding errors: ∇θ twice, a factor (2), an outer product (2).
 ///
 /// Scales also contain terms of second order, which remain where a first derivative vanishes. Let cond(f) be Σ ‖∂f/∂q‖
-/// ‖q‖ over the inputs q. The block's scale contains bending_gradient · u · c (1 + k) · cond(∇θ)². The force's scale
-/// allows the product of two errors: that of ∇θ, bending_gradient · u · cond(∇θ), times that of the moment ∂E/∂θ, 16 u
-/// · cond(∂E/∂θ).
+/// ‖q‖ over the inputs q.
+///
+/// - The block's scale contains bending_gradient · u · c (1 + k) · cond(∇θ)².
+/// - The force's scale contains the product of the error of ∇θ, bending_gradient · u · cond(∇θ), and the error of
+///   the moment ∂E/∂θ, 16 u · cond(∂E/∂θ).
 inline constexpr double bending_block_tolerance = 2 * bending_gradient + 4;
 /// A hinge is grey if its angle, now or at the start, is within this many units of u · scale of ±π. Then the answers
 /// for the angle plus and minus 2π are accepted as well.
 inline constexpr double bending_grey = 16;
-/// A triangle may count as collapsed if, at either end of the edge, the sine between the edge and a side is below this
-/// times u. The normal of rounded differences has an error of 4 u. A kernel may treat sines below eight times this
-/// error, 32 u, as 0. Twice 32 u also covers the rounding of its test.
+/// A triangle may count as collapsed if, at either end of the hinge's edge, the sine of the angle between this edge and
+/// the triangle's other edge is below bending_needle · u. The normal of rounded differences has an error of 4 u. A
+/// kernel may treat sines below 32 u, eight times this error, as 0. Twice 32 u also covers the rounding of the kernel's
+/// test.
 inline constexpr double bending_needle = 64;
 /// Largest errors of the isometric quadratic model without damping, in units of u · scale. (The judge applies
-/// bending_force_tolerance and bending_block_tolerance, so the scales of this model are multiplied by the ratio of its
-/// tolerances to those two.) Rounding errors:
+/// bending_force_tolerance and bending_block_tolerance. So this model's force scale is multiplied by
+/// isometric_force_tolerance/bending_force_tolerance, and its block scale by the ratio for the block.) Rounding errors,
+/// with the symbols of BendingCase:
 ///
-/// - force: a difference (1), a product (1), two sums (2), the weight of x0 (2), c w (1), the product of c w and ℓ (1)
+/// - force: a difference (1), a product (1), two sums (2), the weight of x0 (2), c w (1), the product of c w and ℓ
+///   (1)
 /// - block: the weight of x0 twice (4), a square (1), c (1)
 inline constexpr double isometric_force_tolerance = 8;
 inline constexpr double isometric_block_tolerance = 6;

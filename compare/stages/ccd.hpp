@@ -31,14 +31,14 @@ struct CcdOut {
   std::vector<float> time;  ///< share of the motion
 };
 
-/// Limits between which an answer is right.
+/// The right answers: times up to `impact` that are not much earlier than `early`.
 struct CcdTruth {
   /// the largest double that is not above the exact first time at which the faces share a point; infinite if they never
-  /// do
+  /// share one
   std::vector<double> impact;
-  /// a time until which the distance of the faces stays above ccd_gap_left times their distance at the start, plus
-  /// ccd_resolution · u S (S: see ccd_resolution). Conservative advancement of at most ccd_fewest_steps steps reaches
-  /// it
+  /// a time until which the distance of the faces stays above ccd_gap_left · d₀ + ccd_resolution · u S. d₀ is the
+  /// distance at the start; ccd_resolution defines S. Conservative advancement of at most ccd_fewest_steps steps
+  /// reaches this time
   std::vector<double> early;
 };
 
@@ -49,14 +49,14 @@ struct CcdTruth {
 /// ends beyond `early`. Since d(t) ≤ d₀ + ℓ t and d₀/ℓ ≤ t/0.65, early ≤ t + 0.9 (t + t/0.65) < 3.3 t, so (early −
 /// t)/early < 0.7.
 inline constexpr double ccd_early_share = 0.75;
-/// Share of the distance at the start. A contestant may stop its advancement if the distance is below this share.
+/// Share of the distance at the start below which a contestant may stop its advancement.
 inline constexpr double ccd_gap_left = 0.1;
-/// A contestant may stop after this many steps of its advancement. More are needed only by rotating faces that are a
-/// million times as large as their gap.
+/// Number of steps of its advancement after which a contestant may stop. Only rotating faces that are a million times
+/// as large as their gap need more.
 inline constexpr int ccd_fewest_steps = 1000;
-/// A contestant may treat distances below this times u S as 0, u = 2⁻²⁴. S is the largest coordinate relative to vertex
-/// 0 at the start plus the largest displacement relative to the mean displacement. The grey zone has the same factor
-/// (compare/stages/numbers.hpp).
+/// A contestant may treat distances below ccd_resolution · u S as 0, u = 2⁻²⁴. S is the largest coordinate relative to
+/// vertex 0 at the start plus the largest displacement relative to the mean displacement. The grey zone has the same
+/// factor (compare/stages/numbers.hpp).
 inline constexpr double ccd_resolution = 16;
 
 }  // namespace ogc::compare

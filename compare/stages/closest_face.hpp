@@ -22,7 +22,7 @@ struct ClosestFaceIn {
 
 /// The answer; all arrays have length n.
 struct ClosestFaceOut {
-  /// if features are equally near: the lower-dimensional one
+  /// the lower-dimensional one of equally near features
   std::vector<TriangleFeature> feature;
   std::vector<std::array<float, 3>> weights;  ///< barycentric weights of the closest point, ≥ 0
   std::vector<float> distance;                ///< [m], rounded to nearest
@@ -42,10 +42,9 @@ struct ClosestFaceTruth {
   std::vector<double> weight_condition;
 };
 
-/// Largest error accepted in `distance`, in units of u · distance, u = 2⁻²⁴. Rounding errors: a difference (3), a
-/// closest point (4), another difference (1), a norm (4). This holds for differences of coordinates of similar size.
-/// Otherwise errors are amplified by Σ|δ|/distance, where δ are the coordinates relative to the first corner, so the
-/// judge multiplies by max(1, Σ|δ|/distance).
+/// Largest error accepted in `distance`, in units of u · distance · max(1, Σ|δ|/distance), u = 2⁻²⁴. Rounding errors: a
+/// difference (3), a closest point (4), another difference (1), a norm (4). The factor max(…), where δ are the
+/// coordinates relative to the first corner, covers coordinates that are large relative to the distance.
 inline constexpr double closest_face_distance_tolerance = 12;
 /// Largest error accepted in a weight, in units of u · weight_condition. It counts the same rounding errors as
 /// closest_face_distance_tolerance.

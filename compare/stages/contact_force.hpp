@@ -28,12 +28,13 @@ constexpr std::int32_t vertex_count(ContactSides sides) {
 /// The force on a vertex with weight w is −e_k g'(d) w n. The block is e_k g''(d) |w| Σ |w_u| n nᵀ over all vertices u
 /// that are updated together with the vertex, the vertex itself included. If it is updated alone, this is e_k g''(d) w²
 /// n nᵀ (method.md §4.2, §7.4). Slope and curvature are taken at d, clamped to 2⁻²³ r … r. Beyond r the force is 0, and
-/// the block is that at r (k_c with `ogc`). At d = 0, which the bounds exclude, n is undefined, and both are 0.
+/// the block has its value at r (k_c with `ogc`). At d = 0, which the bounds exclude, n is undefined; then force and
+/// block are 0.
 ///
 /// e_k = q(2 − q), q = c/ε for c < ε, else 1, with c = ‖e × e'‖² at the last detection and ε = 10⁻³ ‖ē‖²‖ē'‖². e_k = 1
-/// for other sides and if a rest length is 0. Exception: if both rest lengths are 0 and the edges were nearly parallel
-/// at the last detection (closest_points: decided exactly), e_k is the length of their overlap along the first edge
-/// over the length of the shorter edge.
+/// for contacts other than edge–edge, and if one rest length is 0. If both rest lengths are 0 and the edges were nearly
+/// parallel at the last detection (closest_points: decided exactly), e_k is the length of their overlap along the first
+/// edge over the length of the shorter edge.
 ///
 /// All shapes are legal. A *needle* has a height below 2⁻⁹ of its longest side, or an edge below 2⁻⁹ of the other edge;
 /// its closest point is not known to first order. For a needle the judge also accepts any force of at most −e_k g' and
@@ -68,13 +69,14 @@ struct ContactForceIn {
 /// - e_k as a share of the overlap: a difference, two scalar products (6), a quotient for each end, their difference,
 ///   the root of a quotient of squares (6 / 2 + 2), two products: 16.
 inline constexpr double contact_force_tolerance = 47;
-/// Largest error of the block in units of u · scale. Rounding errors: n (36, see contact_force_tolerance), g'' (5; of
-/// ipc_log 8), Σ |w_u| of four vertices (3), its products with |w| and g'' (2), an outer product (2).
+/// Largest error of the block in units of u · scale. Rounding errors: n (36, see contact_force_tolerance), g'' (5; with
+/// ipc_log 8), Σ |w_u| of four vertices (3), the products of this sum with |w| and g'' (2), an outer product (2).
 inline constexpr double contact_block_tolerance = 51;
 /// Largest error of a distance in units of u · scale. Rounding errors: a difference (1), a product and two sums (3),
-/// squares (3), a root (1): 8. The limit is 16, since rounded weights are not quite those of the closest points. A
-/// contact is grey if this error could change the closest feature, make d = 0 or, with ogc_as_printed, move d across
-/// the jump at τ. If d may be 0, n is unknown as well, and any answer up to the one at d = 2⁻²³ r is accepted.
+/// squares (3), a root (1): 8. The limit is 16, since rounded weights differ slightly from those of the closest points.
+/// A contact is grey if this error could change the closest feature, make d = 0 or, with ogc_as_printed, move d across
+/// the jump at τ. If d may be 0, n is unknown as well. Then any force and block of at most their size at d = 2⁻²³ r are
+/// accepted.
 inline constexpr double contact_grey = 16;
 
 }  // namespace ogc::compare

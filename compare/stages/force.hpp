@@ -22,24 +22,28 @@ struct ForceOut {
   std::vector<std::array<float, 6>> block;  ///< xx, xy, xz, yy, yz, zz [N/m]
 };
 
-/// Holds one accepted answer and the units of its errors. A unit is Σ ‖∂f/∂q‖ ‖q‖ over the inputs q of the stencil.
-/// Coordinates count as vectors relative to one vertex; for a hinge to the vertex that makes the sum largest, since a
-/// formula may choose any. A relative change u of each input changes the answer by up to u units, so no formula that
-/// reads single-precision differences can do much better.
+/// Holds one accepted answer and its error scales. A scale is Σ ‖∂f/∂q‖ ‖q‖ over the inputs q of the stencil.
+/// Coordinates count as vectors relative to one vertex. For a hinge this is the vertex that makes the sum largest,
+/// since a formula may choose any vertex. A relative change u of each input changes the answer by up to u · scale, so
+/// no formula that reads single-precision differences can be much more exact.
 struct ForceAnswer {
   Vec3 force;                               ///< [N]
   std::array<double, 6> block{};            ///< [N/m]
-  double force_scale = 0, block_scale = 0;  ///< units of their errors [N], [N/m]
+  double force_scale = 0, block_scale = 0;  ///< error scales [N], [N/m]
 };
 
 /// Rounding errors that `per_vertex` damping adds to those of the block: the motion (1), the product of matrix and
 /// vector (3) and a sum (1).
 inline constexpr double per_vertex_additions = 5;
 
-/// accepted[i][0] is the exact answer of case i. A grey case has more, the answers on the other side of a jump. near[i]
-/// is 1 if a decision of case i lies within near_factor. Decisions are the features of the closest points, whether d <
-/// r, on which side of τ an activation with two branches is, and whether a slip is below its limit. For energies
-/// without contacts near[i] is 0.
+/// accepted[i][0] is the exact answer of case i. A grey case also accepts the answers that other outcomes of its grey
+/// decisions give. near[i] is 1 if a decision of case i lies within near_factor; without contacts it is 0. The
+/// decisions are
+///
+/// - which features hold the closest points,
+/// - whether d < r,
+/// - whether d < τ, if the activation has two branches,
+/// - whether a slip is below its limit.
 struct ForceTruth {
   std::vector<std::vector<ForceAnswer>> accepted;  ///< by case, the exact one first
   std::vector<std::uint8_t> near;                  ///< by case

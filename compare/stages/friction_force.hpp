@@ -22,8 +22,8 @@ struct FrictionForceIn {
 };
 
 /// Largest error of the force in units of u · scale, u = 2⁻²⁴. Rounding errors: n (36, see contact_force), the slip u
-/// (a scalar product (3), a product, a difference), its length (4), f₁/‖u‖ (a quotient, a difference, a quotient), its
-/// products with λ and μ (2), then with weight and slip (2): 52.
+/// (a scalar product (3), a product, a difference), the slip's length (4), f₁/‖u‖ (a quotient, a difference, a
+/// quotient), the products of f₁/‖u‖ with λ and μ (2), then with weight and slip (2): 52.
 inline constexpr double friction_force_tolerance = 52;
 /// Largest error of the block. Rounding errors: μ λ f₁/‖u‖ (50, see friction_force_tolerance), Σ |w_u| (3), the
 /// products with |w| and μ λ f₁/‖u‖ (2), an outer product (2), the difference from I (1).

@@ -42,14 +42,14 @@ struct InitialGuessOut {
   std::vector<Quaternion> orientation{};  ///< one for each element of `turns`
 };
 
-/// The exact y with the sum of the moduli of its terms in each coordinate. The judge checks position and cut with stage
-/// truncate, from the answer's own y.
+/// The exact y and frames, with their error scales. The judge checks `position` and `cut` by stage truncate, computed
+/// from the answer's y.
 struct InitialGuessTruth {
-  std::vector<Vec3> target;          ///< exact y [m]
-  std::vector<double> target_scale;  ///< largest over the coordinates of |xᵗ| + h |vᵗ| + h² |a| [m]
+  std::vector<Vec3> target;                          ///< exact y [m]
+  std::vector<double> target_scale;                  ///< largest |xᵗ| + h |vᵗ| + h² |a| of a coordinate [m]
   std::vector<std::array<double, 4>> orientation{};  ///< exact t qᵗ; t is the smallest rotation, real part ≥ 0
-  /// 1/cos(θ/2), θ between Dᵗ and D: the factor by which an error of their directions grows. Infinite if the tolerance
-  /// allows an error of half a radian or more; then any unit quaternion is accepted
+  /// 1/cos(θ/2), where θ is the angle between Dᵗ and D: the factor by which an error of these directions grows.
+  /// Infinite if the tolerance allows an error of half a radian or more; then any unit quaternion is accepted
   std::vector<double> orientation_scale{};
 };
 

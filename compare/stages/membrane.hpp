@@ -1,7 +1,7 @@
 // Stage membrane: force and block of one corner of one triangle, damping included (method.md §4.6, §4.9). There are two
-// models: St. Venant–Kirchhoff, and stable Neo-Hookean (Smith, de Goes and Kim 2018: ψ = μ/2 (I_C − d) − μ (J − 1) +
-// λ'/2 (J − 1)²) on a membrane's F. F is 3×2, so d = 2 and J is the ratio of areas. λ' = λ + μ makes its stiffness at
-// rest that of St. Venant–Kirchhoff with the same λ, μ.
+// models: St. Venant–Kirchhoff, and stable Neo-Hookean on a membrane's 3×2 F (Smith, de Goes and Kim 2018: ψ = μ/2 (I_C
+// − d) − μ (J − 1) + λ'/2 (J − 1)² with d = 2 and J the ratio of areas). With λ' = λ + μ both models have the same
+// stiffness at rest.
 #pragma once
 
 #include "compare/problem/scene.hpp"
@@ -15,13 +15,13 @@ namespace ogc::compare {
 /// E = A (ψ + k ϕ(G − Gᵗ)). St. Venant–Kirchhoff: ψ = ϕ(G). Stable Neo-Hookean: ψ = μ/2 (‖F‖² − 2) − μ (J − 1) + (λ +
 /// μ)/2 (J − 1)², J = ‖f₁ × f₂‖.
 ///
-/// Block, as a sum of parts:
+/// The block is the sum of the block of the damping and the block of the model:
 ///
 /// - Damping: A k times the second derivative of ϕ along the derivatives of G.
-/// - St. Venant–Kirchhoff: the same with A for A k, plus A max(0, ∇N₀ᵀ S ∇N₀) I with the elastic stress S.
-/// - Stable Neo-Hookean: the exact second derivative, A (μ b² I + (λ + μ) g gᵀ + ((λ + μ)(J − 1) − μ) b⊥² /J n nᵀ) with
-///   b = ‖∇N₀‖, t = b₁ f₂ − b₂ f₁, b⊥ = ‖t‖, g = ∂J/∂x₀ = t × n, n = f₁ × f₂/J. Only its eigenvalue along n can be
-///   negative; then that eigenvalue is replaced by 0.
+/// - St. Venant–Kirchhoff: A times this second derivative, plus A max(0, ∇N₀ᵀ S ∇N₀) I with the elastic stress S.
+/// - Stable Neo-Hookean: the exact second derivative, A (μ b² I + (λ + μ) g gᵀ + ((λ + μ)(J − 1) − μ) b⊥² /J n nᵀ)
+///   with b = ‖∇N₀‖, t = b₁ f₂ − b₂ f₁, b⊥ = ‖t‖, g = ∂J/∂x₀ = t × n, n = f₁ × f₂/J. Only the eigenvalue along n can
+///   be negative; then it is replaced by 0.
 ///
 /// With `per_vertex` damping the energy is A ψ alone. Let B be its block and moved = x₀ − xᵗ₀: k B moved is subtracted
 /// from the force, and the block is (1 + k) B.
@@ -44,28 +44,32 @@ struct MembraneIn {
   std::vector<MembraneCase> cases;  ///< independent of each other
 };
 
-/// Largest error of the force in units of u · scale, u = 2⁻²⁴. Rounding errors on the longest way from an input to the
-/// force: a difference (1), F (a product and a sum), G (a product, two sums, minus one; F enters twice: 3 more), a
-/// change of strain (1), a stress (a trace, a product, a sum), its damping (2), its product with ∇N₀ (1 + 2) and with F
-/// (2 + 3), the area (1): 24.
+/// Largest error of the force in units of u · scale, u = 2⁻²⁴. Rounding errors on the longest path from an input to the
+/// force, 24 in all:
+///
+/// - a difference of corners (1), F (a product and a sum)
+/// - G: a product, two sums, minus one; F enters twice (3 more)
+/// - a change of strain (1), a stress (a trace, a product, a sum), the damping of the stress (2)
+/// - the products of the stress with ∇N₀ (1 + 2) and with F (2 + 3), the area (1)
 inline constexpr double membrane_force_tolerance = 24;
-/// Largest error of the block. Rounding errors: F (3), twice; its products with ∇N₀ (1 + 2), twice; an outer product
+/// Largest error of the block. Rounding errors: F (3), twice; the products with ∇N₀ (1 + 2), twice; an outer product
 /// (2), a factor (3), three sums.
 inline constexpr double membrane_block_tolerance = 20;
 /// Largest error of the force of the stable Neo-Hookean model. (The judge applies membrane_force_tolerance, so this
 /// model's scales are multiplied by neo_hookean_force_tolerance/membrane_force_tolerance.) Rounding errors, 38 in all:
 ///
-/// - (λ + μ)(J − 1) − μ: the normal of two edges (two differences, a product, a difference: 4), its length (2 · 4 + 3
-///   halved by the root, the root: 7), the density ∇N₁ × ∇N₂ (2), J (10 with these), the rest (4): 14.
-/// - g: the third edge (2), n (4 + 8 + 1), a cross product (2), the density (3): 20.
-/// - the product of (λ + μ)(J − 1) − μ and g (1), two sums (2), the area (1).
+/// - (λ + μ)(J − 1) − μ, 14: J (10), and four more operations. J is the length of the normal of two edges, times the
+///   density ∇N₁ × ∇N₂. The normal has 4 (two differences, a product, a difference), its length 7 (2 · 4 + 3 halved
+///   by the root, and the root), the density 2, the product 1.
+/// - g, 20: the third edge (2), n (4 + 8 + 1), a cross product (2), the density (3)
+/// - the product of (λ + μ)(J − 1) − μ and g (1), two sums (2), the area (1)
 inline constexpr double neo_hookean_force_tolerance = 38;
 /// Largest error of the block of the stable Neo-Hookean model. Rounding errors: (λ + μ)(J − 1) − μ (14), ‖g‖² (2 · 20 +
 /// 3), its quotient by J and the sum (13), n twice (26), an outer product (2), area and sums (3): 101.
 inline constexpr double neo_hookean_block_tolerance = 101;
-/// Error of f₁ × f₂ in units of u · scale: 7 by the count of neo_hookean_force_tolerance, and a reserve. If ‖f₁ × f₂‖
-/// is at most twice this error, the triangle may count as collapsed, because first-order errors are then off by a tenth
-/// or more.
+/// Error of f₁ × f₂ in units of u · scale: 7 by the count of neo_hookean_force_tolerance, rounded up generously. If ‖f₁
+/// × f₂‖ is at most twice this error, the triangle may count as collapsed, because first-order error estimates are then
+/// wrong by a tenth or more.
 inline constexpr double neo_hookean_grey = 16;
 
 }  // namespace ogc::compare

@@ -14,11 +14,11 @@ struct RodNeighbour {
   Quaternion now{}, start{}, rest{};  ///< q_f, q_fᵗ; p° = q̄° q°_f of a neighbour ahead, q̄°_f q° of one behind [1]
 };
 
-/// Products are those of quaternions, vectors count as pure quaternions, q̄ is the conjugate, · the product in ℝ⁴.
+/// Products are quaternion products, vectors count as pure quaternions, q̄ is the conjugate, · the product in ℝ⁴.
 ///
 /// A neighbour ahead pulls q to t = q_f p̄°, a neighbour behind to t = q_f p°. The relative rotation at the start of
-/// the step was pᵗ = q̄ᵗ q_fᵗ ahead, q̄_fᵗ qᵗ behind. The damping pulls q to tᵗ, which is t with pᵗ for p°. With D = x₁
-/// − x₀ and c = e₃ + k R(qᵗ)ᵀ Dᵗ/l (compare/stages/rod.hpp)
+/// the step was pᵗ = q̄ᵗ q_fᵗ ahead, q̄_fᵗ qᵗ behind. The damping pulls q to tᵗ, which is t with pᵗ in place of p°.
+/// With D = x₁ − x₀ and c = e₃ + k R(qᵗ)ᵀ Dᵗ/l (compare/stages/rod.hpp)
 ///   M q = −2 k_s D q c (symmetric, M² = σ² I, σ = 2 k_s ‖D‖ ‖c‖),   b = Σ w (s t + k sᵗ tᵗ)
 /// over the neighbours. The signs s and sᵗ, 1 or −1, bring t and tᵗ nearer to the old q: s t·q ≥ 0, sᵗ tᵗ·q ≥ 0.
 ///
@@ -27,7 +27,7 @@ struct RodNeighbour {
 ///
 /// - the old q if σ = 0 and b = 0,
 /// - the minimiser nearest to the old q if b = 0 and σ ≠ 0,
-/// - any minimiser if only a part of b vanishes (the neighbours pull to a reversed director).
+/// - any minimiser if only a component of b vanishes (the neighbours pull to a reversed director).
 ///
 /// Legal: quaternions as in stage rod; lengths 0 or at least 2⁻⁵⁰ m, at most 2³⁰ l; w ≥ 2⁻⁴⁰ N m and w (1 + k) ≤ 2⁶⁰ N
 /// m, so that squares are normal numbers.
@@ -60,7 +60,7 @@ struct OrientationAnswer {
   /// ‖∂q/∂D‖ ‖D‖ + ‖∂q/∂c‖ (1 + k ‖Dᵗ‖/l) + ‖∂q/∂k_s‖ k_s + ‖∂q/∂b‖ Σ w (1 + k), at least 1. Infinite if errors within
   /// the tolerance can change one minimiser into any other; then only energy and residual are judged
   double scale = 0;
-  double energy_scale = 0;  ///< 2 k_s ‖D‖ (1 + k ‖Dᵗ‖/l) + Σ w (1 + k), the unit of energy and residual [N m]
+  double energy_scale = 0;  ///< 2 k_s ‖D‖ (1 + k ‖Dᵗ‖/l) + Σ w (1 + k), error scale of energy and residual [N m]
 };
 
 /// accepted[i][0] has the exact signs. Case i has more answers if a scalar product t·q is within orientation_sign_grey
@@ -74,26 +74,25 @@ struct OrientationTruth {
 /// components is a sum of terms whose moduli add up to at most 1, with 4 rounding errors. t is one product, tᵗ two of
 /// them (16). The scalar product adds 4: 20.
 inline constexpr double orientation_sign_grey = 20;
-/// Largest error in units of u · scale. Each factor ∂q/∂… of the scale has its own count of rounding errors; the
+/// Largest error in units of u · scale. Each term of OrientationAnswer::scale has its own count of rounding errors; the
 /// largest decides:
 ///
-/// - b: tᵗ (16), its weight (2), sums (3): 21; the part of b in each eigenspace of M: two products and half a sum (17);
-///   the answer: two quotients and a sum, its length (3 + 4): 45 in all.
-/// - c: the rotation of the difference Dᵗ by R(qᵗ)ᵀ, a quotient, a factor, a sum (14 + 4), a qᵗ that is not quite of
-///   unit length (8), the unit vector (4): 30.
+/// - b, 45: tᵗ (16), the weight (2), sums (3); the component of b in each eigenspace of M (two products and half a
+///   sum: 17); the answer (two quotients and a sum: 3, its length: 4).
+/// - c, 30: the difference Dᵗ rotated by R(qᵗ)ᵀ, a quotient, a factor, a sum (14 + 4); a qᵗ that is not quite of
+///   unit length (8); the unit vector (4).
 /// - D: a difference and the unit vector (5).
-/// - k_s: σ, made of two lengths and three products (4 + 18 + 3).
+/// - k_s, 25: σ, made of two lengths and three products (4 + 18 + 3).
 inline constexpr double orientation_tolerance = 45;
-/// Largest residual ‖(I − q qᵀ)(M q + b)‖ in units of u · energy_scale. Two counts of rounding errors; the larger one,
-/// that of M q, decides:
+/// Largest residual ‖(I − q qᵀ)(M q + b)‖ in units of u · energy_scale: the larger of two counts of rounding errors.
 ///
 /// - b: 45, see orientation_tolerance.
-/// - M q: M, by the counts of orientation_tolerance for D (5), c (30) and k_s (25); the answer q (7), times the
-///   distance 2 σ of M's eigenvalues (14): 74.
+/// - M q, 74: D (5), c (30) and k_s (25) as in orientation_tolerance; the answer q (7), times the distance 2 σ of
+///   M's eigenvalues (14).
 inline constexpr double orientation_residual_tolerance = 74;
-/// Largest excess over the least energy, in units of u · energy_scale. If q is well determined, the excess is of second
-/// order. If b is smaller than its own error, q may lie on the wrong half of the circle of minimisers. The excess is
-/// then at most twice the error of b (45).
+/// Largest energy above the least energy, in units of u · energy_scale. If q is well determined, the difference is of
+/// second order. If b is smaller than its own error, q may lie on the wrong half of the circle of minimisers. The
+/// difference is then at most twice the error of b (45).
 inline constexpr double orientation_energy_tolerance = 90;
 /// Largest | ‖q‖ − 1 | in units of u. Rounding errors: four squares and their sum (4, halved by the root: 2), the root
 /// (1), a quotient (1). Normalisation by a product with (3 − ‖q‖²)/2 has no larger error.

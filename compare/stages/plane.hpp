@@ -1,5 +1,5 @@
-// Stage plane: with bounds of planes, the region of each vertex until the next detection (method.md §5.6): half-spaces
-// for near pairs, and a ball for all pairs without a half-space.
+// Stage plane: the region of each vertex until the next detection if bounds are planes (method.md §5.6). The region is
+// the intersection of half-spaces for near pairs and a ball for all pairs without a half-space.
 #pragma once
 
 #include <cstdint>
@@ -88,13 +88,13 @@ struct PlaneGuarantee {
   bool kept() const { return uncovered == 0 && broken == 0 && too_large == 0; }
 };
 
-/// Measures how far the vertices may still move, since planes are used to leave vertices more freedom than balls do. A
-/// pair is *due*, that is, it must have a plane, if both hold:
+/// Measures how far the vertices may still move, since planes should leave vertices more freedom than balls do. A pair
+/// is *due* (it must have a plane) if both hold:
 ///
-/// - For each of its movable vertices, it is nearer than the vertex's 17th nearest pair by more than
+/// - For each movable vertex of the pair, the pair is nearer than the 17th nearest pair of this vertex by more than
 ///   `detect_below_tolerance`, since rounding may decide which pair is the 17th.
-/// - Single precision can represent its plane: d ≥ 2⁻¹⁸ Σ|δ|, and γ_p d and (1 − 2γ_p) d are at least 2⁻⁴⁵ of the
-///   largest modulus of a coordinate. δ are the coordinates relative to the pair's first vertex.
+/// - Single precision can represent the pair's plane: d ≥ 2⁻¹⁸ Σ|δ|, and γ_p d and (1 − 2γ_p) d are at least 2⁻⁴⁵ of
+///   the largest modulus of a coordinate. δ are the coordinates relative to the pair's first vertex.
 ///
 /// Rounding rotates n by u = 2⁻²⁴, which changes the pair's projection on n by at most u Σ|δ| ≤ d/64. Heights n·x and
 /// offsets err by a few 2⁻⁵³ of the coordinates.
@@ -103,23 +103,23 @@ struct PlaneFreedom {
   std::size_t due = 0;          ///< pairs that must have a plane
   std::size_t missing = 0;      ///< due pairs that no plane separates
   PrimitivePair first_missing;  ///< the first missing pair by kind, first and second
-  /// With balls the two sides of a pair may together come 2γ_p d closer. This is the largest amount by which a
-  /// separated pair's two half-spaces allow less than that, in units of u · max(d, Σ|δ|).
+  /// With balls the two sides of a pair may together approach by 2γ_p d. The half-spaces of a separated pair may allow
+  /// less; this is the largest difference, in units of u · max(d, Σ|δ|).
   double narrowing = 0;
   PrimitivePair narrowest;  ///< the pair of `narrowing`
-  /// Only with displacements. The room of one side of a separated pair is its offset minus its farthest vertex along n.
-  /// It should be 2γ_p s d, where s is the side's share. This is the largest deviation in units of u · (max(d, Σ|δ|) +
-  /// d W/(a + b)). With the answer's n,
+  /// Only with displacements. The room of one side of a separated pair is the offset of that side minus the height n·x
+  /// of its farthest vertex. The room should be 2γ_p s d, where s is the side's share. `division` is the largest
+  /// deviation from it, in units of u · (max(d, Σ|δ|) + d W/(a + b)). With the answer's n,
   ///
   ///   a = max(0, largest n·w of the first side),  b = max(0, largest −n·w of the second),
   ///   s = a/(a + b) of the first side, b/(a + b) of the second, at least `least_division`; 1/2 if a = b = 0,
   ///
-  /// and W = max ‖w‖ of the pair. Pairs with an immovable side are left out. So are pairs for which rounding may decide
-  /// whether the sides approach.
+  /// and W = max ‖w‖ of the pair. Two kinds of pairs are left out: pairs with an immovable side, and pairs for which
+  /// rounding may decide whether the sides approach.
   double division = 0;
   PrimitivePair worst_divided;  ///< the pair of `division`
-  /// By vertex: shortfall of b_v below γ_p min(r_q, smallest d of its unseparated pairs), in units of u γ_p · max(d,
-  /// Σ|δ|) of the pair that gives the smallest value; 0 for immovable vertices and inside solids.
+  /// By vertex: by how many u b_v is too small. This is the smallest (γ_p d − b_v)/(u γ_p max(d, Σ|δ|)) of the vertex's
+  /// unseparated pairs and of d = r_q, at least 0; 0 for immovable vertices and inside solids.
   std::vector<double> ball_shortfall;
   std::size_t needless = 0;        ///< half-spaces of pairs that are not within r_q
   std::size_t bounded_inside = 0;  ///< vertices inside solids whose ball is not the largest finite number
@@ -131,16 +131,16 @@ struct PlaneTruth {
   PlaneFreedom freedom;      ///< whether they leave the vertices their freedom
 };
 
-/// Largest narrowing in units of u · max(d, Σ|δ|): the sum of three errors, each at most 1, times 2γ_p < 1. The first
-/// is the rounding of n's direction, which changes the pair's projection on n by at most u Σ|δ|. The second is the
-/// error of n's length. The third comes from the offsets and from the judge's arithmetic in double. A kernel that
+/// Largest `narrowing`, in units of u · max(d, Σ|δ|): the sum of three errors, each at most 1, times 2γ_p < 1. The
+/// first is the rounding of n's direction, which changes the pair's projection on n by at most u Σ|δ|. The second is
+/// the error of n's length. The third comes from the offsets and from the judge's arithmetic in double. A kernel that
 /// computes n's direction in single precision exceeds this limit.
 inline constexpr double plane_narrowing_tolerance = 3;
-/// Largest division in units of u · (max(d, Σ|δ|) + d W/(a + b)): the room's own error (3, see
+/// Largest `division`, in units of u · (max(d, Σ|δ|) + d W/(a + b)): the error of the whole room (3, see
 /// plane_narrowing_tolerance) and the error of s (at most 1). a and b are sums of three products in single precision
 /// and err by 4 u W. So s, which is multiplied by 2γ_p d < d, errs by 4 u W/(a + b).
 inline constexpr double plane_division_tolerance = 4;
-/// Largest ball shortfall in units of u γ_p · max(d, Σ|δ|): the error of a smallest distance
+/// Largest `ball_shortfall`, in units of u γ_p · max(d, Σ|δ|): the error of a smallest distance
 /// (`detect_below_tolerance`), of a product rounded down (2), and of a kernel that rounds to nearest and then steps
 /// down once more (2).
 inline constexpr double plane_ball_tolerance = detect_below_tolerance + 4;

@@ -78,8 +78,8 @@ struct RestStateIn {
   const Topology* topology = nullptr;  ///< of the scene's mesh
 };
 
-/// Triangles and hinges in the order of the topology, without those of fixed bodies, of solids and of models `none`;
-/// tetrahedra in the order of the mesh, without those of fixed bodies.
+/// The answer. `triangles` and `hinges` omit elements of fixed bodies, of solids and of models `none`; `tetrahedra`
+/// omits elements of fixed bodies.
 struct RestStateOut {
   /// m_v [kg]: a third of ρ A of each triangle at v, on solids a quarter of ρ V of each tetrahedron, half of ρ l of
   /// each segment; 0 on fixed bodies
@@ -98,17 +98,17 @@ struct RestStateOut {
 struct RestStateTruth {
   RestStateOut exact;                    ///< correctly rounded
   std::vector<double> mass, mass_scale;  ///< by vertex [kg]
-  /// areas by triangle and squared lengths by edge, with the units of their errors [m²]
+  /// areas by triangle and squared lengths by edge, with their error scales [m²]
   std::vector<double> area, area_scale, edge_length_squared, edge_length_squared_scale;
   std::vector<std::array<std::array<double, 2>, 2>> gradient;  ///< by triangle: ∇N₁, ∇N₂ [1/m]
-  std::vector<std::array<double, 2>> gradient_scale;           ///< by triangle: units of ∇N₁ and ∇N₂
+  std::vector<std::array<double, 2>> gradient_scale;           ///< by triangle: error scales of ∇N₁ and ∇N₂
   /// either sign is accepted where |θ₀| is within its error of π
   std::vector<double> rest_angle, rest_angle_scale, stiffness, stiffness_scale;
   std::vector<std::array<double, 3>> weight;
   std::vector<double> weight_scale;
   std::vector<double> meeting_stiffness, meeting_friction;
   std::vector<double> volume, volume_scale, inverse, inverse_scale;
-  /// one unit for all weights of a tetrahedron, and one for all gradients
+  /// one error scale for all weights of a tetrahedron, and one for all its gradients
   std::vector<std::array<double, 6>> tetrahedron_weight;
   std::vector<std::array<std::array<double, 3>, 3>> tetrahedron_gradient;
   std::vector<double> tetrahedron_weight_scale, tetrahedron_gradient_scale;
@@ -116,15 +116,16 @@ struct RestStateTruth {
   std::vector<std::array<double, 2>> segment_weight, segment_weight_scale;  ///< behind, ahead [N m]
   std::vector<std::array<double, 4>> segment_orientation;                   ///< q°
   std::vector<std::array<std::array<double, 4>, 2>> segment_relative;       ///< p° behind, ahead; 0: none
-  /// unit of q° and p°: 1 + Σ 1/cos(θ/2) over the smallest rotations of the walk up to the segment, where θ is the
-  /// angle of each. It is infinite if this exceeds 2²⁰; any unit quaternion is then accepted
+  /// error scale of q° and p°: 1 + Σ 1/cos(θ/2), where θ is the angle of each smallest rotation on the walk up to the
+  /// segment. The scale is infinite if this sum exceeds 2²⁰; any unit quaternion is then accepted
   std::vector<double> segment_frame_scale;
 };
 
-/// Largest error in units of u · scale, u = 2⁻²⁴. The rounding to single precision errs by at most u times the value,
-/// and the value does not exceed its scale. The exception is θ₀: |θ₀| ≤ π, and its scale is at least 2, because each
-/// opposite vertex adds its distance from x0 over its height. So this rounding takes up to π/2 units. Rest data are
-/// computed in double or better: some thirty roundings of 2⁻⁵³, each of an input's size, add about 2⁻²⁴ units.
+/// Largest error in units of u · scale, u = 2⁻²⁴. Rounding to single precision errs by at most u times the value, and
+/// the value does not exceed its scale. The exception is θ₀: |θ₀| ≤ π, and its scale is at least 2, because each
+/// opposite vertex adds its distance from x0 over its height. So rounding θ₀ errs by up to π/2 in these units. Rest
+/// data are computed in double or better: some thirty roundings of 2⁻⁵³, relative to the size of an input, add about
+/// 2⁻²⁴.
 inline constexpr double rest_state_tolerance = 1 + 0x1p-20;
 inline constexpr double rest_state_angle_tolerance = 1.6;
 
@@ -138,8 +139,8 @@ inline constexpr double rest_state_angle_tolerance = 1.6;
 //     vertices         returns the vertices that an element joins; −1 stands for one that it lacks
 //     each_possible    visits the vertices of each stencil that is an element if its material has the energy
 
-/// Base of the kinds whose elements a rest state has, in its member `list`. Member `joined` of an element has the
-/// vertices.
+/// Base of the element kinds that a rest state lists. `list` is the member of RestStateOut with the elements; `joined`
+/// is the member of an element with its vertices.
 template <auto list, auto joined>
 struct OfRestState {
   static constexpr auto rest = list;  ///< points to the elements
@@ -155,7 +156,7 @@ struct OfRestState {
   }
 };
 
-/// Base of the kinds whose stencils are in member `stencils` of the mesh.
+/// Base of the element kinds whose possible stencils are the member `stencils` of the mesh.
 template <auto list, auto joined, auto stencils>
 struct OfMesh : OfRestState<list, joined> {
   /// Visits each stencil of the mesh.

@@ -39,8 +39,8 @@ struct RodIn {
 /// divided by 1, that of C by 2 and that of Cᵗ by 3. The largest quotient decides: 24/2 = 12.
 ///
 /// - A: a difference, a quotient, 1 + k and its product (2), k_s, the last difference: 6.
-/// - C: the rotation by R(q) (14, see below), k_s, the last difference (1 + 1), and ‖q‖², which is off by up to 2⁻²¹
-///   and enters other formulas for R (8): 24.
+/// - C: the rotation by R(q) (14, see below), k_s, the last difference (1 + 1), and ‖q‖², which may differ from 1 by
+///   2⁻²¹ and enters other formulas for R (8): 24.
 /// - Cᵗ, inside c: a difference, the rotation by R(qᵗ)ᵀ (14), a quotient, k, a sum (1 + 1 + 1 + 1) and qᵗ's length
 ///   (8): 26.
 ///
@@ -52,8 +52,8 @@ struct RodIn {
 /// - 2 u × (u × v): 10 ‖u‖²
 /// - two sums: 2 + 2 ‖u‖ w
 ///
-/// With damping by vertex the term of `moved` adds its size to the scale and errs by 7: a difference, a block of 3, two
-/// products and a sum.
+/// Damping by vertex adds the term k B moved (see RodCase). Its size is added to the scale, and it errs by 7: a
+/// difference, a block of 3, two products and a sum.
 inline constexpr double rod_force_tolerance = 12;
 /// Largest error of the block in units of u · scale. Rounding errors: 1 + k, a product, a quotient.
 inline constexpr double rod_block_tolerance = 3;

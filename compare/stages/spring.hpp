@@ -33,17 +33,20 @@ struct SpringIn {
 
 /// Largest error of a spring's force in units of u · scale, u = 2⁻²⁴. Rounding errors:
 ///
-/// - without damping: a difference of vertices (1), its length (3: a square with sums and difference, 1 + 2 + 2 · 1,
-///   halved by the root, and the root), l₀/l and 1 − l₀/l (2), k_s (1), the product with the vector (1 + 1): 9
-/// - with damping in addition: the second length, its change, two products, a quotient, a sum: 12
+/// - without damping, 9: a difference of vertices (1), its length (3: a square with sums and difference, 1 + 2 + 2 ·
+///   1, halved by the root, and the root), l₀/l and 1 − l₀/l (2), k_s (1), the product with the vector (1 + 1)
+/// - with damping, 12: also the second length, the change of length, two products, a quotient, a sum
 inline constexpr double spring_force_tolerance = 12;
 /// Largest error of a spring's block. Rounding errors: 1 − l₀/l (6), one minus it and the product with k_s (2), both
 /// factors n (2 · 5), an outer product (2), two sums: 22.
 inline constexpr double spring_block_tolerance = 22;
 
-/// Largest error of a stitch's force. The vector between its ends errs by 4 instead of 1: two differences, the product
-/// with s, and their difference. A length errs by 7 instead of 3 (a square: 8 + 3, halved by the root, and the root). w
-/// and its product add 2. So the count of a spring, 12, grows by 3 (vector), 4 and 4 (lengths) and 2 (w): 25.
+/// Largest error of a stitch's force. The count of a spring, 12, grows to 25:
+///
+/// - The vector between the ends errs by 4 instead of 1 (two differences, the product with s, their difference): 3
+///   more.
+/// - Each of two lengths errs by 7 instead of 3 (a square, 8 + 3, halved by the root, and the root): 8 more.
+/// - w and the product with w: 2 more.
 inline constexpr double stitch_force_tolerance = 25;
 /// Largest error of a stitch's block. Rounding errors: 1 − l₀/l (6 + 4), one minus it and the product with k_s (2),
 /// both factors n (2 · (4 + 7 + 1)), an outer product (2), two sums, w² (3) and its product: 44.

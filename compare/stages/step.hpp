@@ -19,7 +19,7 @@ enum class StepEventKind : std::uint8_t {
 /// One event of a step, and its results.
 struct StepEvent {
   StepEventKind kind = StepEventKind::detection;  ///< kind of the event
-  std::vector<Vec3f> position;  ///< x after the event [m]; for a detection X_prev as read by later events
+  std::vector<Vec3f> position;  ///< x after the event [m]; for a detection its X_prev, which later events read
   Index cut = 0;                ///< number of vertices that a guess round or sweep cut, prescribed ones included
   /// Contacts that a detection found; empty for other events.
   DetectVertexFacetOut vertex_facet;
@@ -47,17 +47,19 @@ struct StepOut {
   std::vector<StepEvent> events;          ///< in order
   std::vector<Vec3f> position, velocity;  ///< xᵗ⁺¹ [m], vᵗ⁺¹ = (xᵗ⁺¹ − xᵗ)/h [m/s]
   std::vector<Index> segment_colour{};    ///< colour of each segment in the sweeps
-  /// By segment: orientation at the start, turned after the guess loop, and at the end of the step
+  /// by segment: orientation at the start of the step, after the rotation that follows the guess loop, and at the end
+  /// of the step
   std::vector<Quaternion> orientation_start{}, turned{}, orientation{};
 };
 
 /// The part of a vertex's move that contacts leave in a round of the guess loop (method.md §5.2).
 struct HeldMove {
-  Vec3 move;            ///< m, what is left of y − X_prev [m]
+  Vec3 move;            ///< m, the part of y − X_prev that contacts leave [m]
   double accepted = 0;  ///< largest error of m in a right answer [m]
-  /// 1: the vertex has a contact and, if it is prescribed, stays where it is after round 1; 0: it goes to y
+  /// 1: the vertex is free and has a contact, or is prescribed and stays where it is because of a contact (after round
+  /// 1); 0: the vertex goes to y
   std::uint8_t touches = 0;
-  std::uint8_t grey = 0;  ///< 1: a decision of a contact may go either way; `accepted` covers both
+  std::uint8_t grey = 0;  ///< 1: a decision of a contact may go either way; `accepted` covers both outcomes
 };
 
 /// Results that follow from the answer's own positions and counts.
@@ -65,18 +67,23 @@ struct StepTruth {
   /// min(r + max ‖y − xᵗ‖, cap), in double; the scale of its error is the radius itself [m]
   double query_radius = 0, query_radius_scale = 0;
   std::vector<Vec3f> prescribed_target;  ///< by vertex; 0 for vertices that are not prescribed
-  /// events in the order of Algorithm 3, given each event's count of cut vertices (0 for events that the answer lacks)
+  /// kinds of the events in the order of Algorithm 3, which depends on the answer's counts of cut vertices (0 for
+  /// events that the answer lacks)
   std::vector<StepEventKind> events;
-  /// By event, then by vertex; empty for events other than guess rounds. An answer shows only truncated positions. So
-  /// the part that contacts removed in earlier rounds is computed exactly, and `accepted` includes its error.
+  /// by event, then by vertex; empty for events other than guess rounds. An answer has only truncated positions, so the
+  /// part of the move that contacts removed in earlier rounds is computed exactly; `accepted` includes its error
   std::vector<std::vector<HeldMove>> moves{};
   std::vector<Vec3> velocity;          ///< [m/s]
   std::vector<double> velocity_scale;  ///< ‖xᵗ⁺¹ − xᵗ‖/h [m/s]
 };
 
-/// Largest error of r_q in units of u r_q, u = 2⁻²⁴. Rounding errors: the difference y − xᵗ (1), products and sums of
-/// its square (3, both halved by the root), the root (1), the addition of r (1); or the one rounding of cap · r.
-/// Together 4. One more covers second order and a vertex whose length is the largest only after rounding.
+/// Largest error of r_q in units of u r_q, u = 2⁻²⁴. r_q is r + max ‖y − xᵗ‖ or cap · r. Rounding errors:
+///
+/// - r + max ‖y − xᵗ‖, 4: the difference y − xᵗ (1) and products and sums of its square (3), halved by the root; the
+///   root (1); the addition of r (1)
+/// - cap · r: 1
+///
+/// One more covers second order and a vertex whose length is the largest only after rounding.
 inline constexpr double step_query_radius_tolerance = 5;
 /// Largest error of a velocity in units of u ‖xᵗ⁺¹ − xᵗ‖/h: difference (1), quotient (1), a quarter for second order.
 inline constexpr double step_velocity_tolerance = 2.25;

@@ -61,41 +61,42 @@ struct SweepOut {
   std::vector<Quaternion> orientation{};  ///< by segment; segments that are not free keep the old one
 };
 
-/// The exact update of each vertex, computed from the answer's own lower colours, and the largest accepted error [m] in
-/// the direction of this answer. That error sums up what the errors of f and H (within the tolerances of their stages)
-/// cause through H⁻¹, and the errors of the solve, of the truncation and of storing. It is 0 if the answer must be
-/// `position` bit for bit.
+/// The exact update of each vertex, computed from the answer's new positions at vertices of lower colour, and the
+/// largest accepted error [m] in the direction of the answer's error. The accepted error is the sum of several errors:
+/// the errors of f and H (within the tolerances of their stages), transformed by H⁻¹, and those of the solve, of the
+/// truncation and of storing. It is 0 if the answer must be `position` bit for bit.
 ///
 /// A vertex is `grey` if a stencil has more than one accepted answer; `position` then comes from the combination
-/// nearest to the answer. It is also grey if it is *ill-conditioned*: the errors of H alone could make H singular,
-/// ‖H⁻¹‖ ‖δH‖ ≥ 1/2. Then the error of a single-precision solve is unlimited, and a solver may take a step down the
-/// gradient instead. So `accepted` is infinite. Exception: `accepted` is 0 if the vertex was not cut and moved against
-/// its force by more than the errors of f and H allow.
+/// nearest to the answer. A vertex is also grey if it is *ill-conditioned*: the errors of H alone could make H
+/// singular, ‖H⁻¹‖ ‖δH‖ ≥ 1/2. Then the error of a single-precision solve is unlimited, and a solver may take a step
+/// down the gradient instead. So `accepted` is infinite. Exception: `accepted` is 0 if the vertex was not cut and moved
+/// against its force by more than the errors of f and H allow.
 ///
 /// `accepted` is also infinite if half-spaces cut a free vertex, or may cut it. The judge then only requires that the
 /// vertex lies in its region. Stage truncate judges how it slides.
 struct SweepTruth {
-  std::vector<Vec3> position;          ///< computed from the answer's own neighbours [m]
-  std::vector<double> accepted;        ///< largest error [m]
-  std::vector<std::uint8_t> grey;      ///< 1 where a decision may go either way
-  Index cut = 0, cut_doubtful = 0;     ///< number of certain cuts, and of proposals within their error of the bound
-  std::vector<Index> free_segments{};  ///< segments of the entries of `orientation`, ascending
-  OrientationTruth orientation{};      ///< by free segment, computed from the answer's own neighbours
+  std::vector<Vec3> position;      ///< computed from the answer's positions of the neighbours [m]
+  std::vector<double> accepted;    ///< largest error [m]
+  std::vector<std::uint8_t> grey;  ///< 1 where a decision may go either way
+  /// number of certain cuts, and of doubtful ones (proposals within their error of the bound)
+  Index cut = 0, cut_doubtful = 0;
+  std::vector<Index> free_segments{};  ///< segments with an entry in `orientation`, ascending
+  OrientationTruth orientation{};      ///< by free segment, computed from the answer's quaternions of the neighbours
 };
 
-/// Rounding errors that the sweep adds to the tolerances of its stages, in their units u · scale, u = 2⁻²⁴. Answer and
-/// truth each round ∇N₀ of a triangle, w(x0) of a hinge, k_d/h and ε_v h once.
+/// Rounding errors that the sweep adds to the tolerances of the energies' stages, in units of u · scale of these
+/// stages, u = 2⁻²⁴. Answer and truth each round ∇N₀ of a triangle, w(x0) of a hinge, k_d/h and ε_v h once.
 inline constexpr double sweep_input_tolerance = 2;
-/// Rounding errors when a stencil's block is added up, each at most u of a partial sum of moduli. There are at most
-/// four parts (membrane), and the largest part is at most √(3/2) of the whole (friction's identity before the normal is
-/// subtracted): 4 √(3/2) < 5. The force is added once.
+/// Rounding errors of adding up the terms of a stencil's block; each is at most u times a partial sum of moduli. There
+/// are at most four terms (membrane), and the largest is at most √(3/2) times the whole block (friction: the identity,
+/// from which n nᵀ is subtracted): 4 √(3/2) < 5. The force is added once.
 inline constexpr double sweep_block_additions = 5;
 /// Error of the inertia's force in units of u w ‖y − x‖, w = m/h²: a difference (1), w (1), a product (1). The
 /// inertia's block errs by u w √3.
 inline constexpr double sweep_inertia_tolerance = 3;
-/// Backward error of the 3×3 solve in units of u ‖H‖₂: |E| ≤ γ |L||D||Lᵀ|, where γ = 12 u for the factors of Cholesky
-/// or LDLᵀ and both substitutions (3n + 1, n = 3; two more for the divisions of LDLᵀ). The norm of |L||D||Lᵀ| is at
-/// most n ‖H‖₂.
+/// Backward error |E| ≤ γ |L||D||Lᵀ| of the 3×3 solve in units of u ‖H‖₂. γ = 12 u for the factors of Cholesky or LDLᵀ
+/// and both substitutions: 3n + 1 with n = 3, and 2 for the divisions of LDLᵀ. The norm of |L||D||Lᵀ| is at most n
+/// ‖H‖₂.
 inline constexpr double sweep_solve_tolerance = 36;
 
 }  // namespace ogc::compare

@@ -43,20 +43,28 @@ struct TetrahedronIn {
   std::vector<TetrahedronCase> cases;  ///< independent of each other
 };
 
-/// Largest error of the elastic force in units of u · scale, u = 2⁻²⁴. Rounding errors on the longest way from an input
-/// to the force: a difference (1), a normal of two edges (another difference, twice: 4; a product and a difference: 2),
-/// J (a difference, a product, two sums, i: 5), minus one (1), λ + μ (2), minus μ (1), the normal once more (6), its
-/// product and the sixth (2), the sum (1): 25. The two edges of the normal are rounded separately, so the normal's
-/// scale also contains their lengths; this matters for a far corner and two near ones.
+/// Largest error of the elastic force in units of u · scale, u = 2⁻²⁴. Rounding errors on the longest path from an
+/// input to the force, 25 in all:
+///
+/// - a difference of corners (1); a normal of two edges: another difference, twice (4), a product and a difference
+///   (2)
+/// - J: a difference, a product, two sums, the factor i (5)
+/// - the factor of the normal: J minus one (1), λ + μ (2), minus μ (1)
+/// - the normal once more (6), its product and the sixth (2), the sum (1)
+///
+/// The two edges of the normal are rounded separately, so the normal's scale also contains their lengths. This matters
+/// for a far corner and two near ones.
 inline constexpr double tetrahedron_force_tolerance = 25;
 /// Largest error of the elastic block. Rounding errors: the normal twice (12), an outer product (2), (λ + μ) i/6 (3), Σ
-/// w_k and its product (1 + 1 + 1), the sum (1): 21.
+/// w_k and the product with it (1 + 1 + 1), the sum (1): 21.
 inline constexpr double tetrahedron_block_tolerance = 21;
 /// Largest error of the damping's force. (The judge applies tetrahedron_force_tolerance, so the damping's scales are
-/// multiplied by the ratio of this tolerance to tetrahedron_force_tolerance.) Rounding errors: F (a difference, a
-/// product, two sums: 4), G (twice F, a product, two sums, minus one and the half: 13), a change of strain (1), a
-/// stress (a trace: 2, two products, a sum: 5), its product with ∇N₀ (2 + 3) and with F (4 + 3), V k (2), the sum (1):
-/// 33.
+/// multiplied by the ratio of this tolerance to tetrahedron_force_tolerance.) Rounding errors, 33 in all:
+///
+/// - F: a difference, a product, two sums (4)
+/// - G: F twice, a product, two sums, minus one and the half (13)
+/// - a change of strain (1), a stress (a trace: 2, two products, a sum: 5)
+/// - the products of the stress with ∇N₀ (2 + 3) and with F (4 + 3), V k (2), the sum (1)
 inline constexpr double tetrahedron_damping_force_tolerance = 33;
 /// Largest error of the damping's block. Rounding errors: F∇N₀ (4 + 2 + 3), twice, an outer product (2), V k (λ + μ)
 /// (4), sums (3): 27.

@@ -19,10 +19,11 @@ struct HalfSpace {
   double offset = 0;  ///< o [m] times the length of n
 };
 
-/// The identity: H of a vertex on which no force but inertia acts. The vertex is then projected orthogonally.
+/// H of a vertex on which only inertia acts: the identity. The vertex is then projected orthogonally.
 inline constexpr std::array<float, 6> inertia_block{1, 0, 0, 1, 0, 1};
 
-/// Half-spaces, and how a vertex slides along them. All arrays are empty if no case has any.
+/// The half-spaces of each case, and how its vertex slides along them. All arrays are empty if there are no
+/// half-spaces.
 struct HalfSpacesIn {
   std::vector<Index> offsets;    ///< [cases + 1]: case i has items[offsets[i]] … items[offsets[i + 1] − 1]
   std::vector<HalfSpace> items;  ///< half-spaces of all cases, case by case
@@ -40,8 +41,8 @@ struct HalfSpacesIn {
   }
 };
 
-/// Input of the stage: independent vertices. X_prev and the current position lie in the ball, and in each half-space
-/// even if its offset is smaller by 2⁻⁵⁰ (Σ|n_k x_k| + |o|).
+/// Input of the stage: independent vertices. X_prev and the current position lie in the ball. They also lie in each
+/// half-space, even after its offset is reduced by 2⁻⁵⁰ (Σ|n_k x_k| + |o|).
 struct TruncateIn {
   std::vector<Vec3f> previous, position;  ///< X_prev and x [m]
   std::vector<float> bound;               ///< b_v ≥ 0 [m]
@@ -54,8 +55,8 @@ struct TruncateIn {
 /// A vertex that violates two or more half-spaces may end anywhere in its region. A vertex that violates one half-space
 /// slides along it, x − H⁻¹n (n·x − o)/(nᵀH⁻¹n), and then moves towards X_prev into the ball; this is its position if
 /// no other half-space interferes. A prescribed vertex goes as far along the straight line from its current position to
-/// x as the region allows. If two half-spaces on that line are nearer to each other than storing moves a position, any
-/// point of the line is right.
+/// x as the region allows. If storing the end of this path may violate two or more half-spaces beside the path, any
+/// point of the path is right.
 struct TruncateOut {
   std::vector<Vec3f> position;    ///< x [m]
   std::vector<std::uint8_t> cut;  ///< 1 if x lay outside its region
@@ -63,8 +64,9 @@ struct TruncateOut {
 
 /// The exact answer.
 struct TruncateTruth {
-  /// grey: either flag is accepted, because only one margin decides, and it is too small. The ball's margin is in the
-  /// grey zone, or a half-space's margin is at most `half_space_slack` (Σ|n_k x_k| + |o|)
+  /// `grey`: 1 if either flag is accepted, because no margin certainly cuts and at least one is too small to decide.
+  /// The ball's margin is then in the grey zone, or a half-space's margin is at most `half_space_slack` (Σ|n_k x_k| +
+  /// |o|)
   std::vector<std::uint8_t> cut, grey;
   std::vector<std::uint8_t> near;  ///< 1 where a margin lies within near_factor
   std::vector<Vec3> position;      ///< exact result, rounded to double
@@ -81,11 +83,11 @@ inline constexpr double half_space_slack = 0x1p-48;
 /// three coordinates (√3 half ulps), a step towards x_prev if rounding went outwards (the same again), and the relative
 /// error of the factor that shortens the move (4 u b).
 inline constexpr double truncate_position_tolerance = 8;
-/// truncate_position_tolerance for cases with half-spaces. There each of three coordinates may need a step to the next
-/// float (2 u each).
+/// The tolerance of a stored position for cases with half-spaces. Each of its three coordinates may need another step
+/// to the next float (2 u each).
 inline constexpr double truncate_region_tolerance = truncate_position_tolerance + 6;
-/// A kernel may stop this far short of a half-space, in units of u Σ|n_k x_k|, since storing can move a position across
-/// it. Storing counts 1, and 1 more after the ball has moved the vertex; the sum is rounded up to a power of two.
+/// Distance that a kernel may keep from a half-space, in units of u Σ|n_k x_k|, because storing can move a position
+/// across it. Storing counts 1, and 1 more if the ball has moved the vertex; the sum is rounded up to a power of two.
 inline constexpr double truncate_standoff = 4;
 /// Backward error of the solve H⁻¹n in units of u ‖H‖₂, as in a sweep (compare/stages/sweep.hpp).
 inline constexpr double truncate_solve_tolerance = 36;

@@ -12,8 +12,8 @@ namespace ogc::compare {
 /// A pair of primitives that share no vertex: a vertex and a triangle, or two edges, the lower-numbered first.
 struct PrimitivePair {
   enum class Kind : std::uint8_t { vertex_triangle, edge_edge };  ///< what the pair consists of
-  Kind kind = Kind::vertex_triangle;                              ///< which primitives `first` and `second` number
-  Index first = -1, second = -1;  ///< numbers of the vertex and the triangle, or of the edges
+  Kind kind = Kind::vertex_triangle;  ///< whether `first` and `second` are a vertex and a triangle, or edges
+  Index first = -1, second = -1;      ///< numbers of the vertex and the triangle, or of the edges
   friend bool operator==(const PrimitivePair&, const PrimitivePair&) = default;
 };
 

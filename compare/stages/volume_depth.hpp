@@ -46,16 +46,17 @@ struct VolumeContact {
 
 /// The answer. Part of triangles: let a be the face nearest to x (of equally near faces the lowest-dimensional, then
 /// the lowest-numbered). The part contains x if the segment from a to x begins on the inner side of a's triangles. Rims
-/// have no inner side; x is outside if it lies on the surface or beyond the closed box of the part's vertices. A part
+/// have no inner side. x is outside if it lies on the surface or beyond the closed box of the part's vertices. A part
 /// that contains x gives one contact, at a. Any other part gives one contact for each face in whose outward block (Eq.
 /// 8–10, the outer half) x lies nearer than r.
 ///
-/// Part of tetrahedra: those with positive volume form a complex. A sheet is a point of this complex that lies at x,
-/// named by the simplex whose interior contains it; tetrahedra are closed. A way leads straight from x to the closest
-/// point of a boundary triangle whose tetrahedron is positive. The way must stay in the complex: it passes from one
-/// tetrahedron to another only at a point of the way that both share. The contact of a sheet is at the end of its
-/// shortest way. Of equally short ways the one to the lowest-dimensional, then the lowest-numbered face counts. Ways of
-/// two sheets to one face are one contact. A sheet without a way has no contact. Without a sheet x is outside.
+/// Part of tetrahedra: the tetrahedra with positive volume, closed, form a complex. A sheet is a point of this complex
+/// that lies at x. It is named by the simplex whose interior contains it. A way leads straight from x to the closest
+/// point of a boundary triangle whose tetrahedron has positive volume. The way must stay in the complex: it passes from
+/// one tetrahedron to another only at a point of the way that both share. The contact of a sheet is at the boundary
+/// point where its shortest way ends. Among equally short ways the way to the lowest-dimensional, then the
+/// lowest-numbered face counts. If the ways of two sheets lead to one face, there is one contact. A sheet without a way
+/// has no contact. If there is no sheet, x is outside.
 ///
 /// If x is a vertex of the volume, sheets of tetrahedra and faces that contain this vertex are left out. At a triangle
 /// of a tetrahedron without positive volume the surface is folded. So a point outside may have a contact with a face of
@@ -65,47 +66,48 @@ struct VolumeDepthOut {
   std::vector<Index> unresolved = {};   ///< ascending: the point of each sheet without a way
 };
 
-/// An accepted contact, and the units of its numbers.
+/// An accepted contact, and the error scales of its numbers.
 struct VolumeAnswer {
   VolumeContact contact;            ///< point, inside, triangle and face
-  std::array<double, 3> weights{};  ///< exact within 2⁻⁴⁰ of their unit
-  Vec3 direction;                   ///< exact within 2⁻⁴⁰ of its unit
-  double depth = 0;                 ///< exact within 2⁻⁴⁰ of its unit [m]
+  std::array<double, 3> weights{};  ///< exact within 2⁻⁴⁰ weight_scale
+  Vec3 direction;                   ///< exact within 2⁻⁴⁰ direction_scale
+  double depth = 0;                 ///< exact within 2⁻⁴⁰ depth_scale [m]
   double weight_scale = 0;          ///< Σ ‖∂w/∂δ‖ ‖δ‖, at least 1
-  double direction_scale = 0;       ///< unit of the direction, at least 1; infinite where any direction is accepted
+  double direction_scale = 0;       ///< at least 1; infinite where any direction is accepted
   double depth_scale = 0;           ///< max(‖x − c‖, Σ ‖δ‖) + r [m]
 };
 
-/// Sheets of a part of tetrahedra at one point, and what is accepted for them. Sheets that cannot be told apart with
-/// certainty form a group; mostly a group is one sheet.
+/// A group of sheets of a part of tetrahedra at one point, and its accepted contacts. Sheets that cannot be told apart
+/// with certainty form one group; most groups have one sheet.
 struct VolumeSheetTruth {
-  int exact = 0;                       ///< number of sheets of the group in the exact answer
-  bool is_certain = false;             ///< true if there is exactly one sheet, whatever grey decisions give
-  std::vector<VolumeAnswer> accepted;  ///< any one of them may be the contact; the exact ones come first
-  int exact_contacts = 0;              ///< number of exact ones in `accepted`
-  int exact_unresolved = 0;            ///< number of sheets without a way in the exact answer
-  bool may_be_unresolved = false;      ///< true if no way is certain
+  int exact = 0;            ///< number of the group's sheets in the exact answer
+  bool is_certain = false;  ///< whether the group has exactly one sheet for every outcome of the grey decisions
+  std::vector<VolumeAnswer> accepted;  ///< each is accepted as the group's contact; the exact ones come first
+  int exact_contacts = 0;              ///< number of exact contacts at the front of `accepted`
+  int exact_unresolved = 0;            ///< number of the exact answer's sheets that have no way
+  bool may_be_unresolved = false;      ///< true if it is not certain that a way exists
 };
 
-/// What is accepted for one part. If x is grey between faces, the combination of side and contact that each grey face
-/// gives is accepted.
+/// The accepted answers for one part. If several faces may be the nearest to x (grey), each of them gives a side of x
+/// and contacts; all these answers are accepted.
 struct VolumePartTruth {
   Index component = -1;         ///< number of the component (joined_components of the part's vertices)
   bool inside = false;          ///< whether x is inside in the exact answer
-  bool may_be_inside = false;   ///< whether a grey face gives inside; then `held` is not empty
-  bool may_be_outside = false;  ///< whether a grey face gives outside; then only `touching` counts
-  /// contacts if x is inside: any one of them may be the only one; the exact one comes first
+  bool may_be_inside = false;   ///< whether one of these faces puts x inside
+  bool may_be_outside = false;  ///< whether one of these faces puts x outside; only then `touching` is read
+  /// contacts if x is inside; the answer has exactly one of them. The exact one comes first
   std::vector<VolumeAnswer> held;
-  std::vector<VolumeAnswer> touching;    ///< contacts if x is outside: any of them may be in the answer
-  std::vector<std::uint8_t> is_certain;  ///< of `touching`: 1 where the contact must be there
-  std::vector<std::uint8_t> is_exact;    ///< of `touching`: 1 where the contact is in the exact answer
-  /// x is outside and certainly nearer than r, so the answer must contain at least one of `touching` (covering)
+  std::vector<VolumeAnswer> touching;    ///< contacts if x is outside; the answer may have any of them
+  std::vector<std::uint8_t> is_certain;  ///< by contact of `touching`: 1 if the answer must have it
+  std::vector<std::uint8_t> is_exact;    ///< by contact of `touching`: 1 if the exact answer has it
+  /// whether x is certainly outside and nearer than r; then the answer must have at least one contact of `touching`
+  /// (covering)
   bool needs_contact = false;
   bool is_solid = false;                 ///< part of tetrahedra: `sheets` replaces `held`
   std::vector<VolumeSheetTruth> sheets;  ///< of a part of tetrahedra
 };
 
-/// Returns the contacts of the exact answer of one part. Contacts of a part of tetrahedra are returned once each.
+/// Returns the contacts of the exact answer of one part, without repetition.
 inline std::vector<const VolumeAnswer*> exact_answers(const VolumePartTruth& part) {
   std::vector<const VolumeAnswer*> all;
   if (part.inside && !part.is_solid) all.push_back(&part.held.front());
@@ -125,7 +127,7 @@ inline std::vector<const VolumeAnswer*> exact_answers(const VolumePartTruth& par
   return all;
 }
 
-/// Returns the number of sheets without a way in the exact answer of one part.
+/// Returns the number of sheets of one part that have no way in the exact answer.
 inline std::size_t exact_unresolved(const VolumePartTruth& part) {
   std::size_t count = 0;
   for (const VolumeSheetTruth& sheet : part.sheets) count += static_cast<std::size_t>(sheet.exact_unresolved);
@@ -138,14 +140,14 @@ struct VolumeDepthTruth {
   std::vector<std::uint8_t> grey, near;             ///< by point
 };
 
-/// Largest error in units of u · depth_scale, u = 2⁻²⁴. Rounding errors: a difference (1), a closest point and its
-/// difference (4 + 1), a length (4), the sum with r (1): 11, and the stored depth.
+/// Largest error of `depth` in units of u · depth_scale, u = 2⁻²⁴. Rounding errors: a difference (1), a closest point
+/// and its difference (4 + 1), a length (4), the sum with r (1), storing (1).
 inline constexpr double volume_depth_tolerance = 12;
-/// Largest error in units of u · weight_scale, counted as in closest_face.
+/// Largest error of a weight in units of u · weight_scale, counted as in closest_face.
 inline constexpr double volume_weight_tolerance = 12;
-/// Largest error in units of u · direction_scale. Rounding errors of a normal: two differences (1), a cross product
-/// (3), a length and a quotient (4 + 1). Rounding errors of a vector to a closest point: those of the depth and a
-/// quotient, 12 at most.
+/// Largest error of `direction` in units of u · direction_scale. Rounding errors of a normal: two differences (1), a
+/// cross product (3), a length and a quotient (4 + 1). A vector to a closest point has the rounding errors of the depth
+/// and a quotient, 12 at most.
 inline constexpr double volume_direction_tolerance = 12;
 
 }  // namespace ogc::compare

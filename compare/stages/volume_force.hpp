@@ -6,11 +6,11 @@
 
 namespace ogc::compare {
 
-/// A point x₀ and the triangle (x₁, x₂, x₃) of a volume that pushes it out. The detection froze the weights w₁, w₂, w₃
-/// of the triangle's point c and the unit direction n. w₀ = 1; the corners act with −wᵢ.
+/// A point x₀ and the triangle (x₁, x₂, x₃) of a volume that pushes x₀ out. The detection froze the weights w₁, w₂, w₃
+/// of the triangle's point c and the unit direction n. Below, w is 1 for the point and −wᵢ for corner i.
 ///
-/// φ = n·Σ wᵢ (x₀ − xᵢ), E = k/2 max(0, r − φ)². The force is k (r − φ) n on x₀ and −wᵢ of it on xᵢ. The block is k w²
-/// n nᵀ, the exact second derivative. φ is negative inside. A contact acts while φ < r.
+/// φ = n·Σ wᵢ (x₀ − xᵢ), E = k/2 max(0, r − φ)². The force is k (r − φ) w n. The block is k w² n nᵀ, the exact second
+/// derivative. φ is negative inside. A contact acts while φ < r.
 ///
 /// Friction is that of friction_force, with λ = k (r − φ): u = (I − n nᵀ)(x₀ − x₀ᵗ − Σ wᵢ (xᵢ − xᵢᵗ)), force −μ λ
 /// f₁(‖u‖)/‖u‖ w u, block μ λ f₁(‖u‖)/‖u‖ w² (I − n nᵀ). The answer is the sum of normal part and friction.
@@ -33,8 +33,8 @@ struct VolumeForceIn {
   std::vector<VolumeForceCase> cases;  ///< independent of each other
 };
 
-/// Largest error of the force in units of u · scale, u = 2⁻²⁴. Counts of rounding errors; the larger of the first two
-/// sums plus the last item decides:
+/// Largest error of the force in units of u · scale, u = 2⁻²⁴: the larger of two counts of rounding errors (22 through
+/// the slip, 16 through λ), plus 4 for n.
 ///
 /// - Through the slip: a difference (1), its product with a weight and three sums (4), the scalar product with n (3), a
 ///   product, a difference: 10. The slip's length: square and sums (3, halved by the root), the root (1): 2.5, counted
@@ -46,8 +46,8 @@ inline constexpr double volume_force_tolerance = 26;
 /// Largest error of the block. Rounding errors: μ λ f₁/‖u‖ (19, see volume_force_tolerance), w² and its product (2), an
 /// outer product (2), the difference from I (1), the sum with the normal block (1).
 inline constexpr double volume_block_tolerance = 25;
-/// Largest error of r − φ in units of u · scale: 8 by the count of volume_force_tolerance, and half as many again for
-/// other orders of evaluation. If |r − φ| is at most that, the contact may act or not.
+/// Largest error of r − φ in units of u · scale: 8 rounding errors of those that volume_force_tolerance counts, and 4
+/// more for other orders of evaluation. If |r − φ| is at most this error, the contact may act or not.
 inline constexpr double volume_force_grey = 12;
 
 }  // namespace ogc::compare

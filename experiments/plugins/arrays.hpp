@@ -23,7 +23,7 @@ std::vector<Bytes> inputs_of(const compare::Topology& topology);
 /// Returns for each vertex whether it is inside a solid. The array has full length even without a solid.
 std::vector<std::uint8_t> inside_solid(const compare::Topology& topology);
 
-/// Returns one row for each of `count` vertices; all rows are empty if `partners` is null.
+/// Returns the rows of `partners`, one per vertex, or `count` empty rows if it is null.
 compare::CompressedRows rows_by_vertex(const compare::CompressedRows* partners, std::size_t count);
 
 /// Copies outputs into vectors, one after another.

@@ -12,7 +12,8 @@
 
 namespace ogc::experiments {
 
-/// Content of an array before it is written: as a float, a signalling NaN that no arithmetic produces; as a byte, 0xe7.
+/// Content of the bytes of an array before they are written: floats are a signalling NaN that no arithmetic produces,
+/// bytes are 0xe7.
 inline constexpr std::uint32_t unwritten_word = 0x7fadc0de;
 inline constexpr std::uint8_t unwritten_byte = 0xe7;
 
@@ -25,7 +26,8 @@ class PluginMemory {
   virtual ~PluginMemory() = default;
   /// Returns a read-only copy that lives until `release`.
   virtual const void* input(Bytes content) = 0;
-  /// Returns `bytes` of memory that live until `release`, filled with the pattern for `unit` (4 bytes or 1).
+  /// Returns `bytes` of memory that live until `release`, filled with the pattern of unwritten floats (`unit` 4) or
+  /// bytes (`unit` 1).
   virtual void* output(std::size_t bytes, std::size_t unit) = 0;
   /// Waits until all work on the device has finished. Throws std::runtime_error if the device reports an error.
   virtual void synchronize() = 0;
@@ -47,7 +49,7 @@ std::unique_ptr<PluginMemory> host_memory();
 /// it. Throws std::runtime_error that says what is missing.
 std::unique_ptr<PluginMemory> device_memory();
 
-/// Returns `bytes` of the pattern.
+/// Returns `bytes` bytes of the pattern of unwritten floats (`unit` 4) or bytes (`unit` 1).
 std::vector<std::byte> pattern(std::size_t bytes, std::size_t unit);
 /// Size of a guard zone [bytes].
 inline constexpr std::size_t guard_bytes = 4096;

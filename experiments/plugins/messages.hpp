@@ -13,8 +13,8 @@
 
 namespace ogc::experiments {
 
-/// Returns the next block. Throws MalformedBlock if the block's length is not allowed, and another error if no block
-/// arrives.
+/// Function that returns the next block. It throws MalformedBlock if the block's length is not allowed, and another
+/// error if no block arrives.
 using NextBlock = std::function<std::vector<std::byte>(BlockLength allowed)>;
 
 /// Holds a worker's message about the library that it has loaded.
@@ -30,7 +30,7 @@ struct WorkerAnswer {
   CallResult result;  ///< outcome of the call
   std::string why;    ///< the reason if the question was not answered
   std::vector<std::vector<std::byte>>
-      outputs;  ///< outputs of the stage, in its order; their lengths follow from the counts and the question's sizes
+      outputs;  ///< outputs of the stage, in its order; the counts and the question's sizes determine their lengths
 };
 
 /// read_greeting and read_answer read a message. Both throw MalformedBlock, which describes what is wrong with the

@@ -23,8 +23,8 @@ struct PluginOptions {
   unsigned limit_seconds = 10;                       ///< limit for each call and for loading
 };
 
-/// Holds what is reported at the end although it is no failure: for each output, the number of NaN elements and of
-/// elements that were never written.
+/// Holds unusual outputs that are reported but are no failures: for each output, how many elements were NaN and how
+/// many were never written.
 struct PluginNotes {
   /// number of elements by name of the output
   std::map<std::string, std::uint64_t, std::less<>> not_a_number, unwritten;

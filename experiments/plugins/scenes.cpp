@@ -205,7 +205,7 @@ std::vector<Vec3f> prescribed_of(const Scene& scene) {
   return target;
 }
 
-/// Holds the outputs of a step that follow those of its rest state.
+/// Holds the outputs of stage step that follow the outputs of the rest state.
 struct Trace {
   std::vector<float> query_radius;
   std::vector<Index> kind, cut;

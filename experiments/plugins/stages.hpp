@@ -17,7 +17,7 @@ namespace ogc::experiments {
 struct QuestionSizes {
   std::int64_t cases = 0;                               ///< cases of a stage with independent cases
   std::int32_t vertices = 0, edges = 0, triangles = 0;  ///< sizes of a mesh
-  float first = 0, second = 0;  ///< numbers of the stage besides its arrays: r and r_q of a detection
+  float first = 0, second = 0;  ///< two numbers of a stage beside its arrays; for a detection r and r_q
   /// sizes of a scene, and of its rest state
   std::int32_t hinges = 0, bodies = 0, springs = 0, tetrahedra = 0;
   std::int32_t rest_triangles = 0, rest_hinges = 0, rest_tetrahedra = 0;
@@ -26,7 +26,7 @@ struct QuestionSizes {
   ogc_vec3 gravity{};
 };
 
-/// `Element`: type of an output's elements. `Per`: the output has one group of elements for each of these units.
+/// `Element` is the type of an output's elements. An output has one group of elements per unit of `Per`.
 enum class Element : std::uint8_t { number, byte, index, real };
 enum class Per : std::uint8_t { one, item, vertex, edge, triangle, two_bodies };
 /// Outputs whose length the plug-in determines.
@@ -43,16 +43,16 @@ enum class List : std::uint8_t {
   volume_contacts
 };
 inline constexpr std::size_t list_count = 10;
-/// Number of entries of each list, or room for them; 1 for `none`.
+/// Number of entries of each list, or its capacity; 1 for `none`.
 using ListSizes = std::array<std::int64_t, list_count>;
 
 /// Describes one output array of a stage.
 struct OutputInfo {
   std::string_view name;   ///< name in compare/plugin.h
   Element element;         ///< type of the array
-  std::size_t elements;    ///< number of elements in a group
-  Per per;                 ///< the output has one group for each of these units
-  List list = List::none;  ///< unless `none`: each entry of this list has these groups
+  std::size_t elements;    ///< number of elements per group
+  Per per;                 ///< unit that has one group of elements
+  List list = List::none;  ///< if not `none`: the output has these groups for each entry of this list
 };
 
 /// Returns the size of one element [bytes]. `group_bytes` returns the size of one group [bytes].
@@ -62,9 +62,9 @@ constexpr std::size_t bytes_of(Element element) {
 constexpr std::size_t group_bytes(const OutputInfo& info) { return bytes_of(info.element) * info.elements; }
 /// Returns the number of groups in the output (see Per and OutputInfo::list).
 std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, const ListSizes& lists);
-/// Returns the room for the lists at the first call.
+/// Returns the capacities of the lists at the first call.
 ListSizes first_capacities(const QuestionSizes& sizes);
-/// Returns upper limits for every correct answer; never below first_capacities.
+/// Returns upper limits of the lengths of the lists in a correct answer; never below first_capacities.
 ListSizes most_entries(const QuestionSizes& sizes);
 /// Returns the name of the list's entries, in the plural.
 std::string_view list_name(List list);
@@ -112,7 +112,7 @@ struct PluginStage {
 /// Returns all stages.
 std::span<const PluginStage> plugin_stages();
 
-/// Returns the position in plugin_stages().
+/// Returns the index of a stage in plugin_stages().
 std::optional<std::size_t> find_plugin_stage(std::string_view name);
 
 }  // namespace ogc::experiments

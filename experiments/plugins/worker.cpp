@@ -145,7 +145,7 @@ class Call {
     return {CallResult::Status::answered, arrays.counts, seconds};
   }
 
-  /// Returns the first list that is longer than its room.
+  /// Returns the index of the first list that exceeds its capacity.
   std::optional<std::size_t> too_long(const CallResult& result) const {
     for (std::size_t k = 0; k < list_count; ++k)
       if (result.counts[k] > capacities_[k]) return k;
@@ -264,7 +264,7 @@ int work(const std::string& file) {
   // Ends the processes that the plug-in has started; does not wait for them.
   signal(SIGTERM, SIG_IGN);
   if (getpgrp() == getpid()) kill(0, SIGTERM);
-  // Skips the library's destructors: all answers are sent, and a failure in a destructor would prove nothing.
+  // Skips the library's destructors: all answers are sent, so a failure in a destructor does not matter.
   _exit(exit_success);
 }
 

@@ -1,6 +1,6 @@
-// Contacts dropped beyond a cap: each vertex has a fixed number of slots, and contacts that do not fit are dropped
-// without a message. (The public code has 32 slots; here there are 4, so that small meshes overflow.) Where cloth
-// folds, layers pass through each other because nothing separates them.
+// Contacts dropped beyond a cap: each vertex has room for a fixed number of contacts, and the others are dropped
+// without a message. (The public code has room for 32; here it is 4, so that small meshes overflow.) Where cloth folds,
+// layers pass through each other because nothing separates them.
 #include <vector>
 
 #include "experiments/plugins/museum/geometry.h"
@@ -20,8 +20,8 @@ struct Nearest {
   double distance = INFINITY;
 };
 
-// Decides faces and blocks. For all faces one function decides on which side of a plane a point lies, so that rounding
-// can't place the point between two blocks.
+// Decides faces and blocks. One function decides for all faces on which side of a plane a point lies. So rounding can't
+// place the point between two blocks.
 struct Question {
   const ogc_detect_in& in;
   const ogc_topology& mesh;
@@ -70,8 +70,8 @@ struct Question {
   static void keep_nearer(Nearest& best, const Nearest& other) {
     if (other.distance < best.distance) best = other;
   }
-  // is_before_vertex tests whether p is in the block of vertex w (Eq. 8). is_before_edge tests that no triangle of edge
-  // e lies on the side of p (Eq. 9).
+  // is_before_vertex returns whether p is in the block of vertex w (Eq. 8). is_before_edge returns whether no triangle
+  // of edge e lies on the same side of e as p (Eq. 9).
   bool is_before_vertex(Vec p, int w) const {
     for (int k = mesh.vertex_neighbours.offsets[w]; k < mesh.vertex_neighbours.offsets[w + 1]; ++k)
       if (!is_beyond(p, w, mesh.vertex_neighbours.items[k])) return false;
