@@ -9,8 +9,8 @@
 
 namespace ogc::fast {
 
-/// Returns whether x lies in U_v, apart from its distance: it lies beyond v along every edge at v (Eq. 8; Eq. 15 if x
-/// is a vertex).
+/// Returns whether x lies in U_v, without the condition on its distance: x must lie beyond v along every edge at v (Eq.
+/// 8; Eq. 15 if x is a vertex).
 OGC_HD inline bool in_vertex_block(const Vec& x, int v, const SurfaceView& surface, PaddedVecs positions) {
   const Rows& rows = surface.neighbours;
   for (int k = rows.offsets[v]; k < rows.offsets[v + 1]; ++k) {
@@ -19,8 +19,8 @@ OGC_HD inline bool in_vertex_block(const Vec& x, int v, const SurfaceView& surfa
   return true;
 }
 
-/// Returns whether x lies in U_e, apart from its distance: on the far side of every triangle at e (Eq. 9). x must
-/// project into the interior of e.
+/// Returns whether x lies in U_e, without the condition on its distance: x must lie on the far side of every triangle
+/// at e (Eq. 9). x must project into the interior of e.
 OGC_HD inline bool in_edge_block(const Vec& x, int e, const SurfaceView& surface, PaddedVecs positions) {
   const EdgeEnds& ends = surface.edges[e];
   const Rows& rows = surface.opposites;
@@ -30,8 +30,8 @@ OGC_HD inline bool in_edge_block(const Vec& x, int e, const SurfaceView& surface
   return true;
 }
 
-/// Returns whether the point of edge `other` nearest to v lies in U_v, apart from its distance (Eq. 15). This point
-/// must be in the interior of the edge.
+/// Returns whether U_v holds the point of edge `other` nearest to v, without the condition on its distance (Eq. 15).
+/// This point must be in the interior of `other`.
 OGC_HD inline bool in_vertex_block(const EdgeEnds& other, int v, const SurfaceView& surface, PaddedVecs positions) {
   const Rows& rows = surface.neighbours;
   for (int k = rows.offsets[v]; k < rows.offsets[v + 1]; ++k) {
@@ -66,8 +66,9 @@ OGC_HD inline bool is_surely_above_0(float product, const Vec& g, float error) {
   return product > error * norm_1(g) + lost_to_underflow;
 }
 
-/// Returns whether v certainly has no contact with the edge `other`. Two conditions must hold: the distance to `other`
-/// grows from v towards the edge's other end `inner`, and it falls from v towards some neighbour of v.
+/// Returns whether v certainly has no contact with the edge `other`. `inner` is the other end of v's edge. Two
+/// conditions must hold: the distance to `other` grows from v towards `inner`, and it falls from v towards some
+/// neighbour of v.
 OGC_HD inline bool is_passed_over(int v, int inner, const EdgeEnds& other, const SurfaceView& surface, PaddedVecs x) {
   const Vec at = x[v], f = x[other.b] - x[other.a], from = x[other.a] - at;
   const float ff = dot(f, f);

@@ -13,7 +13,7 @@ struct OneItem {
   using Number = float;  ///< number type of the formulas
   const Item& item;
 
-  /// Return number(item), and condition(item).
+  /// `each` returns number(item), and `which` returns condition(item).
   template <class F>
   OGC_HD float each(F number) const {
     return number(item);

@@ -24,7 +24,7 @@ enum SumColumn : int {
 /// Number of columns that are summed after the guess loop: the columns of vertices, which come first.
 inline constexpr int guess_columns = sum_membrane;
 
-/// Columns of the sums, over free vertices, of the forces that a step leaves.
+/// Columns of the sums over free vertices that give the residual of a step (Eq. 29).
 enum LeftColumn : int {
   left_reference = 0,  ///< Σ ‖f*‖ [N]
   left_force = 1,      ///< Σ ‖f‖ over vertices that no bound holds [N]

@@ -1,7 +1,7 @@
 // Defines atomics: integer sums and maxima, and minima of non-negative floats. The final values of their targets do not
-// depend on the order of execution. Values that atomic_add, atomic_compare_exchange and arrives_last return may depend
-// on it. So kernels use these values only to choose the thread that does a piece of work, or a place in a list whose
-// order has no effect.
+// depend on the order of execution. The values that atomic_add, atomic_compare_exchange and arrives_last return may
+// depend on this order. So kernels use these values only to choose the thread that does a piece of work, or a place in
+// a list whose order has no effect.
 #pragma once
 
 #include <cstdint>

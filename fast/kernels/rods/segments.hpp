@@ -7,8 +7,8 @@
 
 namespace ogc::fast {
 
-/// Values of a segment's `motion`: the segment is free, or fixed with its body. A value from 0 on is the number of the
-/// prescribed motion of both its ends.
+/// Values of a segment's `motion`: the segment is free, or fixed with its body. A value ≥ 0 is the index of the
+/// prescribed motion of both ends of the segment.
 inline constexpr int segment_free = -1, segment_fixed = -2;
 
 /// Holds the neighbours of a segment across its ends: first the segment before it, then the segment after it.

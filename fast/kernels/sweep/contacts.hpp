@@ -102,8 +102,8 @@ struct ContactParts {
   ContactRow row;  ///< contacts of the vertex
   Activation activation;
 
-  /// Return the part of the vertex–facet contacts, and the part of the edge–edge contacts, which follow them in the
-  /// row.
+  /// Return the part for the vertex–facet contacts and the part for the edge–edge contacts. In the row, the edge–edge
+  /// contacts come second.
   OGC_HD auto vertex_facet() const { return range<PairKind::vertex_facet>(row.begin, row.vertex_facet); }
   OGC_HD auto edge_edge() const {
     return range<PairKind::edge_edge>(row.begin + row.vertex_facet, row.count - row.vertex_facet);

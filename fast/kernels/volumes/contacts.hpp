@@ -47,8 +47,8 @@ struct AskVolumes {
   int rows;
   const Vec* position;         ///< x at the detection, by vertex [m]
   const StepControl* control;  ///< if it is not active nothing is searched
-  /// by pair of part and row (index part · rows + row): answer of the last detection, or any facet of the part;
-  /// replaced
+  /// by pair of part and row (index part · rows + row): answer of the last detection, or an answer with any facet of
+  /// the part; replaced by the new answer
   int* answers;
   /// by pair of part and row: ball of far points; null if volumes are free, because they move in every iteration
   ClearBall* clear;
