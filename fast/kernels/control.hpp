@@ -70,8 +70,8 @@ struct StepControl {
   /// cut: vertices cut in this round or iteration; cut_last: vertices cut or lagging in the previous one
   int cut = 0, cut_last = 0;
   int deep_inside = 0;  ///< with volumes: vertices that are deep inside a volume after this iteration
-  /// With planes: number of prescribed vertices that lag behind their targets; whether one of them has moved since the
-  /// last detection; whether one has already caused a detection in this step.
+  /// With planes. lagging: number of prescribed vertices that lag behind their targets; advanced: whether one of them
+  /// has moved since the last detection; lag_asked: whether one has already caused a detection in this step.
   int lagging = 0, advanced = 0, lag_asked = 0;
   int not_finite = 0, violations = 0;
   /// with volumes: 1 if a row of contacts was full; for full lists of a detection, see ListStatus::overflow

@@ -20,7 +20,7 @@ struct DetectVertexFacet {
   SurfaceView surface;
   PaddedVecs positions;       ///< of the detection, by vertex [m]
   TreeView tree;              ///< of all facets, refitted at these positions
-  const int* vertex_order;    ///< numbers of the vertices, along a Hilbert curve
+  const int* vertex_order;    ///< vertices in the order of a Hilbert curve
   const float* vertex_limit;  ///< by vertex: gap limit of its reach [m²]
   ListsView lists;            ///< pairs are noted here; nothing is searched if its overflow flag is set
   float contact_radius;       ///< r, with the contact margin [m]

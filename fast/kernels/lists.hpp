@@ -118,7 +118,7 @@ struct ListsView {
   /// lists grow.
   static constexpr int longest_search = 256;
 
-  /// in any order; if a pair is certainly nearer than r, its second number is stored inverted
+  /// in any order; a pair that is certainly nearer than r is stored with ~second
   NotedPair* noted = nullptr;
   int noted_capacity = 0;             ///< size of `noted`; further pairs are only counted
   int* noted_count = nullptr;         ///< as in ListStatus
@@ -145,8 +145,7 @@ struct ListsView {
   LooseIncidence* loose = nullptr;   ///< row by row, in any order within a row
   Incidence* incidences = nullptr;   ///< row by row, ascending
 
-  /// Notes a pair that is nearer than r (`certain`), or for which the rounded distance does not decide this. The second
-  /// number of a certain pair is stored inverted.
+  /// Notes a pair that is certainly nearer than r (`certain`) or may be nearer. A certain pair is stored with ~second.
   OGC_HD void note(NotedPair pair, bool certain) const {
     if (certain) pair.second = ~pair.second;
     const int place = atomic_add(noted_count, 1);
@@ -333,7 +332,7 @@ struct WriteRecords {
   }
 };
 
-/// Adds the incidences of existing records. Runs once for each record, vertex–facet records first.
+/// Adds the incidences of records that are already written. Runs once for each record, vertex–facet records first.
 struct FillIncidences {
   ListsView lists;
   int vertex_facet_count;  ///< vertex–facet records; the indices of edge–edge records follow

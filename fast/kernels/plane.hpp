@@ -19,7 +19,8 @@ struct alignas(8) PairPlane {
   float below = 0;               ///< lower bound of the pair's distance [m]
   double first = 0, second = 0;  ///< offsets o₁ < o₂ [m]
 
-  /// Returns whether there is a plane. of_first() and of_second() return its half-space for the vertices of each side.
+  /// Returns whether there is a plane. of_first() and of_second() return the half-spaces of the first and of the second
+  /// side.
   OGC_HD bool exists() const { return normal.x != 0 || normal.y != 0 || normal.z != 0; }
   OGC_HD HalfSpace of_first() const { return {normal, first}; }
   OGC_HD HalfSpace of_second() const { return {-normal, -second}; }

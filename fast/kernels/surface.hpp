@@ -1,4 +1,4 @@
-// Holds the mesh as kernels read it: numbers and adjacency in plain arrays, without positions.
+// Holds the mesh as kernels read it: the primitives' vertices and the adjacency, in plain arrays without positions.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace ogc::fast {
 /// all triangles at an edge evaluate the edge's predicate with the same operands in the same order.
 struct alignas(16) Facet {
   int corner[3];  ///< vertices in the order of the mesh
-  int edge[3];    ///< 01, 12 and 20, as numbers of SurfaceView::edges
+  int edge[3];    ///< indices of the edges 01, 12 and 20 in SurfaceView::edges
   unsigned descending;
 };
 

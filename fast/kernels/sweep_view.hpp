@@ -78,7 +78,7 @@ struct ColourOrder {
 
 /// A free vertex in the order of the sweep, with its rows in the streams of some kinds.
 struct alignas(16) SweepVertex {
-  int vertex = -1;  ///< number in the mesh
+  int vertex = -1;  ///< index in the mesh
   int body = -1;
   float inertia = 0;  ///< m/h² [N/m]
   Row rows[2];        ///< rows of the kinds with `row_in_vertex` ≥ 0

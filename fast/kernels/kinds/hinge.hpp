@@ -12,7 +12,7 @@ namespace ogc::fast {
 /// o0, o1. If it is an opposite vertex it counts as o0, and `index` holds x0, x1, o1.
 struct alignas(8) HingeIncidence {
   int index[3] = {0, 0, 0};  ///< encoded as in sweep_view.hpp
-  int hinge = -1;            ///< number in RestState::hinges; ~number if the vertex is an opposite one
+  int hinge = -1;            ///< index in RestState::hinges; ~index if the vertex is an opposite one
   HingeStencil stencil{};    ///< c and θ₀
 };
 

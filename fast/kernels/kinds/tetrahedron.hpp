@@ -139,7 +139,7 @@ OGC_HD inline double solid_energy(const TetrahedronRest& rest, const SolidMateri
 /// positive volume at rest, encoded as in sweep_view.hpp.
 struct alignas(16) TetrahedronIncidence {
   int index[3] = {0, 0, 0};      ///< a, b, c
-  int tetrahedron = -1;          ///< number in RestState::tetrahedra
+  int tetrahedron = -1;          ///< index in RestState::tetrahedra
   TetrahedronStencil stencil{};  ///< w_k and i (head of this file)
 };
 

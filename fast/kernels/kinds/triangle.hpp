@@ -12,7 +12,7 @@ namespace ogc::fast {
 /// sweep_view.hpp.
 struct alignas(16) MembraneIncidence {
   int index[2] = {0, 0};      ///< x_b, x_c
-  int triangle = -1;          ///< number in RestState::triangles
+  int triangle = -1;          ///< index in RestState::triangles
   MembraneStencil stencil{};  ///< gradients and area
 };
 

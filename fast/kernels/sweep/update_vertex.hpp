@@ -58,7 +58,7 @@ struct UpdateVertex {
 /// Moves the prescribed vertices before the first colour of an iteration. Runs once for each of these vertices.
 struct UpdatePrescribed {
   SweepView view;
-  const int* prescribed = nullptr;  ///< numbers of the prescribed vertices
+  const int* prescribed = nullptr;  ///< indices of the prescribed vertices
 
   OGC_HD void operator()(int i) const {
     if (view.is_off()) return;

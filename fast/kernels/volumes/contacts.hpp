@@ -39,8 +39,8 @@ struct ForgetClearBalls {
   OGC_HD void operator()(int i) const { clear[i].radius = ClearBall::unasked; }
 };
 
-/// Finds on which side of each part of triangles each asker lies. Runs once for each pair of a part and a row, part
-/// after part, so that neighbouring threads search the same tree.
+/// Finds on which side of a part each asker lies, for all parts that consist of triangles. Runs once for each pair of a
+/// part and a row, part after part, so that neighbouring threads search the same tree.
 struct AskVolumes {
   VolumeView volume;  ///< with refitted trees
   const int* askers;  ///< by row: the vertex, or −1

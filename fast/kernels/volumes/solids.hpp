@@ -132,8 +132,8 @@ class SolidQuestion {
     return corner[0] == own_ || corner[1] == own_ || corner[2] == own_;
   }
 
-  /// Returns a bit for each corner whose weight at x is positive. These corners span the simplex that holds x in its
-  /// interior. Returns 0 if the tetrahedron does not hold x.
+  /// Returns one bit per corner: whether the corner's barycentric weight at x is positive. The corners with this bit
+  /// span the simplex that holds x in its interior. Returns 0 if the tetrahedron does not hold x.
   OGC_HD unsigned carrier(int element) const {
     const int* corner = solids_.elements[element].corner;
     unsigned inside = 0;
@@ -315,7 +315,7 @@ class SolidQuestion {
     return false;
   }
 
-  /// Writes the vertices of a face, and returns their number.
+  /// Writes the vertices of a face, and returns how many it has.
   OGC_HD int vertices_of(int face, int* vertex) const {
     const SurfaceView& surface = volume_.surface;
     if (faces_.is_vertex(face)) {
