@@ -41,17 +41,17 @@ OGC_HD inline bool in_vertex_block(const EdgeEnds& other, int v, const SurfaceVi
   return true;
 }
 
-// The functions below reject pairs of edges for which single precision proves that they are no contact, even if they
-// are near. If edges are shorter than r, nearly every pair within r is rejected: in a rod, each edge with its second
+// The functions below reject pairs of edges that may be near but certainly are no contact: single precision proves
+// this. If edges are shorter than r, nearly every pair within r is rejected: in a rod, each edge with its second
 // neighbour; between two crossing rods, all pairs but the nearest.
 //
 // Let v be an end of an edge, v + g its other end, c the point of the other edge nearest to v, and d = c − v. The
-// distance between a point of one edge and a point of the other is convex. At (v, c) no move of c reduces it. If d·g <
-// 0, every move of v increases it, so v is the only closest point of its edge. A contact of the two edges would then be
-// a contact of v, which requires that c is in the block of v. But c is not in this block if d·(w − v) > 0 for a
-// neighbour w of v: if c is inside its edge, Receding is < 0, and if c is an end, End is > 0 (predicates.hpp), so
-// in_vertex_block returns false. Nearly parallel edges that overlap may have contacts elsewhere (method.md §1.4), so
-// they are never rejected.
+// distance between a point of one edge and a point of the other is convex. Moving c along its edge never reduces it.
+// If d·g < 0, moving v along its edge increases it, so v is the only closest point of its edge. A contact of the two
+// edges would then be a contact of v, which requires that c is in the block of v. But c is not in this block if d·(w −
+// v) > 0 for a neighbour w of v: if c is inside its edge, Receding is < 0, and if c is an end, End is > 0
+// (predicates.hpp), so in_vertex_block returns false. Nearly parallel edges that overlap may have contacts elsewhere
+// (method.md §1.4), so they are never rejected.
 //
 // Rounding: let u = 2⁻²⁴, F the edge of c, and S the sum of the 1-norms of F and of the vector from v to the start of
 // F. A difference errs by u of itself, a dot product by 6 u of the product of the lengths. So the parameter of c times
@@ -66,8 +66,9 @@ OGC_HD inline bool is_surely_above_0(float product, const Vec& g, float error) {
   return product > error * norm_1(g) + lost_to_underflow;
 }
 
-/// Returns whether v certainly has no contact with the edge `other`. Two conditions must hold: the distance to `other`
-/// grows from v towards the edge's other end `inner`, and it falls from v towards some neighbour of v.
+/// Returns whether v certainly has no contact with the edge `other`. `inner` is the other end of v's edge. Two
+/// conditions must hold: the distance to `other` grows from v towards `inner`, and it falls from v towards some
+/// neighbour of v.
 OGC_HD inline bool is_passed_over(int v, int inner, const EdgeEnds& other, const SurfaceView& surface, PaddedVecs x) {
   const Vec at = x[v], f = x[other.b] - x[other.a], from = x[other.a] - at;
   const float ff = dot(f, f);

@@ -9,8 +9,8 @@ namespace ogc::fast {
 /// b_v of a vertex that is not on the surface, and so has no bound.
 inline constexpr float largest_float = 0x1.fffffep127f;
 
-/// Sets all smallest distances to r_q before a query, which only lowers them. Runs once for each index of a vertex, an
-/// edge or a triangle.
+/// Sets all smallest distances to r_q before a query, which only lowers them. Runs once for each i that is an index of
+/// a vertex, an edge or a triangle.
 struct ResetDistances {
   const float* query_radius;  ///< r_q [m], on the backend
   const int* overflow;        ///< on the backend; if it is not 0 a list was too small, and nothing is written

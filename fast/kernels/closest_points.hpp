@@ -104,10 +104,10 @@ struct EdgeParameters {
   double first = 0, second = 0;
 };
 
-/// Returns one end of the overlap of two nearly parallel edges, as parameters on p and on the line of q. This is end
-/// number `end` of q or, if that end projects beyond p, the nearest end of p. For an end of q, the parameter on q is
-/// computed relative to this end. Relative to an end of p, the parameter would have the rounding error of p's length.
-/// This error would be 10⁷ times as large if p is 10⁷ times as long as q.
+/// Returns one end of the overlap of two nearly parallel edges, as parameters on p and on the line of q. This point is
+/// q[end] or, if q[end] projects beyond p, the nearest end of p. The parameter of q[end] on q is computed relative to
+/// q[end]. Relative to an end of p, it would have the rounding error of p's length, which is 10⁷ times as large if p is
+/// 10⁷ times as long as q.
 OGC_HD inline EdgeParameters overlap_end(const Ends& p, const Ends& q, int end) {
   const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), u = difference<Rounded>(q[end], p.a);
   const double along = dot(u, e).value, ee = squared(e), ff = squared(f);

@@ -11,7 +11,7 @@ struct CollectContacts {
   /// limits a thread to 128 registers; with 6 blocks, spilled registers cost more than the added warps gain
   /// (fast/PERFORMANCE.md)
   static constexpr int resident_blocks = 4;
-  CollectVertexFacet vertex_facet;  ///< decides pairs whose first number is ~vertex, and so negative
+  CollectVertexFacet vertex_facet;  ///< decides pairs with first = ~vertex < 0
   /// decides pairs of edges
   CollectEdgeEdge edge_edge;
   ListsView lists;  ///< contacts are entered here; nothing is done if the overflow flag is set

@@ -80,13 +80,13 @@ OGC_HD inline TriangleWeights on_ab(float t) { return {1.0f - t, t, 0.0f}; }
 }  // namespace detail
 
 /// Returns the weights of the point of the triangle (x[1], x[2], x[3]) closest to x[0]. They are never NaN. If the sine
-/// of the angle at x[1] is below 2⁻²⁰, which is 16 roundings, the signs of weights are unreliable. Then the longest
-/// edge replaces the triangle.
+/// of the angle at x[1] is below 2⁻²⁰, which is 16 times the unit roundoff, the signs of weights are unreliable. Then
+/// the longest edge replaces the triangle.
 ///
 /// A point that does not project into the interior lies beyond one edge or two. Beyond one edge, the closest point is
-/// on this edge. Beyond two edges, it is on the edge whose point closest to x[0] is not the common corner of both.
-/// Signs decide this, not distances: far above a corner the distances to both edges agree in all digits, although their
-/// closest points differ.
+/// on this edge. Beyond two edges, it is on the edge whose point closest to x[0] is not the common corner of the two
+/// edges. Signs decide this, not distances: far above a corner the distances to both edges agree in all digits,
+/// although their closest points differ.
 OGC_HD inline TriangleWeights closest_on_triangle(const Vec* x) {
   const PointAndTriangle<float> at(x);
   if (at.is_inside()) return at.weights();

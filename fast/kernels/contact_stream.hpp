@@ -13,7 +13,7 @@
 
 namespace ogc::fast {
 
-/// Holds the data of contacts that are not in their records.
+/// Holds the data of contacts that the records do not hold.
 struct ContactTables {
   const int* body = nullptr;                   ///< by vertex
   const ContactMaterial* materials = nullptr;  ///< for bodies a and b at a · body_count + b
@@ -40,7 +40,7 @@ OGC_HD inline void set_slots(ContactIncidence& contact, ContactKind kind, int a,
   contact.index[3] = d;
 }
 
-/// Sets kind and vertices from a vertex–facet record; indices are plain vertex numbers.
+/// Sets kind and vertices of a contact from a vertex–facet record. The vertex indices are not encoded.
 OGC_HD inline void set_slots(ContactIncidence& contact, const VertexFacetRecord& record) {
   const int v = record.vertex;
   const int* corner = record.corner;
@@ -52,7 +52,7 @@ OGC_HD inline void set_slots(ContactIncidence& contact, const VertexFacetRecord&
     set_slots(contact, ContactKind::point_triangle, v, corner[0], corner[1], corner[2]);
 }
 
-/// Returns the contact of a vertex–facet record; indices are plain vertex numbers, and `own` is 0.
+/// Returns the contact of a vertex–facet record. Its vertex indices are not encoded, and `own` is 0.
 OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const VertexFacetRecord& record) {
   ContactIncidence contact = meeting(tables, record.vertex, record.corner[0]);
   set_slots(contact, record);
@@ -73,7 +73,7 @@ OGC_HD inline float energy_share(const ContactTables& tables, const EdgeEdgeReco
   return called(is_shared) ? overlap_share(first, second, q.a - p.a, q.b - p.a) : 1.0f;
 }
 
-/// Sets kind and vertices from an edge–edge record; indices are plain vertex numbers.
+/// Sets kind and vertices of a contact from an edge–edge record. The vertex indices are not encoded.
 OGC_HD inline void set_slots(ContactIncidence& contact, const EdgeEdgeRecord& record) {
   const int* p = record.first;
   const int* q = record.second;
@@ -85,7 +85,7 @@ OGC_HD inline void set_slots(ContactIncidence& contact, const EdgeEdgeRecord& re
     set_slots(contact, ContactKind::segment_segment, p[0], p[1], q[0], q[1]);
 }
 
-/// Returns the contact of an edge–edge record; indices are plain vertex numbers, and `own` is 0. The stiffness of two
+/// Returns the contact of an edge–edge record. Its vertex indices are not encoded, and `own` is 0. The stiffness of two
 /// edge interiors includes e_k.
 OGC_HD inline ContactIncidence contact_of(const ContactTables& tables, const EdgeEdgeRecord& record) {
   ContactIncidence contact = meeting(tables, record.first[0], record.second[0]);
@@ -99,8 +99,8 @@ OGC_HD inline int slots_of(ContactKind kind) {
   return kind == ContactKind::point_point ? 0b0101 : kind == ContactKind::point_segment ? 0b1101 : 0b1111;
 }
 
-/// Returns the index of a vertex in ContactIncidence, given its role in the record (contact_view.hpp). The corners of a
-/// triangle have the indices 1, 2, 3. The vertices of a smaller facet begin at index 2.
+/// Returns the index of a vertex in ContactIncidence, given its role in the record (contact_view.hpp). The index is the
+/// role, with one exception: if the facet is an edge or a vertex, its vertices begin at index 2.
 OGC_HD inline std::uint8_t slot_of_role(bool edge_edge, ContactKind kind, int role) {
   const bool shifted = !edge_edge && role > 0 && kind != ContactKind::point_triangle;
   return static_cast<std::uint8_t>(shifted ? role + 1 : role);
@@ -152,7 +152,7 @@ struct ResolveContact {
   }
 };
 
-/// Returns the energy [J] of a contact whose indices are plain vertex numbers; its stiffness includes e_k.
+/// Returns the energy [J] of a contact. Its vertex indices are not encoded, and its stiffness includes e_k.
 OGC_HD inline double contact_energy(const ContactIncidence& contact, const Vec* position,
                                     const AnyActivation& activation, float contact_radius) {
   Vec x[4];

@@ -70,11 +70,11 @@ struct StepControl {
   /// cut: vertices cut in this round or iteration; cut_last: vertices cut or lagging in the previous one
   int cut = 0, cut_last = 0;
   int deep_inside = 0;  ///< with volumes: vertices that are deep inside a volume after this iteration
-  /// With planes: number of prescribed vertices that lag behind their targets; whether one of them has moved since the
-  /// last detection; whether one has already caused a detection in this step.
+  /// With planes. lagging: number of prescribed vertices that lag behind their targets; advanced: whether one of them
+  /// has moved since the last detection; lag_asked: whether one has already caused a detection in this step.
   int lagging = 0, advanced = 0, lag_asked = 0;
   int not_finite = 0, violations = 0;
-  /// with volumes: 1 if a row of contacts was full; the lists of a detection have a flag of their own (ListStatus)
+  /// with volumes: 1 if a row of contacts was full; for full lists of a detection, see ListStatus::overflow
   int short_rows = 0;
   /// With volumes, at the end of the step: number of contacts, vertices inside, bits of the largest depth at the last
   /// detection [m], sheets without a path to the boundary.
@@ -183,7 +183,8 @@ struct EndRound {
 };
 
 /// Ends an iteration. A detection follows if enough vertices were cut (Alg. 3 line 29) or `detection_every` iterations
-/// have passed. Nothing happens if `number`, the number of this iteration, is not the turn; −1 omits this check.
+/// have passed. `number` is the index of this iteration. If it differs from `control->turn`, nothing happens; −1 omits
+/// this check.
 struct EndIteration {
   StepControl* control;  ///< on the backend
   ControlSettings settings;

@@ -23,7 +23,7 @@ struct DetectEdgeEdge {
   /// Returns whether a list has overflowed.
   OGC_HD bool is_off() const { return *lists.overflow != 0; }
 
-  /// Returns the search of the edge at place i of the tree. It covers the places after i.
+  /// Returns the search of the edge at place i in the order of the tree. It visits only the places after i.
   OGC_HD Search begin(int i) const {
     const Child child = tree.node(0, i / 4).child[i % 4];
     return {.box = child.box(),
@@ -75,8 +75,8 @@ struct DetectEdgeEdge {
     return larger(smaller(search.limit, gap_limit(own)), smaller(offer.reach, gap_limit(theirs)));
   }
 
-  /// Lowers the smallest distances of both edges to the pair's, and notes the pair if it may be a contact. Returns a
-  /// lower bound of the distance; low < high.
+  /// Lowers the smallest distances of both edges to the distance of the pair, and notes the pair if it may be a
+  /// contact. Returns a lower bound of the distance; low < high.
   OGC_HD float measure(int low, int high, float gap) const {
     const Distance d = edge_edge_distance(ends(surface.edges[low]), ends(surface.edges[high]));
     const float below = larger(d.below(), gap_below(gap));
@@ -140,8 +140,8 @@ struct CollectEdgeEdge {
 
   /// Returns whether is_hit is true for another pair of faces of two nearly parallel edges: for two ends, or for an end
   /// that projects into the interior of the other edge. If the edges are exactly parallel, these pairs include both
-  /// ends of the overlap. If is_hit is true for such a pair, no points of the edges are nearer, because the block of an
-  /// end excludes all points that project onto its own edge.
+  /// ends of the overlap. If is_hit is true for such a pair, no other points of the edges are nearer. The reason is
+  /// that the block of an end excludes all points that project onto the end's own edge.
   OGC_HD bool is_hit_beside(const EdgeEnds& p, const EdgeEnds& q) const {
     for (int i = 0; i < 2; ++i) {
       const auto end = static_cast<EdgeFeature>(i);
@@ -158,8 +158,8 @@ struct CollectEdgeEdge {
     return exact_sign(End{x, a, b}) > 0 && exact_sign(End{x, b, a}) > 0;
   }
 
-  /// Returns whether the closest point of the other edge lies in the block of v (Eq. 15). This point is in the edge's
-  /// interior or is its end w.
+  /// Returns whether the point of edge `other` closest to v lies in the block of v (Eq. 15). This point is in the
+  /// interior of `other` if `is_other_inside` is true, otherwise it is the end w.
   OGC_HD bool is_end_hit(int v, bool is_other_inside, int w, const EdgeEnds& other) const {
     return is_other_inside ? in_vertex_block(other, v, surface, positions)
                            : in_vertex_block(positions[w], v, surface, positions);

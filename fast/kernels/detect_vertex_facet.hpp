@@ -20,7 +20,7 @@ struct DetectVertexFacet {
   SurfaceView surface;
   PaddedVecs positions;       ///< of the detection, by vertex [m]
   TreeView tree;              ///< of all facets, refitted at these positions
-  const int* vertex_order;    ///< numbers of the vertices, along a Hilbert curve
+  const int* vertex_order;    ///< vertices in the order of a Hilbert curve
   const float* vertex_limit;  ///< by vertex: gap limit of its reach [m²]
   ListsView lists;            ///< pairs are noted here; nothing is searched if its overflow flag is set
   float contact_radius;       ///< r, with the contact margin [m]
@@ -30,8 +30,8 @@ struct DetectVertexFacet {
   /// Returns whether a list has overflowed.
   OGC_HD bool is_off() const { return *lists.overflow != 0; }
 
-  /// Returns the position from which v searches. If v is not on the surface, this is a point so far away that no box is
-  /// within any limit, and its squared gaps are finite.
+  /// Returns the position from which v searches. If v is not on the surface, this is a point so far away that every box
+  /// is beyond the limit. The squared gaps between this point and the boxes are still finite.
   OGC_HD Vec searched_from(int v) const {
     return surface.is_off_surface(v) ? Vec{0x1p60f, 0x1p60f, 0x1p60f} : positions[v];
   }
@@ -78,8 +78,8 @@ struct DetectVertexFacet {
     return larger(smaller(search.limit, gap_limit(own)), smaller(offer.reach, gap_limit(theirs)));
   }
 
-  /// Lowers the smallest distances of vertex and facet to the pair's, and notes the pair if it may be a contact.
-  /// Returns a lower bound of the distance.
+  /// Lowers the smallest distances of vertex and facet to the distance of the pair, and notes the pair if it may be a
+  /// contact. Returns a lower bound of the distance.
   OGC_HD float measure(int v, int t, float gap) const {
     const Distance d = point_triangle_distance(positions[v], corners(surface.facets[t]));
     const float below = larger(d.below(), gap_below(gap));

@@ -18,8 +18,8 @@ struct BeginDetection {
   ResetDistances distances;
   RefitTrees refit;
 
-  /// Returns the number of items of the launch: the largest of the numbers of buckets, triangles and places of the
-  /// trees, in whole warps.
+  /// Returns the number of items of the launch: enough for all buckets, all triangles and all places of the trees, in
+  /// whole warps.
   OGC_HD int count() const {
     const int buckets = lists.lists.buckets, triangles = distances.triangle_count;
     const int items = buckets > triangles ? buckets : triangles, places = refit.count();

@@ -20,13 +20,13 @@
 
 namespace ogc::fast {
 
-/// Two edges with first < second, or a vertex, stored as first = ~vertex, and the facet `second`.
+/// A pair that a search noted: two edges with first < second, or a vertex v (first = ~v) and the facet `second`.
 struct alignas(8) NotedPair {
   int first, second;
 };
 
-/// A contact, as a pair generates it. `second` is the contact's second face in SurfaceView's numbers. low < high are
-/// the two edges of the pair; vertex–facet contacts do not use them.
+/// A contact, as a pair generates it. `second` is the contact's second face as one number (SurfaceView::edge_face). low
+/// < high are the two edges of the pair; vertex–facet contacts do not use them.
 struct alignas(16) RawContact {
   int bucket, second, low, high;
 };
@@ -34,8 +34,8 @@ struct alignas(16) RawContact {
 /// A slot of the hash table: one contact. An empty slot is all zeros.
 struct alignas(16) ContactSlot {
   std::uint64_t key;  ///< bucket + 1 in the upper half, second in the lower
-  /// complement of the numbers of both edges, packed into one integer with `low` in the upper half. So atomic_max keeps
-  /// the lowest-numbered edges, and a contact without edges (−1, −1) has 0
+  /// complement of `low` and `high` of the contact, packed into one integer with `low` in the upper half. So atomic_max
+  /// keeps the lowest-numbered edges. A contact without edges (−1, −1) has 0
   std::uint64_t edges;
 };
 
@@ -58,7 +58,7 @@ struct RoleVertices {
   int role[4] = {-1, -1, -1, -1};
 };
 
-/// Returns the vertices of a contact, given by its bucket and its second face.
+/// Finds the vertices of a contact from its bucket and its second face.
 struct ContactFaces {
   SurfaceView surface;
 
@@ -72,7 +72,7 @@ struct ContactFaces {
                                    : bucket >= 2 * surface.vertex_count;
   }
 
-  /// Returns the contact's vertices by role.
+  /// Returns the vertices of a contact at their roles.
   OGC_HD RoleVertices vertices(int bucket, int second) const {
     RoleVertices of;
     if (is_vertex_facet(bucket)) {
@@ -113,11 +113,12 @@ struct ListStatus {
 /// Holds the lists on the backend. Pointers to single counts point into a ListStatus.
 struct ListsView {
   /// Largest number of slots that the search for a contact visits. The table is at most half full while all contacts
-  /// fit. Then the searches for k or more keys begin in k given consecutive slots with probability at most (√e / 2)ᵏ
-  /// (Chernoff's bound for a Poisson variable with mean k / 2): 4·10⁻²² for k = 256. If it happens, the lists grow.
+  /// fit. Then the probability that k or more searches begin in k given consecutive slots is at most (√e / 2)ᵏ
+  /// (Chernoff's bound for a Poisson variable with mean k / 2): 4·10⁻²² for k = 256. If a search finds no slot, the
+  /// lists grow.
   static constexpr int longest_search = 256;
 
-  /// in any order; if a pair is certainly nearer than r, its second number is stored inverted
+  /// in any order; a pair that is certainly nearer than r is stored with ~second
   NotedPair* noted = nullptr;
   int noted_capacity = 0;             ///< size of `noted`; further pairs are only counted
   int* noted_count = nullptr;         ///< as in ListStatus
@@ -144,16 +145,15 @@ struct ListsView {
   LooseIncidence* loose = nullptr;   ///< row by row, in any order within a row
   Incidence* incidences = nullptr;   ///< row by row, ascending
 
-  /// Notes a pair that is nearer than r (`certain`), or for which the rounded distance does not decide this. The second
-  /// number of a certain pair is stored inverted.
+  /// Notes a pair that is certainly nearer than r (`certain`) or may be nearer. A certain pair is stored with ~second.
   OGC_HD void note(NotedPair pair, bool certain) const {
     if (certain) pair.second = ~pair.second;
     const int place = atomic_add(noted_count, 1);
     if (place < noted_capacity) noted[place] = pair;
   }
 
-  /// Enters a contact; several pairs may enter the same one. The table keeps the lowest-numbered edges of these pairs.
-  /// A contact that only one pair can generate needs no slot of the table.
+  /// Enters the contact of one pair. If several pairs enter the same contact, the table keeps the lowest-numbered
+  /// edges. A contact that only one pair can generate needs no slot of the table.
   OGC_HD void enter(const RawContact& contact, const ContactFaces& faces) const {
     if (faces.is_of_one_pair(contact.bucket, contact.second)) return place(contact, EnteredContact::nowhere, faces);
     const std::uint64_t key = pack(contact.bucket + 1, contact.second), edges = ~pack(contact.low, contact.high);
@@ -204,7 +204,7 @@ struct ListsView {
   }
 };
 
-/// Clears the contacts, but not the noted pairs. Runs once for each index of a bucket or a vertex.
+/// Clears the contacts, but not the noted pairs. Runs once for each i that is an index of a bucket or of a vertex.
 struct ForgetContacts {
   ListsView lists;
   int vertices;
@@ -226,7 +226,7 @@ struct ForgetNoted {
   }
 };
 
-/// Clears all lists at the start of a detection. Runs once for each index of a bucket or a vertex.
+/// Clears all lists at the start of a detection. Runs once for each i that is an index of a bucket or of a vertex.
 struct PrepareLists {
   ListsView lists;
   int vertices;
@@ -249,10 +249,10 @@ struct CheckCapacity {
   }
 };
 
-/// Moves each contact to its bucket, with its edges from the table, and clears its slot. If both faces are edge
-/// interiors, these edges are the faces themselves. The kernel runs at the same time as CheckCapacity and may miss a
-/// new overflow flag: then nothing reads its output, and it writes only within the counted buckets. Runs once for each
-/// contact.
+/// Moves each contact to its bucket, adds the edges of its pair, and clears its slot of the table. The table holds the
+/// edges; if both faces are edge interiors, the faces are the edges. The kernel runs at the same time as CheckCapacity
+/// and may miss a new overflow flag. Then nothing reads its output, and it writes only within the counted buckets. Runs
+/// once for each contact.
 struct FillBuckets {
   ListsView lists;
   int vertex_count;
@@ -272,8 +272,8 @@ struct FillBuckets {
   }
 };
 
-/// Adds the incidences of a record to the rows of its vertices. `number` is the record's number among vertex–facet or
-/// among edge–edge records.
+/// Adds the incidences of a record to the rows of its vertices. `number` is the record's index among the vertex–facet
+/// records or among the edge–edge records.
 OGC_HD inline void add_incidences(const ListsView& lists, const RoleVertices& vertices, bool edge_edge, int number) {
   const std::uint32_t code = (edge_edge ? 0x80000000U : 0U) | static_cast<std::uint32_t>(number) << 2;
   int place[4] = {0, 0, 0, 0};
@@ -332,7 +332,7 @@ struct WriteRecords {
   }
 };
 
-/// Adds the incidences of existing records. Runs once for each record, vertex–facet records first.
+/// Adds the incidences of records that are already written. Runs once for each record, vertex–facet records first.
 struct FillIncidences {
   ListsView lists;
   int vertex_facet_count;  ///< vertex–facet records; the indices of edge–edge records follow

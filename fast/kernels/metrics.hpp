@@ -18,7 +18,7 @@ struct StepRow {
   int vertex_facet_contacts = 0, edge_edge_contacts = 0;  ///< records of the last detection
   /// counts of the step; cut_last: vertices that the last iteration cut
   int detections = 0, rounds = 0, iterations = 0, cut_last = 0;
-  /// r_q; largest lag; smallest b_v, or with planes smallest distance of any pair [m]
+  /// r_q, largest lag, and smallest b_v (with planes: smallest distance of any pair) [m]
   float query_radius = 0, largest_lag = 0, smallest_bound = 0;
   double lost_guess = 0, lost_end = 0;  ///< ‖Σ m (x − y)‖/‖Σ m (y − xᵗ)‖ after the guess loop and at the end [1]
   /// at the end [J]; without StepSettings::energies, `elastic` is only the energy of tetrahedra, and `contact` is 0

@@ -19,7 +19,8 @@ struct alignas(8) PairPlane {
   float below = 0;               ///< lower bound of the pair's distance [m]
   double first = 0, second = 0;  ///< offsets o₁ < o₂ [m]
 
-  /// Returns whether there is a plane. of_first() and of_second() return its half-space for the vertices of each side.
+  /// Returns whether there is a plane. of_first() and of_second() return the half-spaces of the first and of the second
+  /// side.
   OGC_HD bool exists() const { return normal.x != 0 || normal.y != 0 || normal.z != 0; }
   OGC_HD HalfSpace of_first() const { return {normal, first}; }
   OGC_HD HalfSpace of_second() const { return {-normal, -second}; }
@@ -42,9 +43,9 @@ OGC_HD double shadow_gap(const Real& direction, const Real (&first)[m], const Re
   return divide(sub(bottom, top), square_root(squared(direction)));
 }
 
-/// Replaces `best` if the new direction has a larger gap. For any direction the gap between the projections of two
+/// Replaces `best` by `direction` if that has a larger gap. For any direction the gap between the projections of two
 /// convex sets is at most their distance. It is equal to the distance along the line of their closest points. So the
-/// direction with the largest gap is this line; which faces hold these points need not be decided.
+/// direction with the largest gap is along this line, and it need not be known which faces hold these points.
 template <int m, int n>
 OGC_HD void offer_direction(Real& best, double& best_gap, const Real& direction, const Real (&first)[m],
                             const Real (&second)[n]) {
@@ -107,9 +108,10 @@ struct Halved {
   OGC_HD double operator()(const Vec&) const { return 0.5; }
 };
 
-/// Returns the first side's share of the approach that both sides may make together, in proportion to their speeds
-/// along n (method.md §5.6, `bounds=dat`). The speed of the first side is its largest n·w, the speed of the second side
-/// its largest −n·w; it is 0 for a side that moves away. The share is clamped to least_division … 1 − least_division.
+/// Returns the first side's share of the approach that both sides may make together. Each side gets a share in
+/// proportion to its speed along n (method.md §5.6, `bounds=dat`). The speed of the first side is its largest n·w, the
+/// speed of the second side its largest −n·w; a side that moves away has the speed 0. The share is clamped to
+/// least_division … 1 − least_division.
 template <int first_count, int second_count>
 struct ByApproach {
   Vec first[first_count], second[second_count];  ///< w by vertex of the side [m]
@@ -156,8 +158,8 @@ OGC_HD PairPlane plane_of(const PairPoints<m, n>& pair, float below, float share
   return separates ? placed : plane;
 }
 
-/// Returns the first half-space, from number `from` on, in which x does not certainly lie; region.count if there is
-/// none. Team lanes share the tests, which would otherwise be the slowest part of an update.
+/// Returns the index ≥ `from` of the first half-space in which x does not certainly lie; region.count if there is none.
+/// Team lanes share the tests, which would otherwise be the slowest part of an update.
 template <class Lanes>
 OGC_HD int first_left(const FeasibleRegion& region, const Vec& x, const Lanes& lanes, int from = 0) {
   return lanes.first(region.count, from, [&](int k) { return !is_behind(region.planes[k], x); });
@@ -186,7 +188,7 @@ namespace slide {
 using Point = Vector<double>;
 inline constexpr int passes = 4, nudges = 3;  ///< at most: passes over the half-spaces, nudges of a stored position
 
-/// Convert to double without loss, and to single precision with one rounding.
+/// Convert a point to double, which is exact, and back to single precision with one rounding.
 OGC_HD inline Point wide(const Vec& a) { return {a.x, a.y, a.z}; }
 OGC_HD inline Vec stored(const Point& a) {
   return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
@@ -287,9 +289,9 @@ OGC_HD double share_inside(const FeasibleRegion& region, const Point& from, cons
   return share;
 }
 
-/// Returns the farthest stored position on the path from `from` to y that is in the region, or one just before it;
-/// `from` if none is found. If two boundaries (of half-spaces or of the ball) cut the path at the same place, a nudge
-/// into one may leave the other. Then the path is shortened and the nudges are repeated.
+/// Returns a stored position in the region, on the path from `from` to y: the farthest one, or one just before it.
+/// Returns `from` if none is found. If two boundaries (of half-spaces or of the ball) cut the path at the same point, a
+/// nudge into one may leave the other. Then the path is shortened and the nudges are repeated.
 template <class Lanes>
 OGC_HD Vec scaled(const FeasibleRegion& region, const Vec& from, const Point& y, const Lanes& lanes) {
   const Point start = wide(from);

@@ -14,7 +14,8 @@
 
 namespace ogc::fast {
 
-/// Returns a/b roughly. This is accurate enough for the direction d.
+/// Returns a/b with a larger rounding error. The quotient only affects the direction d, which may be rough (see the
+/// head of this file).
 OGC_HD inline float rough_quotient(float a, float b) {
 #if defined(__CUDA_ARCH__)
   return __fdividef(a, b);
@@ -68,8 +69,8 @@ OGC_HD T separation(const EndsOf<T>& p, const EndsOf<T>& q) {
 
 /// Returns a lower bound of `point_triangle_distance(x, corners).below()`, from two directions: the normal, and the
 /// direction to the nearest point of the outline. The projected vectors are x − corner; S' is the sum of their 1-norms.
-/// In point_triangle_distance, S ≤ 3 S' and the slack is at most 2 u S, u = 2⁻²⁴. Two slacks and the other errors are
-/// under 20 u S'. The code uses 32 u S'.
+/// In point_triangle_distance, S ≤ 3 S' and the slack is at most 2 u S, u = 2⁻²⁴. Two slacks and the errors of the
+/// projections are together below 20 u S'. The code uses 32 u S'.
 template <class T>
 OGC_HD T separation(const Vector<T>& x, const CornersOf<T>& t) {
   const Vector<T> u = x - t.a, v = x - t.b, w = x - t.c, e = t.b - t.a, f = t.c - t.b, g = t.a - t.c, n = cross(e, f);

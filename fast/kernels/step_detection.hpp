@@ -8,8 +8,8 @@
 
 namespace ogc::fast {
 
-/// Begins a detection in its first launch: checks each vertex's old region, and sets X_prev ← x. Runs once for each
-/// index below count().
+/// Does the first launch of a detection: checks each vertex's old region, sets X_prev ← x, and prepares the detection.
+/// Runs once for each index below count().
 struct BeginStepDetection {
   BeginRegions regions;
   BeginDetection detection;
@@ -21,8 +21,8 @@ struct BeginStepDetection {
   }
 };
 
-/// Counts the detection, and writes each slot's row of the contact stream, in the first part of the last launch. Runs
-/// once for each slot, and at least once.
+/// Does the first part of a detection's last launch: counts the detection, and writes each slot's row of the contact
+/// stream. Runs once for each slot, and at least once.
 struct EndStepDetection {
   EndDetection end;
   CopyContactRows<LooseIncidence> rows;
@@ -34,8 +34,8 @@ struct EndStepDetection {
   }
 };
 
-/// Sorts the incidences, and writes the contact of each into the stream, in the second part of the last launch. Runs
-/// once for each incidence.
+/// Does the second part of a detection's last launch: sorts the incidences, and writes the contact of each incidence
+/// into the stream. Runs once for each incidence.
 struct RankAndResolve {
   RankIncidences rank;
   ResolveContact resolve;

@@ -1,4 +1,4 @@
-// Holds the mesh as kernels read it: numbers and adjacency in plain arrays, without positions.
+// Holds the mesh as kernels read it: the primitives' vertices and the adjacency, in plain arrays without positions.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace ogc::fast {
 /// all triangles at an edge evaluate the edge's predicate with the same operands in the same order.
 struct alignas(16) Facet {
   int corner[3];  ///< vertices in the order of the mesh
-  int edge[3];    ///< 01, 12 and 20, as numbers of SurfaceView::edges
+  int edge[3];    ///< indices of the edges 01, 12 and 20 in SurfaceView::edges
   unsigned descending;
 };
 
@@ -32,16 +32,16 @@ struct Rows {
   const int* items = nullptr;    ///< row by row
 };
 
-/// Seeds of an edge: vertices nearby in the mesh whose distance bounds the edge's smallest distance, so that a query
-/// need not search farther (Reach in fast/kernels/bvh.hpp). −1: no seed.
+/// Seeds of an edge: vertices nearby in the mesh. The edge's smallest distance is at most its distance to a seed, so a
+/// query need not search farther (Reach in fast/kernels/bvh.hpp). −1: no seed.
 struct EdgeSeeds {
-  int vertex[2];  ///< each belongs to an edge that forms a pair with this edge
+  int vertex[2];  ///< each is an end of an edge that forms a pair with this edge
 };
-/// Seeds of a facet: vertices whose distance bounds the facet's smallest distance.
+/// Seeds of a facet: vertices nearby in the mesh, as for EdgeSeeds.
 struct FacetSeeds {
-  int vertex[3];  ///< for edge k: the vertex across it, which forms a pair with the facet
+  int vertex[3];  ///< for edge k: opposite vertex of the triangle across edge k; it forms a pair with the facet
 };
-/// Seeds of a vertex: edges whose distance bounds the vertex's smallest distance.
+/// Seeds of a vertex: edges nearby in the mesh, as for EdgeSeeds.
 struct VertexSeeds {
   int edge[2];  ///< each belongs to a facet that forms a pair with the vertex
 };
@@ -53,7 +53,7 @@ struct SurfaceView {
   const EdgeEnds* edges = nullptr;      ///< by edge
   Rows neighbours;                      ///< by vertex: V_v of Eq. 8 and 15
   Rows opposites;                       ///< by edge: V_e of Eq. 9
-  Rows vertex_edges, vertex_triangles;  ///< by vertex: numbers of its edges and of its triangles
+  Rows vertex_edges, vertex_triangles;  ///< by vertex: its edges and its triangles
   /// by vertex: see is_off_surface; null if all vertices are on the surface
   const std::uint8_t* off_surface = nullptr;
   const int* groups = nullptr;            ///< by vertex; pairs whose vertices all have the same group ≥ 0 are omitted
@@ -63,13 +63,13 @@ struct SurfaceView {
   /// by vertex: a pair is omitted if a vertex of one side is in the row of a vertex of the other side; null offsets: no
   /// rows
   Rows partners;
-  /// Numbers of the primitives that take part in searches: vertices, then edges, then facets, without the primitives of
-  /// volumes. Null: all primitives, in order.
+  /// Indices of the primitives that take part in searches: vertices, then edges, then facets. Primitives of volumes are
+  /// omitted. Null: all primitives, in order.
   const int* searched = nullptr;
-  int searched_vertices = 0, searched_edges = 0, searched_facets = 0;  ///< number of each
+  int searched_vertices = 0, searched_edges = 0, searched_facets = 0;  ///< vertices, edges and facets that take part
 
-  /// Returns whether detections omit the vertex. It is inside a solid, on no boundary triangle (method.md §8.3), or it
-  /// belongs to a volume, which volume_depth.hpp tests.
+  /// Returns whether detections omit the vertex: it is an interior vertex of a solid (method.md §8.3), or a vertex of a
+  /// volume, which volume_depth.hpp tests.
   OGC_HD bool is_off_surface(int v) const { return off_surface != nullptr && off_surface[v] != 0; }
 
   /// Return a face as one number, in the order of compare::Face: first vertices, then edges, then triangles.
@@ -77,7 +77,7 @@ struct SurfaceView {
   OGC_HD int edge_face(int e) const { return vertex_count + e; }
   OGC_HD int triangle_face(int t) const { return vertex_count + edge_count + t; }
 
-  /// Returns whether a pair is omitted by method.md §2.3. Its sides must not share a vertex.
+  /// Returns whether method.md §2.3 omits a pair. The sides of the pair must not share a vertex.
   OGC_HD bool left_out(int v, const Facet& t) const {
     const int g = groups[v];
     if (g >= 0 && groups[t.corner[0]] == g && groups[t.corner[1]] == g && groups[t.corner[2]] == g) return true;

@@ -19,9 +19,9 @@
 
 namespace ogc::fast {
 
-/// Features that a scene needs of the sum over the stencils of a vertex, one bit each: volumes; models of bending or
-/// damping other than the usual ones (discrete hinges, damping of strains); an activation other than `ogc`. The bits of
-/// the kinds of elements follow these, in the order of kinds/kinds.hpp.
+/// Bits of the features that a scene needs of the sum over the stencils of a vertex: volumes; models of bending or
+/// damping other than the usual ones (discrete hinges, damping of strains); an activation other than `ogc`. Then follow
+/// the bits of the kinds of elements, in the order of kinds/kinds.hpp.
 inline constexpr unsigned asks_volumes = 1, asks_any_model = 2, asks_any_activation = 4, first_kind_bit = 8;
 
 /// The incidences of a vertex in the stream of a kind of element.
@@ -32,7 +32,7 @@ struct Row {
 /// Replaces data that a kind of element does not have.
 struct NoData {};
 
-/// Members of a stream. A member that a kind does not need is left out, because every launch copies its view.
+/// Members of a stream. A stream has no member that its kind does not need, because every launch copies the SweepView.
 template <bool has_rows>
 struct RowsOfStream {
   const Row* rows = nullptr;  ///< by slot; null: the scene has no element of this kind
@@ -78,7 +78,7 @@ struct ColourOrder {
 
 /// A free vertex in the order of the sweep, with its rows in the streams of some kinds.
 struct alignas(16) SweepVertex {
-  int vertex = -1;  ///< number in the mesh
+  int vertex = -1;  ///< index in the mesh
   int body = -1;
   float inertia = 0;  ///< m/h² [N/m]
   Row rows[2];        ///< rows of the kinds with `row_in_vertex` ≥ 0
@@ -110,8 +110,8 @@ struct VolumeStream {
   int capacity = 0;             ///< contacts that fit in a row
   // The members below are null or 0 if all volumes are driven.
   const int* colour = nullptr;  ///< by vertex; −1: not free
-  /// contacts in which the vertex of a slot is a corner, ascending, each as (index in `contacts`) · 4 + role; the row
-  /// of a slot begins at slot · corner_capacity
+  /// codes of the contacts in which the vertex of a slot is a corner: (index in `contacts`) · 4 + role, ascending; the
+  /// row of a slot begins at slot · corner_capacity
   const int* corner_codes = nullptr;
   const int* corner_counts = nullptr;  ///< by slot: number of codes in its row
   int corner_capacity = 0;             ///< codes that fit in a row
@@ -144,13 +144,13 @@ struct SweepShared {
 
   /// Returns whether another iteration is next, so that this one must do nothing.
   OGC_HD bool is_off() const { return turn != nullptr && *turn != iteration; }
-  /// Returns the same as is_off() while a vertex is being loaded. The vertex number, which is ≥ 0, is tested in the
-  /// same expression without a branch, so that a device issues both loads at once.
+  /// Returns is_off() while `vertex` is being loaded. It also tests, without a branch, the vertex number, which is
+  /// never negative. So a device issues the loads of `turn` and `vertex` at once.
   OGC_HD bool is_off(const SweepVertex& vertex) const {
     return turn != nullptr && ((*turn != iteration) | (vertex.vertex < 0));
   }
 
-  /// Returns the index into `old`, which may lie in the fresh half, for an encoded index.
+  /// Returns the index into `old` for an encoded index; the result may lie in the fresh buffer.
   OGC_HD int number(int index) const { return decoded(index) + ((index >> 31) & to_fresh); }
   /// Returns the position at an encoded index.
   OGC_HD Vec read(int index) const { return PaddedVecs{old}[number(index)]; }

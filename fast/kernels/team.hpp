@@ -32,8 +32,8 @@ struct LoadFrom {
   OGC_HD Item operator()(int k) const { return first[k]; }
 };
 
-/// A part whose terms do not depend on the team's own data, so that the threads of a block may share the terms of all
-/// its teams. The items are begin + k for 0 ≤ k < count. term(load(item)) returns an Accumulator.
+/// A part whose terms do not depend on the team's own data. So all threads of a block may compute the terms of all its
+/// teams together. The items are begin + k for 0 ≤ k < count. term(load(item)) returns an Accumulator.
 template <class Load, class Term>
 struct PooledPart {
   int begin, count;  ///< first item; number of items

@@ -14,7 +14,7 @@ struct GuessContacts {
   const ContactIncidence* contacts = nullptr;  ///< contact stream of the detection
   const Vec* position = nullptr;               ///< X_prev by vertex [m]
   const Vec* target = nullptr;                 ///< y by vertex [m]
-  const Vec* taken = nullptr;  ///< t by vertex [m]: by how much contacts changed its move in the last round
+  const Vec* taken = nullptr;  ///< t by vertex [m]: by how much contacts changed the vertex's move in the last round
   float radius = 0;            ///< r [m]
 
   /// Returns the move that this round expects of another vertex: y − X_prev, changed by contacts as in the last round

@@ -53,8 +53,8 @@ struct ExactTotal {
 };
 
 /// Returns whether ‖x − x_prev‖ ≤ b, without rounding. It is called if double-double cannot distinguish the distance
-/// from b: at ties, or if one coordinate differs by b and another by 10⁻²¹, so that x is outside. Returns false if a
-/// difference of coordinates does not fit into a double.
+/// from b: at a tie, or if x is barely outside, for example if one coordinate differs by b and another by 10⁻²¹.
+/// Returns false if a difference of coordinates does not fit into a double.
 OGC_HD inline bool is_exactly_within(const Ball& ball, const Vec& x) {
   const Vector<Wide> step = difference<Wide>(x, ball.centre);
   if (step.x.low != 0 || step.y.low != 0 || step.z.low != 0) return false;
@@ -76,7 +76,7 @@ OGC_HD inline bool is_within(const Ball& ball, const Vec& x) {
   return sign < 0 || (sign == 0 && is_exactly_within(ball, x));
 }
 
-/// Returns, among the floats that are not farther from p than q = p + s (x − p), the float nearest to q.
+/// Returns p + s (x − p), rounded towards p to a float.
 OGC_HD inline float towards(float p, float x, double s) {
   const double step = mul(s, sub(static_cast<double>(x), static_cast<double>(p))),
                place = add(static_cast<double>(p), step);

@@ -81,7 +81,7 @@ struct NearestFacet {
 
 /// Holds one contact of a point with a part. c is the point of `face` that is closest to the point.
 struct FoundVolumeContact {
-  /// the lowest-numbered facet that contains the face; the face, as SurfaceView numbers it
+  /// the lowest-numbered facet that contains the face; the face as one number (SurfaceView::edge_face)
   int triangle = -1, face = -1;
   bool inside = false;
   float weights[3] = {};  ///< barycentric weights of c in `triangle` [1]
@@ -130,7 +130,8 @@ class VolumeQuestion {
   }
 
   /// Calls visit(contact) for each contact with a part; `nearest` is the result of nearest_of. A point inside has one
-  /// contact, at the nearest face. A near point has one with each face in whose outward block it lies nearer than r.
+  /// contact, at the nearest face. A near point has one contact for each face that is nearer than r and whose outward
+  /// block holds the point.
   template <class Visit>
   OGC_HD void visit_contacts(int part, const NearestFacet& nearest, Visit visit) const {
     if (nearest.side == VolumeSide::far) return;
@@ -162,7 +163,7 @@ class VolumeQuestion {
     return {volume_.positions[facet.corner[0]], volume_.positions[facet.corner[1]], volume_.positions[facet.corner[2]]};
   }
 
-  /// Returns the number of the face (vertex, edge or triangle) that holds the point of facet t closest to x.
+  /// Returns the face (vertex, edge or triangle) that holds the point of facet t closest to x, as one number.
   OGC_HD int face_of(int t) const {
     const Facet& facet = volume_.surface.facets[t];
     const TriangleFeature feature = closest_feature(x_, corners(t), facet.descending);
@@ -356,8 +357,8 @@ class VolumeQuestion {
   }
 
   /// Returns the contact with its weights, direction and depth. The direction is along x − c, outward. It is the
-  /// facet's normal if c is in the facet's interior. It is also the normal if x − c is below 2⁻⁴⁸ of the coordinates,
-  /// and so is only rounding error.
+  /// facet's normal if c is in the facet's interior. It is also the normal if ‖x − c‖ is at most 2⁻⁴⁸ ‖x − a‖₁ for the
+  /// facet's first corner a, because x − c is then only rounding error.
   OGC_HD FoundVolumeContact contact_at(int face, bool inside) const {
     const SurfaceView& surface = volume_.surface;
     FoundVolumeContact contact;

@@ -8,7 +8,7 @@
 
 namespace ogc::fast {
 
-/// Holds the data of one contact that its detection froze.
+/// Holds the data of one contact that do not change until the next detection.
 struct VolumeContact {
   float weights[3] = {};              ///< weights of c, by corner [1]
   Vec normal;                         ///< n [1]
@@ -31,10 +31,10 @@ OGC_HD inline Vec volume_motion(const VolumeContact& contact, const Vec* x, cons
          contact.weights[2] * (x[3] - start[3]);
 }
 
-/// Adds normal force, friction and block of a contact on its vertex with this role; adds nothing if φ ≥ r. `slip_limit`
-/// is ε_v h [m]. Bit k of `together` is set if another vertex, of role k, is solved at the same time. The block then
-/// has |w| Σ |w_u| in place of w², with the sum over all vertices u that are solved together (method.md §7.4). Returns
-/// λ = k (r − φ) [N]; 0 if the contact exerts no force.
+/// Adds the normal force, friction and block of a contact on its vertex with role `role`; adds nothing if φ ≥ r.
+/// `slip_limit` is ε_v h [m]. Bit k of `together` is set if another vertex, of role k, is solved at the same time. The
+/// block then has |w| Σ |w_u| in place of w², with the sum over all vertices u that are solved together (method.md
+/// §7.4). Returns λ = k (r − φ) [N]; 0 if the contact exerts no force.
 OGC_HD inline float add_volume_contact(const VolumeContact& contact, const Vec* x, const Vec* start, int role,
                                        float contact_radius, float slip_limit, ForceAndBlock& sum, int together = 0) {
   const float depth = contact_radius - dot(contact.normal, volume_separation(contact, x));

@@ -41,8 +41,8 @@ struct ForceAndBlockOf {
     block.zz = block.zz + scale;
   }
 
-  /// Adds another sum. Each addition is rounded separately. Otherwise a compiler may contract it with a product that
-  /// gave `other`, and bits depend on where it does so.
+  /// Adds another sum. Each addition is rounded separately. Otherwise a compiler might contract an addition with a
+  /// product that gave `other`, and the bits would depend on this choice.
   OGC_HD ForceAndBlockOf& operator+=(const ForceAndBlockOf& other) {
     force = {add(force.x, other.force.x), add(force.y, other.force.y), add(force.z, other.force.z)};
     block.xx = add(block.xx, other.block.xx);

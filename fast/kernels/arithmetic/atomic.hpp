@@ -1,7 +1,7 @@
 // Defines atomics: integer sums and maxima, and minima of non-negative floats. The final values of their targets do not
-// depend on the order of execution. Values that atomic_add, atomic_compare_exchange and arrives_last return may depend
-// on it. So kernels use these values only to choose the thread that does a piece of work, or a place in a list whose
-// order has no effect.
+// depend on the order of execution. The values that atomic_add, atomic_compare_exchange and arrives_last return may
+// depend on this order. So kernels use these values only to choose the thread that does a piece of work, or a place in
+// a list whose order has no effect.
 #pragma once
 
 #include <cstdint>
@@ -57,7 +57,7 @@ OGC_HD inline void atomic_max(std::uint64_t* target, std::uint64_t value) {
 #endif
 }
 
-/// Writes `value` if the target is `expected`, and returns the previous value.
+/// Writes `value` if the target is `expected`, and returns the target's previous value.
 OGC_HD inline std::uint64_t atomic_compare_exchange(std::uint64_t* target, std::uint64_t expected,
                                                     std::uint64_t value) {
 #if defined(__CUDA_ARCH__)
@@ -126,7 +126,7 @@ OGC_HD inline void atomic_min(float* target, float value) {
 #endif
 }
 
-/// Does the same as atomic_min, but is faster if all threads of a launch use the same target. No number may be negative
+/// Does the same as atomic_min, but is faster if all threads of a launch use the same target. No value may be negative
 /// or NaN.
 OGC_HD inline void lower_together(float* target, float value) {
 #if defined(__CUDA_ARCH__)

@@ -59,9 +59,9 @@ struct Single {
   friend OGC_HD Single operator-(Single a, Single b) { return {a.value - b.value, a.scale + b.scale}; }
   friend OGC_HD Single operator*(Single a, Single b) { return {a.value * b.value, a.scale * b.scale}; }
 
-  /// Returns the sign. It is certain if |value| exceeds 2⁻¹⁸ of the scale. This is the limit of Filtered::sign for
-  /// roundings of 2⁻²⁴ instead of 2⁻⁵³. After an overflow no sign is certain, because no value exceeds an infinite
-  /// scale.
+  /// Returns the sign. It is certain if |value| exceeds 2⁻¹⁸ of the scale: 2²⁹ times the limit of Filtered::sign,
+  /// because roundings are 2⁻²⁴ instead of 2⁻⁵³. After an overflow no sign is certain, because no value exceeds an
+  /// infinite scale.
   OGC_HD Sign sign() const { return {(value > 0) - (value < 0), fabsf(value) > scale * 0x1p-18F}; }
 };
 

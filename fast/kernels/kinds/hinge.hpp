@@ -12,7 +12,7 @@ namespace ogc::fast {
 /// o0, o1. If it is an opposite vertex it counts as o0, and `index` holds x0, x1, o1.
 struct alignas(8) HingeIncidence {
   int index[3] = {0, 0, 0};  ///< encoded as in sweep_view.hpp
-  int hinge = -1;            ///< number in RestState::hinges; ~number if the vertex is an opposite one
+  int hinge = -1;            ///< index in RestState::hinges; ~index if the vertex is an opposite one
   HingeStencil stencil{};    ///< c and θ₀
 };
 
@@ -91,7 +91,7 @@ struct HingeKind : ElementKind<HingeRest, HingeIncidence> {
   }
 };
 
-/// Returns the numbers that hinges need at the current positions. `angle_start` is θᵗ by hinge.
+/// Returns the values that hinges read, at the current positions. `angle_start` is θᵗ by hinge.
 template <class Items>
 OGC_HD HingeReadsOf<typename Items::Number> read_hinges(const SweepShared& view, const float* angle_start,
                                                         const Items& items, const SurfaceMaterial& material) {
@@ -215,8 +215,7 @@ struct Hinges {
             {view, view.hinges.start, view.materials[vertex.body], view.models[vertex.body], own}};
   }
 
-  /// Returns whether add_packs can add the hinges of a vertex, that is, whether they are discrete hinges with damping
-  /// of strains.
+  /// Returns whether add_packs can add the hinges of a vertex: they must be discrete hinges with damping of strains.
   template <class View>
   static bool is_packed(const View& view, const SweepVertex& vertex) {
     return has_default_bending(view.models[vertex.body]);

@@ -49,7 +49,8 @@ OGC_HD Row row_of(const View& view, int slot, const SweepVertex& vertex) {
     return {};
 }
 
-/// Computes the value at the start of the step that damping needs (θᵗ, Gᵗ). Runs once for each element.
+/// Computes for each element the value that damping reads: θᵗ or Gᵗ at the start of the step. Runs once for each
+/// element.
 template <class Kind>
 struct BeginElement {
   const typename Kind::Rest* rest;       ///< by element

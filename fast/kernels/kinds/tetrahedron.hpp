@@ -1,6 +1,7 @@
 // Adds tetrahedra of solids (stable Neo-Hookean) to the sums of sweeps and reports, as one of their corners sees them
-// (compare/stages/tetrahedron.hpp). With a, b, c the vectors to the other corners, in the order in which det(a, b, c)
-// is positive at rest, n = (b − a) × (c − a), w_k = V ∇N_k·∇N and i = 1/(6V):
+// (compare/stages/tetrahedron.hpp). a, b, c are the vectors to the other corners, in the order in which det(a, b, c) is
+// positive at rest. N_k are the shape functions of the other corners, N is the one of this corner. With n = (b − a) ×
+// (c − a), w_k = V ∇N_k·∇N and i = 1/(6V):
 //
 //   J = i n·a,   V ∂J/∂x = −n/6,   force −μ (w₁ a + w₂ b + w₃ c) + ((λ + μ)(J − 1) − μ) n/6,
 //   block −μ (w₁ + w₂ + w₃) I + (λ + μ) i/6 n nᵀ
@@ -45,8 +46,8 @@ using TetrahedronStencil = TetrahedronStencilOf<float>;
 /// A symmetric 3×3 strain [1] or stress [Pa].
 using SolidStrain = Symmetric3;
 
-/// Holds the data that only damping of strains reads: V, and ∇N of the other corners. ∇N of the own corner is minus
-/// their sum.
+/// Holds the data that only damping of strains reads: V, and the gradients ∇N of the other three corners' shape
+/// functions. The gradient of this corner is minus their sum.
 struct TetrahedronGradients {
   Vec other[3];      ///< ∇N [1/m]
   float volume = 0;  ///< V [m³]
@@ -138,7 +139,7 @@ OGC_HD inline double solid_energy(const TetrahedronRest& rest, const SolidMateri
 /// positive volume at rest, encoded as in sweep_view.hpp.
 struct alignas(16) TetrahedronIncidence {
   int index[3] = {0, 0, 0};      ///< a, b, c
-  int tetrahedron = -1;          ///< number in RestState::tetrahedra
+  int tetrahedron = -1;          ///< index in RestState::tetrahedra
   TetrahedronStencil stencil{};  ///< w_k and i (head of this file)
 };
 
@@ -218,14 +219,14 @@ struct TetrahedronKind : ElementKind<TetrahedronRest, TetrahedronIncidence> {
   }
 };
 
-/// Holds the numbers that tetrahedra need as one of their corners sees them.
+/// Holds the values that tetrahedra read, as one of their corners sees them.
 template <class N>
 struct TetrahedronReadsOf {
   TetrahedronStencilOf<N> stencil;
   Vector<N> a, b, c;  ///< the other corners minus this corner [m]
 };
 
-/// Returns the numbers that tetrahedra need at the current positions; `own` is the position of the corner.
+/// Returns the values that tetrahedra read, at the current positions; `own` is the position of the corner.
 template <class Items>
 OGC_HD TetrahedronReadsOf<typename Items::Number> read_tetrahedra(const SweepShared& view, const Items& items,
                                                                   const Vector<typename Items::Number>& own) {

@@ -12,7 +12,7 @@ namespace ogc::fast {
 /// sweep_view.hpp.
 struct alignas(16) MembraneIncidence {
   int index[2] = {0, 0};      ///< x_b, x_c
-  int triangle = -1;          ///< number in RestState::triangles
+  int triangle = -1;          ///< index in RestState::triangles
   MembraneStencil stencil{};  ///< gradients and area
 };
 
@@ -68,7 +68,7 @@ struct TriangleKind : ElementKind<TriangleRest, MembraneIncidence> {
   }
 };
 
-/// Holds the numbers that triangles need as one of their corners sees them. All are loaded before any arithmetic,
+/// Holds the values that triangles read, as one of their corners sees them. All are loaded before any arithmetic,
 /// because loads take most of the time of a vertex on a device.
 template <class N>
 struct MembraneReadsOf {
@@ -77,7 +77,7 @@ struct MembraneReadsOf {
   Symmetric2Of<N> strain_start{};  ///< Gᵗ; 0 without damping
 };
 
-/// Returns the numbers that triangles need at the current positions. `strain_start` is Gᵗ by triangle.
+/// Returns the values that triangles read, at the current positions. `strain_start` is Gᵗ by triangle.
 template <class Items>
 OGC_HD MembraneReadsOf<typename Items::Number> read_triangles(const SweepShared& view, const Symmetric2* strain_start,
                                                               const Items& items, const SurfaceMaterial& material) {
@@ -186,7 +186,7 @@ struct Triangles {
             {view, view.triangles.start, view.materials[vertex.body], view.models[vertex.body], own}};
   }
 
-  /// Returns whether add_packs can add the triangles of a vertex, that is, whether their damping is of strains.
+  /// Returns whether add_packs can add the triangles of a vertex: the body must have damping of strains.
   template <class View>
   static bool is_packed(const View& view, const SweepVertex& vertex) {
     return has_default_membrane(view.models[vertex.body]);

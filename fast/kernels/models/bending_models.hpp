@@ -6,7 +6,7 @@
 
 namespace ogc::fast {
 
-/// Implements BendingModel::none, whose hinges have no energy. No rest state holds such hinges.
+/// Implements BendingModel::none, whose hinges have no energy. Rest states omit them.
 struct NoBending {
   /// UsualHinges may be used, because there is nothing to add. No HingeWeights are needed.
   static constexpr bool is_default = true, reads_weights = false;

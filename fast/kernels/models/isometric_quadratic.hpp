@@ -13,7 +13,8 @@ struct IsometricQuadratic {
   static constexpr bool is_default = false;
   static constexpr bool reads_weights = true;
 
-  /// Adds −c w ℓ and c w² I, where w is the weight of the vertex; no damping.
+  /// Adds the force −c w ℓ and the block c w² I, without damping. w is the weight of the vertex; the head of this file
+  /// defines c and ℓ.
   OGC_HD static void add(const HingeSeen& hinge, float, ForceAndBlock& sum) {
     const Vec to[3] = {hinge.p[0] - hinge.own, hinge.p[1] - hinge.own, hinge.p[2] - hinge.own};
     const float* w = hinge.isometric.other;

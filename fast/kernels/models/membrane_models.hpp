@@ -6,7 +6,7 @@
 
 namespace ogc::fast {
 
-/// Implements MembraneModel::none, whose triangles have no energy. No rest state holds such triangles.
+/// Implements MembraneModel::none, whose triangles have no energy. Rest states omit them.
 struct NoMembrane {
   template <class T>
   OGC_HD static void add(const MembraneStencilOf<T>&, const SurfaceMaterial&, const Vector<T>&, const Vector<T>&,

@@ -38,9 +38,9 @@ OGC_HD void add_undamped_neighbour(const T& weight, bool is_ahead, const QuatOf<
   b = select(is_there, b + pull_towards(weight, asked_orientation(is_ahead, now, relative), old), b);
 }
 
-/// Adds the elastic and the damping pull of a neighbour to b. With k = `damping`, the damping pull has the weight k w
-/// and the relative rotation at the start of the step. `now` and `start` are the neighbour's quaternions, `own_start`
-/// is qᵗ of the segment.
+/// Adds the elastic and the damping pull of a neighbour to b. The damping pull has k times the neighbour's weight (k =
+/// `damping`), and the relative rotation at the start of the step instead of the one at rest. `now` and `start` are the
+/// neighbour's quaternions, `own_start` is qᵗ of the segment.
 OGC_HD inline void add_neighbour(const NeighbourRest& neighbour, bool is_ahead, float damping, const Quat& now,
                                  const Quat& start, const Quat& own_start, const Quat& old, Quat& b) {
   add_undamped_neighbour(neighbour.weight, is_ahead, now, neighbour.rest, old, b);
@@ -69,14 +69,15 @@ OGC_HD T secular_root(const T& upper, const T& lower, const T& sigma) {
   return nu;
 }
 
-/// Computes M q/σ (compare/rods.md), which is −D q c with D and c as unit vectors; this map is its own inverse.
+/// Computes M q/σ = −D q c for unit vectors D and c (compare/rods.md). This map is its own inverse.
 template <class T>
 struct ReflectedFrameOf {
   QuatOf<T> apart, direction;  ///< D/‖D‖, c/‖c‖
 
   OGC_HD QuatOf<T> operator()(const QuatOf<T>& q) const { return T(-1.0f) * (apart * q * direction); }
-  /// Returns the part of q in the eigenspace of eigenvalue 1, whose directors are along D. It projects twice. After one
-  /// projection, the rounding error outside the eigenspace is relative to all of q, and could exceed a small part.
+  /// Returns the part of q in the eigenspace of eigenvalue 1, whose directors are along D. It projects twice. After
+  /// only one projection, the rounding error outside the eigenspace is relative to ‖q‖, and could exceed the projection
+  /// itself.
   OGC_HD QuatOf<T> upper(const QuatOf<T>& q) const {
     const QuatOf<T> once = T(0.5f) * (q + (*this)(q));
     return T(0.5f) * (once + (*this)(once));
@@ -101,8 +102,8 @@ OGC_HD inline Quat nearest_upper(const ReflectedFrame& frame, const Quat& old) {
   return unit(part);
 }
 
-/// Returns the minimiser of rod_orientation in the usual case, and sets `is_usual`: σ > 0, b is not 0, and P₊b (see
-/// lost_part) is not only rounding.
+/// Returns the minimiser of rod_orientation in the usual case. Sets `is_usual` to whether this case holds: σ > 0, b is
+/// not 0, and P₊b (see lost_part) is not only rounding error.
 template <class T>
 OGC_HD QuatOf<T> usual_orientation(const T& stretch, const Vector<T>& apart, const Vector<T>& direction,
                                    const QuatOf<T>& b, Mask<T>& is_usual) {

@@ -7,14 +7,14 @@
 
 namespace ogc::fast {
 
-/// Values of a segment's `motion`: the segment is free, or fixed with its body. A value from 0 on is the number of the
-/// prescribed motion of both its ends.
+/// Values of a segment's `motion`: the segment is free, or fixed with its body. A value ≥ 0 is the index of the
+/// prescribed motion of both ends of the segment.
 inline constexpr int segment_free = -1, segment_fixed = -2;
 
 /// Holds the neighbours of a segment across its ends: first the segment before it, then the segment after it.
 struct alignas(16) SegmentNeighbours {
   NeighbourRest rest[2];   ///< weight 0: there is no neighbour
-  int number[2] = {0, 0};  ///< segment numbers; the segment's own number if there is no neighbour
+  int number[2] = {0, 0};  ///< indices of the neighbours; the segment's own index if there is no neighbour
 };
 
 /// A free segment in the order of the sweep. Its ends are encoded as in fast/kernels/sweep_view.hpp: prescribed and
@@ -28,7 +28,7 @@ struct alignas(16) SegmentSlot {
 /// A segment as one of its ends sees it.
 struct alignas(16) RodIncidence {
   int other = 0;                  ///< the other end, encoded
-  int segment = 0;                ///< number; ~number if the vertex is x₁
+  int segment = 0;                ///< index; ~index if the vertex is x₁
   float length = 0, stretch = 0;  ///< l [m], k_s [N]
 };
 

@@ -44,8 +44,8 @@ struct SetDirection {
 struct TurnSegment {
   const SegmentRest* segments;  ///< by segment
   const int* motion;            ///< by segment: motion, as in segments.hpp
-  /// [step since the last stored state][motion]: rotation of a prescribed motion in the step; w = 2: the motion has no
-  /// rotation
+  /// [step since the last stored state][motion]: rotation of a prescribed motion in the step; a motion without rotation
+  /// has w = 2
   const Quat* motion_turns;
   int motions;                    ///< prescribed motions: length of a row of motion_turns
   const Vec* start;               ///< xᵗ by vertex [m]

@@ -18,7 +18,7 @@ struct VertexSums {
   VertexTerm term;
   int count;  ///< vertices
 
-  /// Adds every `chunks`-th term, from number `chunk` on.
+  /// Adds every `chunks`-th term, beginning with term `chunk`.
   OGC_HD void add(int chunk, int chunks, double* sums) const { add_terms(term, count, chunk, chunks, sums); }
 };
 
@@ -27,7 +27,7 @@ struct LeftSums {
   const LeftForce* left;  ///< by slot
   int count;              ///< slots
 
-  /// Adds every `chunks`-th term, from number `chunk` on; `sums` by LeftColumn.
+  /// Adds every `chunks`-th term, beginning with term `chunk`, to `sums`, which LeftColumn indexes.
   OGC_HD void add(int chunk, int chunks, double* sums) const {
     for (int i = chunk; i < count; i += chunks) {
       const LeftForce own = left[i];
@@ -65,7 +65,7 @@ struct StateSums {
   VertexSums vertices;
   AllElements<Kinds> elements;
 
-  /// Adds every `chunks`-th term, from number `chunk` on.
+  /// Adds every `chunks`-th term, beginning with term `chunk`.
   OGC_HD void add(int chunk, int chunks, double* sums) const {
     vertices.add(chunk, chunks, sums);
     elements.add<false>(chunk, chunks, sums);
@@ -78,7 +78,7 @@ struct EnergySums {
   VertexFacetTerm vertex_facet;  ///< energies by record; only the device knows the number of records
   EdgeEdgeTerm edge_edge;        ///< energies by record
 
-  /// Adds every `chunks`-th term, from number `chunk` on.
+  /// Adds every `chunks`-th term, beginning with term `chunk`.
   OGC_HD void add(int chunk, int chunks, double* sums) const {
     state.vertices.add(chunk, chunks, sums);
     state.elements.add<true>(chunk, chunks, sums);

@@ -12,7 +12,7 @@ struct VolumeSums {
   VolumeTerm volume;
   int rows;  ///< rows of contacts with volumes
 
-  /// Adds every `chunks`-th term, from number `chunk` on.
+  /// Adds every `chunks`-th term, beginning with term `chunk`.
   OGC_HD void add(int chunk, int chunks, double* sums) const {
     energies.add(chunk, chunks, sums);
     add_terms(volume, rows, chunk, chunks, sums);

@@ -49,8 +49,8 @@ struct Gather {
   }
 };
 
-/// The sum of the parts `Whole` of a list of kinds. The part of contacts with volumes precedes the part of the last
-/// kind.
+/// The sum that adds the part `Whole` of each kind in a list. The part for contacts with volumes precedes the part of
+/// the last kind.
 template <class Kinds, class... Before>
 struct WholeSum;
 template <class Last, class... Before>

@@ -58,7 +58,7 @@ struct UpdateVertex {
 /// Moves the prescribed vertices before the first colour of an iteration. Runs once for each of these vertices.
 struct UpdatePrescribed {
   SweepView view;
-  const int* prescribed = nullptr;  ///< numbers of the prescribed vertices
+  const int* prescribed = nullptr;  ///< indices of the prescribed vertices
 
   OGC_HD void operator()(int i) const {
     if (view.is_off()) return;
@@ -107,8 +107,8 @@ struct MeasureVertex {
 
  private:
   /// Returns a bound of the error that rounded positions cause in the force. A stored coordinate errs by at most 2⁻²⁴
-  /// |x|, so the force errs by the block times this. The blocks between the vertex and its neighbours add up to about
-  /// the vertex's own block, which doubles the error.
+  /// |x|, so the force errs by at most the block times this error. The blocks between the vertex and its neighbours add
+  /// up to about the vertex's own block, which doubles the error.
   OGC_HD static float rounding_of_force(const Symmetric3& block, const Vec& x) {
     const float largest = fmaxf(fmaxf(fabsf(x.x), fabsf(x.y)), fabsf(x.z));
     return 2 * 0x1p-24f * largest * (block.xx + block.yy + block.zz);

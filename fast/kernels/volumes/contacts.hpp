@@ -39,16 +39,16 @@ struct ForgetClearBalls {
   OGC_HD void operator()(int i) const { clear[i].radius = ClearBall::unasked; }
 };
 
-/// Finds on which side of each part of triangles each asker lies. Runs once for each pair of a part and a row, part
-/// after part, so that neighbouring threads search the same tree.
+/// Finds on which side of a part each asker lies, for all parts that consist of triangles. Runs once for each pair of a
+/// part and a row, part after part, so that neighbouring threads search the same tree.
 struct AskVolumes {
   VolumeView volume;  ///< with refitted trees
   const int* askers;  ///< by row: the vertex, or −1
   int rows;
   const Vec* position;         ///< x at the detection, by vertex [m]
   const StepControl* control;  ///< if it is not active nothing is searched
-  /// by pair of part and row (index part · rows + row): answer of the last detection, or any facet of the part;
-  /// replaced
+  /// by pair of part and row (index part · rows + row): answer of the last detection, or an answer with any facet of
+  /// the part; replaced by the new answer
   int* answers;
   /// by pair of part and row: ball of far points; null if volumes are free, because they move in every iteration
   ClearBall* clear;

@@ -55,8 +55,8 @@ class SolidQuestion {
       : volume_(volume), solids_(volume.solids), faces_(volume, point), x_(point), own_(own) {}
 
   /// Calls visit(contact) for each contact with a part. If x lies in sheets, there is one contact for each sheet with a
-  /// way. Otherwise there is one contact for each face in whose outward block x lies nearer than r. The search begins
-  /// at facet `first` (−1: at no facet), which only changes the time.
+  /// way. Otherwise there is one contact for each face that is nearer than r and whose outward block holds x. The
+  /// search begins at facet `first` (−1: at no facet), which only changes the time.
   template <class Visit>
   OGC_HD SolidAnswer visit_contacts(int part, int first, Visit visit) const {
     SolidAnswer answer;
@@ -95,8 +95,9 @@ class SolidQuestion {
     int face = -1, facet = -1;
   };
 
-  /// Holds the heights of a segment's ends c and x over each side of a tetrahedron: positive inward, times twice the
-  /// side's area. `zero`: limit below which a height counts as zero.
+  /// Holds the heights of both ends of a segment over each side of a tetrahedron: `at_foot` of the first end c, `at_x`
+  /// of the second end x. A height is positive inward and multiplied by twice the side's area. `zero`: limit below
+  /// which a height counts as zero.
   struct Passage {
     double at_foot[4], at_x[4], zero[4];
 
@@ -131,8 +132,8 @@ class SolidQuestion {
     return corner[0] == own_ || corner[1] == own_ || corner[2] == own_;
   }
 
-  /// Returns a bit for each corner whose weight at x is positive. These corners span the simplex that holds x in its
-  /// interior. Returns 0 if the tetrahedron does not hold x.
+  /// Returns one bit per corner: whether the corner's barycentric weight at x is positive. The corners with this bit
+  /// span the simplex that holds x in its interior. Returns 0 if the tetrahedron does not hold x.
   OGC_HD unsigned carrier(int element) const {
     const int* corner = solids_.elements[element].corner;
     unsigned inside = 0;
@@ -314,7 +315,7 @@ class SolidQuestion {
     return false;
   }
 
-  /// Writes the vertices of a face, and returns their number.
+  /// Writes the vertices of a face, and returns how many it has.
   OGC_HD int vertices_of(int face, int* vertex) const {
     const SurfaceView& surface = volume_.surface;
     if (faces_.is_vertex(face)) {

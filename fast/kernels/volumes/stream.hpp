@@ -11,7 +11,8 @@
 
 namespace ogc::fast {
 
-/// Holds the vertices of a contact, the point and a triangle, and the data that the detection froze.
+/// Holds the vertices of a contact (the point and a triangle's corners), and the data that do not change until the next
+/// detection.
 struct alignas(16) VolumeIncidence {
   int corner[3] = {0, 0, 0};  ///< vertices of the triangle
   VolumeContact contact;
@@ -29,8 +30,8 @@ struct SeenVolumeContact {
   int together;  ///< bit k: the vertex of role k has the same colour
 };
 
-/// Returns a contact as its vertex of role `own` sees it. `colour` is null if all volumes are driven: then all vertices
-/// but `own` are read at their new positions.
+/// Returns a contact for the update of its vertex with role `own`. `colour` is null if all volumes are driven: then all
+/// vertices but `own` are read at their new positions.
 OGC_HD inline SeenVolumeContact seen_from(const VolumeIncidence& incidence, int own, const int* colour) {
   SeenVolumeContact seen;
   seen.contact = incidence.contact;
