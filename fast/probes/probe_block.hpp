@@ -45,7 +45,8 @@ struct ProbeBlock {
     return closest_feature(x, corners, facet.descending) == TriangleFeature::interior;
   }
 
-  /// Decides by the same predicates as CollectEdgeEdge: the lower-numbered edge comes first.
+  /// Returns whether the point of edge e that is nearest to the face lies in the face's block. Calls the predicates of
+  /// CollectEdgeEdge in its order: the lower-numbered edge is the first.
   OGC_HD bool is_edge_in_edges(int e, const compare::Face& face) const {
     if (face.kind == compare::FaceKind::edge) {
       const bool is_first = face.index < e;

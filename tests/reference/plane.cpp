@@ -219,8 +219,8 @@ TEST_CASE("plane: what an answer takes from the vertices is told", "[unit]") {
     CHECK(reference::plane_freedom(two.in(), out).missing == due);
   }
   SECTION("room between two sides, however little") {
-    // Together both sides lose 2⁻¹⁷ of the gap. The moduli of coordinate differences sum to at most 23 gaps, so 3 · 23
-    // · 2⁻²⁴ of the gap are accepted.
+    // Both sides together lose 2⁻¹⁷ of the gap, and Σ|δ| (case size) is at most 23 gaps. So the accepted loss, 3 · 2⁻²⁴
+    // · Σ|δ|, is smaller.
     const double height = 0x1p-18 * gap;
     for (VertexPlane& plane : out.planes.items) plane.offset -= height;
     CHECK(reference::plane_freedom(two.in(), out).narrowing > compare::plane_narrowing_tolerance);

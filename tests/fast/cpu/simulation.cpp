@@ -87,7 +87,8 @@ TEST_CASE("a cloth far from everything falls as -g h^2 n(n+1)/2 until the guess 
     followed = g * h * n;
   }
   CHECK(capped);
-  // The speed [m/s] that bounds allow: γ_p times an edge of about 11 mm, in each of 16 rounds of a step of 1/100 s.
+  // Bounds allow this speed [m/s]: each of the 16 rounds of a step of 1/100 s moves a vertex by γ_p times an edge of
+  // about 11 mm.
   CHECK(followed > 3.0);
   CHECK(followed < 16 * 0.45 * 0.012 / h);
 }
@@ -289,8 +290,8 @@ TEST_CASE("energy only falls while a cloth drops, touches and slides", "[propert
   for (const auto& row : outcome.rows) {
     const double total = row.kinetic_energy + row.elastic_energy + row.contact_energy + row.gravity_energy;
     if (!std::isfinite(before)) start = row.kinetic_energy;
-    // An unconverged step may leave a little of the energy that its truncated start lost: a thousandth of the first
-    // kinetic energy.
+    // A step begins at a truncated guess. If its sweeps do not converge, the energy may rise by at most a thousandth of
+    // the first kinetic energy.
     CHECK(total <= before + 1e-3 * start);
     before = total;
   }

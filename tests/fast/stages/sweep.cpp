@@ -169,8 +169,8 @@ TEST_CASE("an iteration reads lower colours from the fresh buffer and all others
     const SweepView view = f.view();
     f.sweep->iterate(view);
     const std::vector<Vec> answer = f.fresh;
-    // Applies the rule naively: before each colour copies the positions written so far, then solves each vertex of the
-    // colour with this copy.
+    // Solves each vertex by the rule. Before each colour, copies the positions written so far; the vertices of the
+    // colour read this copy.
     std::vector<Vec> now = f.x;
     for (int c = 0; c < f.colouring.count; ++c) {
       std::vector<Vec> seen = now, out = now;

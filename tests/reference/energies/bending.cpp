@@ -254,8 +254,8 @@ TEST_CASE("a force that vanishes because angle and gradient both do keeps the pr
   const compare::ForceAnswer answer = reference::bending(c)[0];
   const double error = compare::bending_force_tolerance * compare::unit_roundoff * answer.force_scale;
   CHECK(norm({answer.force.x, answer.force.y, answer.force.z}) < 1e-20);
-  // A single-precision kernel has an error of 1.5e-22 N here: the product of the moment's error and the gradient's
-  // error. The gradient's error is 2⁻²⁴ over the triangles' height.
+  // A single-precision kernel has a force error of 1.5e-22 N here, the product of the errors of moment and gradient.
+  // The gradient's error is 2⁻²⁴ divided by the height of the triangles.
   CHECK(error > 1.5e-22);
   CHECK(error < 1e-3 * c.stiffness / 0.0668945 * 0x1p-24);
 }

@@ -90,8 +90,8 @@ double energy(const OrientationAnswer& answer, const Four& q) {
 
 double size(const Four& q) { return std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]); }
 
-/// Returns the angle θ of the rotation between the segment and a neighbour relative to rest, from the trace of matrices
-/// only.
+/// Returns the angle θ of the rotation from a segment to its neighbour, relative to the rotation at rest. Uses only the
+/// trace of a product of matrices.
 double angle_to(const OrientationCase& c, const Quaternion& q, bool is_ahead) {
   const RodNeighbour& f = is_ahead ? c.ahead : c.behind;
   const auto a = matrix_of(is_ahead ? q : f.now), b = matrix_of(is_ahead ? f.now : q), p = matrix_of(f.rest);
@@ -227,7 +227,7 @@ TEST_CASE("where neighbours ask for nothing the frame turns about nothing but wh
   const Four q = reference::orientation(c).front().orientation;
   CHECK(q[1] == Approx(std::sqrt(0.5)).epsilon(1e-12));
   CHECK(q[3] == Approx(std::sqrt(0.5)).epsilon(1e-12));
-  c.vertex[1] = {0, 0, 0};  // no energy depends on the frame
+  c.vertex[1] = {0, 0, 0};  // D = 0: no energy depends on the orientation
   CHECK(reference::orientation(c).front().orientation == Four{0, 0, 0, 1});
 }
 

@@ -138,7 +138,7 @@ class Mesh {
     }
   }
 
-  /// Adds Eq. 10 in barycentric coordinates of the foot.
+  /// Adds the conditions of Eq. 10 on the barycentric coordinates of x's foot.
   void within(const Point& x, Index t, Printed& conditions) const {
     const auto& [i, j, k] = topology_.triangles[static_cast<std::size_t>(t)];
     const Point a = at(i), u = at(j) - a, v = at(k) - a, p = x - a;

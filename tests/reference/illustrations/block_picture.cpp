@@ -1,5 +1,5 @@
-// Tests that pictures show the blocks that are decided exactly: points inside the patches are in the block, points
-// beyond them are not.
+// Compares pictures of blocks with the exact decision: points inside the patches are in the block, points beyond the
+// patches are not.
 #include "reference/illustrations/block_picture.hpp"
 
 #include <cmath>

@@ -24,7 +24,7 @@ Many exact_barrier(const Many& gap, const Many& support) {
   return -(gap - support) * (gap - support) * log(gap / support);
 }
 
-/// A mesh of separate pieces, with all arguments of the pairs' functions.
+/// A mesh of separate pieces, with the other data of its PairMesh.
 struct Pieces {
   State x;
   compare::Topology topology;

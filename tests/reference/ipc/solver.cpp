@@ -170,8 +170,8 @@ TEST_CASE("IPC: friction brakes what slides with its coefficient times gravity, 
 }
 
 // Gravity is inclined by 20 degrees to a level floor: g (sin θ − μ cos θ) along it. Implicit Euler adds half a step to
-// the distance, 0.5 % of it after 200 steps. Nothing brakes the sheet while it falls onto the barrier, on a tenth of
-// its distance.
+// the distance, 0.5 % of it after 200 steps. At first the sheet falls by a tenth of the barrier's distance until the
+// barrier acts; nothing brakes it there.
 TEST_CASE("IPC: a sheet slides down a slope by the law, however large the floor is", "[property]") {
   compare::Material material;
   material.density = 1;

@@ -60,8 +60,7 @@ TEST_CASE("a pivot of one unit in the last place of its diagonal entry is noise,
   const Vec force{1, -2, 3};
   for (const float size : {0x1p20f, 0x1p-20f}) {
     const float next = std::nextafter(size * size, INFINITY);
-    // the matrix (1, size)(1, size)ᵀ in x and y, or in x and z, with a last entry that is one unit in the last place
-    // larger
+    // the matrix (1, size)(1, size)ᵀ in x and y, or in x and z; its last entry is raised by one unit in the last place
     for (const Symmetric3& h : {Symmetric3{1, size, 0, next, 0, 1}, Symmetric3{1, 0, size, 1, 0, next}})
       CHECK(solve_symmetric(h, force, 0.5f).y == -1.0f);
   }

@@ -194,8 +194,8 @@ TEST_CASE(
     };
     const Mollifier<double> mollifier(x[1] - x[0], x[3] - x[2], side * side, side * side);
     acted += mollifier.acts();
-    // The mollifier changes by its own size if the sine of the edges' angle does, or, for parallel edges, if the sine
-    // reaches the mollifier's limit 0.03.
+    // The mollifier changes by its own size if the sine of the edges' angle changes by its own size. If the edges are
+    // parallel, the sine must reach the mollifier's limit 0.03.
     check_all<4>(x, 1e-3 * side, form.kind != FormKind::fixed_weights, energy);
   }
   CHECK(acted > 20);

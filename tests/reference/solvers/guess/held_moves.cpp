@@ -54,7 +54,7 @@ struct Sheets {
 TEST_CASE("what closes a contact is taken, and what opens it or goes along it is left", "[unit]") {
   CHECK(held_by(above({}), {1, 2, -3}) == Move{1, 2, 0});
   CHECK(held_by(above({}), {1, 2, 3}) == Move{1, 2, 3});
-  // If the vertex lies below its partner, its weight is negative.
+  // A vertex below its partner has a negative weight.
   CHECK(held_by(above({}, 0, -1), {1, 2, 3}) == Move{1, 2, 0});
   CHECK(held_by(above({}, 0, -0.5), {1, 2, -3}) == Move{1, 2, -3});
 }

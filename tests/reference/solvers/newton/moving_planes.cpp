@@ -47,7 +47,8 @@ State shifted(const State& x, double share, const State& step) {
   return to;
 }
 
-/// Returns two free sheets `gap` apart. The upper one is tilted, and no vertex lies above one of the lower sheet.
+/// Returns two free sheets `gap` apart. The upper sheet is sheared, so none of its vertices lies straight above a
+/// vertex of the lower sheet.
 compare::Scene facing(double gap) {
   compare::Scene scene;
   scene.name = "facing";

@@ -121,9 +121,9 @@ TEST_CASE("Newton: a stiff sheet that one close vertex holds back leaves as fast
 }
 
 TEST_CASE("Newton: sheets that are nearly closed and travel far together converge quadratically", "[property]") {
-  // The middle of two sheets 10 µm apart lands on a patch, and their rims fly on for 3 mm. Truncation alone scales the
-  // motion of each of two facing vertices to a thousandth, and with it their relative motion. Springs on cut vertices
-  // (method.md §7.6) keep the relative motion.
+  // Two sheets 10 µm apart fall. A small patch stops their middle, and their rims move on by 3 mm. Truncation alone
+  // scales the motion of each of two facing vertices to a thousandth, and so also their relative motion. Springs on cut
+  // vertices (method.md §7.6) preserve the relative motion.
   compare::Scene scene;
   scene.name = "closed";
   compare::Material material;
