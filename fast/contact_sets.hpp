@@ -65,7 +65,7 @@ class ContactFinder {
   ContactView find_resident(const compare::Vec3f* positions, const ContactQuery& query);
 
  private:
-  // the engine refers to it, so its address must stay when the finder is moved
+  // the engine refers to this topology, so the topology's address must stay when the finder is moved
   std::unique_ptr<const compare::Topology> topology_;
   std::unique_ptr<ContactEngine> engine_;
 };

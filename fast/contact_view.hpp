@@ -5,7 +5,7 @@
 
 namespace ogc::fast {
 
-/// A contact (v, a): corner[1] = corner[2] = -1 if a is a vertex, corner[2] = -1 if it is an edge.
+/// A contact (v, a): corner[1] = corner[2] = -1 if a is a vertex, corner[2] = -1 if a is an edge.
 struct alignas(16) VertexFacetRecord {
   int vertex;     ///< v
   int corner[3];  ///< vertices of a; a triangle's are in the order of the mesh

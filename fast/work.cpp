@@ -1,6 +1,6 @@
 // Counts the work of an iteration from the source. Operations: each +, −, ×, ÷ and root of fast/kernels on the path of
 // the default models counts one. Comparisons, negations and the additions that join team lanes do not count. Of several
-// branches, the longest one that generic input takes is counted. Bytes: each struct that is read counts once an
+// branches, the longest one that generic input takes is counted. Bytes: each struct that is read counts once per
 // iteration, even if a cache serves it, because no order of work can avoid this read. The searches' work depends on the
 // state, so their nodes, candidates and distances are counted during a detection.
 #include "fast/contestant.hpp"

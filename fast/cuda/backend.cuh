@@ -111,7 +111,7 @@ __global__ void __launch_bounds__(cuda_block_size, resident_blocks<G>())
   for (i -= m; i < count; i += stride) g(i);
 }
 
-/// Runs f for each row, with one warp a row (fast/cuda/least.cuh).
+/// Runs f for each row, with one warp per row (fast/cuda/least.cuh).
 template <class F>
 __global__ void __launch_bounds__(cuda_block_size) run_each_row(int n, const int* offsets, const float* values, F f) {
   follow_launch();

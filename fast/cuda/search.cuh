@@ -48,7 +48,7 @@ struct alignas(16) SearchItem {
   Offer offer;
 };
 
-/// Holds the open work of one warp. A list with 32 items gets no more, and no round adds more than 32.
+/// Holds the pending items of one warp. A list with 32 items gets no more, and no round adds more than 32.
 struct SearchMemory {
   /// A round that adds items to a list finds at most 31 there and adds at most 32. `nodes` has one node for each search
   /// and at most 32 of each level.

@@ -34,7 +34,7 @@ struct ProbeBlock {
     return exact_sign(End{x, e.a, e.b}) > 0 && exact_sign(End{x, e.b, e.a}) > 0;
   }
 
-  /// Decides by the same predicates as CollectVertexFacet.
+  /// Returns whether vertex v is in the block of the face. Calls the predicates of CollectVertexFacet.
   OGC_HD bool is_vertex_in_surface(int v, const compare::Face& face) const {
     const Vec x = positions[v];
     if (face.kind == compare::FaceKind::vertex) return in_vertex_block(x, face.index, surface, positions);

@@ -93,7 +93,7 @@ class Sweep {
     const int bodies = static_cast<int>(rest.materials.size());
     tables_ = {body_.data(), contact_materials_.data(), bodies, rest_squared_.data(), nullptr};
     for (std::size_t v = 0; v < rest.mobility.size(); ++v) {
-      // volumes' vertices are at their targets already
+      // vertices of driven volumes are at their targets already
       if (rest.mobility[v] == Mobility::prescribed && !is_of_volume(scene, rest.body[v]))
         prescribed_host_.push_back(static_cast<int>(v));
     }

@@ -81,7 +81,7 @@ TEST_CASE("a cloth far from everything falls as -g h^2 n(n+1)/2 until the guess 
     for (const compare::Vec3f& p : x) worst = std::max(worst, std::abs(p.y - (1.0f - fall)));
     // Each step rounds a position below 4 m to 2^-23 m once. Its velocity keeps this error, which grows to at most
     // n(n+1)/2 times as much. These errors strain the sheet. The internal forces that the sweep leaves displace
-    // vertices by as much again.
+    // vertices by up to the same amount.
     REQUIRE(worst <= n * (n + 1) * 0x1p-23);
     REQUIRE(row.momentum_lost_end <= 1e-4);
     followed = g * h * n;
@@ -303,7 +303,7 @@ TEST_CASE("handles that move faster than bounds allow fall behind, and catch up 
   add_sheet(scene, 10, 0.1, 0, false);
   compare::PrescribedMotion motion;
   for (compare::Index v = 0; v < 10; ++v) motion.vertices.push_back(v);
-  motion.velocity = {-8, 0, 0};  // 80 mm a step
+  motion.velocity = {-8, 0, 0};  // 80 mm per step
   motion.end = 0.02;
   scene.motions.push_back(motion);
   scene.settings.guess_rounds = 1;

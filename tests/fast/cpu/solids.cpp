@@ -74,7 +74,7 @@ TEST_CASE("a block far from everything falls as -g h^2 n(n+1)/2, and keeps its s
     const compare::Snapshot now = simulation->snapshot();
     for (std::size_t v = 0; v < now.positions.size(); ++v) {
       const compare::Vec3& rest = scene.mesh.positions[v];
-      // Coordinates of 1 m are rounded once a step and once a sweep.
+      // Coordinates of 1 m are rounded once per step and once per sweep.
       CHECK(double{now.positions[v].y} == Approx(rest.y - g * h * h * n * (n + 1) / 2).margin(n * 1e-6));
       CHECK(double{now.positions[v].x} == Approx(rest.x).margin(n * 1e-6));
     }

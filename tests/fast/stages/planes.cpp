@@ -274,7 +274,7 @@ TEST_CASE("planes: two hooked corners stay hooked, however far they are pulled",
   }
   // The folds are still hooked: vertex 4, the middle of the first fold, has a larger x than vertex 13, the middle of
   // the second fold. The strips' ends have been pulled from |x| = 0.1 m to more than 0.2 m, but lag behind their
-  // motion.
+  // prescribed motion.
   const auto end = simulation->snapshot().positions;
   CHECK(contacts > 0);
   CHECK(end[4].x > end[13].x);

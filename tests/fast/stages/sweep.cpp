@@ -364,7 +364,7 @@ TEST_CASE("that holds for edges on either side of the limit below which two coun
       };
       const EdgeEdgeRecord& record = view.edge_edge[i];
       const D3 a = direction(record.first_edge), b = direction(record.second_edge), normal = cross(a, b);
-      // 1 is the limit of closest_on_segments
+      // closest_on_segments treats edges with a share below 1 as parallel
       const double share = dot(normal, normal) / (1e-6 * dot(a, a) * dot(b, b));
       below += share > 0.5 && share < 1;
       above += share > 1 && share < 2;

@@ -38,7 +38,7 @@ std::vector<Face> faces_touched(const std::vector<VertexFacetContact>& contacts,
 
 TEST_CASE("counterexample to the remark on saddles in §3.3: within r of one, and in no block of its faces or edges",
           "[unit]") {
-  // The star extends 2.3 from its saddle and r = 6, so its closest points are vertices on its rim.
+  // The star extends 2.3 from its saddle and r = 6, so the points of the star closest to x are vertices on the rim.
   const Surface star = with_vertex(saddle(), {0, 0, 5});
   const auto topology = star.topology();
   const Complex mesh{topology, star.positions};

@@ -262,9 +262,9 @@ TEST_CASE("a force that vanishes because angle and gradient both do keeps the pr
 
 TEST_CASE("a hinge passes from π to -π only where its triangles touch, so that its angle needs no unwrapping",
           "[property]") {
-  // At ±π both triangles lie in one plane on the same side of their edge and overlap: a vertex of one lies on the
-  // other, or two of their edges cross. Bounds keep both distances above zero. Coordinates are integers, so nothing is
-  // rounded.
+  // At ±π both triangles lie in one plane on the same side of their edge and overlap: a corner of one triangle lies in
+  // the other, or two edges cross. Bounds keep the distances of these pairs above zero. Coordinates are integers, so
+  // nothing is rounded.
   std::mt19937 engine(3);
   std::uniform_int_distribution<int> along(-8, 16), up(1, 12);
   const compare::Topology topology = compare::build_topology(4, std::vector<compare::Triangle>{{0, 1, 2}, {1, 0, 3}});

@@ -131,8 +131,9 @@ TEST_CASE("the reference's force of a rod is minus the slope of its energy, its 
       const compare::ForceAnswer exact = reference::rod(c);
       const Point x = point(c.vertex[static_cast<std::size_t>(own)]),
                   by_differences = slope([&](const Point&at) { return energy(c, at); }, x, 1e-3);
-      // A parabola has no truncation error. Energies of 200 J have a rounding error of 2⁻⁵³ · 200 J, which the
-      // difference divides by the step. Quaternions have length 1 up to 2⁻²³, which changes forces of at most 300 N.
+      // The energy is quadratic in x, so differences have no truncation error. Energies of 200 J have a rounding error
+      // of 2⁻⁵³ · 200 J, which the difference divides by the step. Quaternions have length 1 up to 2⁻²³, which changes
+      // forces of at most 300 N.
       CHECK(std::abs(exact.force.x + by_differences[0]) <= 1e-4);
       CHECK(std::abs(exact.force.y + by_differences[1]) <= 1e-4);
       CHECK(std::abs(exact.force.z + by_differences[2]) <= 1e-4);

@@ -376,7 +376,7 @@ TEST_CASE("detect_edge_edge: boundaries of every kind are grey on both sides", "
     CHECK(truth.grey[0].contacts ==
           std::vector<EdgeEdgeContact>{{vertex_face(1), edge_face(1), 0, 1}, {edge_face(0), edge_face(1), 0, 1}});
   }
-  // Near the distance r, absence is accepted on both sides.
+  // If the distance is nearly r, below or above, a missing contact is accepted.
   for (const float z : {std::nextafter(1.0f, 0.0f), 1.0f, one_up(1.0f)}) {
     const auto truth = detect(two_edges({-2, 0, 0}, {2, 0, 0}, {0, -2, z}, {0, 2, z}), 1, 1);
     REQUIRE(truth.grey.size() == 1);

@@ -95,7 +95,7 @@ TEST_CASE(
   CHECK(reference::block_picture(mesh, reference::edge_face(2), 1).patches.size() == 5);
   const Surface flat = grid(3);
   const auto names = flat.topology();
-  // The block is a line segment on either side of the sheet.
+  // The block of a flat vertex is a line segment on either side of the sheet.
   CHECK(reference::block_picture({names, flat.positions}, reference::vertex_face(4), 1).patches.size() == 2);
   const Surface star = saddle();
   const auto around = star.topology();

@@ -317,8 +317,8 @@ TEST_CASE(
     const compare::StepMetrics row = full.step();
     REQUIRE(row.status == compare::step_clean);
     REQUIRE_FALSE(full.intersects());
-    // One broad phase belongs to the start of the step, and one to each bound of a step length. The guard makes all
-    // others. If the guard made one for each accepted state, it has rejected no state.
+    // The start of a step makes one broad phase, and so does each bound of a step length. The guard makes all others.
+    // If their number is that of the accepted states, the guard has rejected no state.
     const std::int64_t bounds = row.continuous_detections / 2, guards = row.broad_phases - 1 - bounds;
     CHECK(guards == accepted);
     REQUIRE(partial.step().status == compare::step_clean);

@@ -37,8 +37,8 @@ TEST_CASE("the 3x3 solve leaves a residual of a few roundings for positive defin
                       static_cast<double>(h.yz) * x.z - s.force.y;
     const double rz = static_cast<double>(h.xz) * x.x + static_cast<double>(h.yz) * x.y +
                       static_cast<double>(h.zz) * x.z - s.force.z;
-    // LDL^T without pivoting is backward stable for positive definite matrices: 12 roundings of three terms, in units
-    // of the trace.
+    // LDL^T without pivoting is backward stable for positive definite matrices: 12 roundings of three terms, relative
+    // to the trace.
     REQUIRE(std::abs(rx) + std::abs(ry) + std::abs(rz) <= 36 * 0x1p-24 * size);
   }
 }

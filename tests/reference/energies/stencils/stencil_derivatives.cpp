@@ -240,7 +240,7 @@ TEST_CASE(
     for (std::size_t k = static_cast<std::size_t>(vertex_count(sides)); k < 4; ++k) x[k] = {};
     const ClosestForm form = closest_form(sides, x);
     const double d = form_distance(form, x);
-    // Skips cases whose differences would cross r or r/2, where the activation's stages end, or come near the
+    // Skips cases whose differences would cross r or r/2, where the activation's formula changes, or come near the
     // activation's pole d = 0.
     if (d > 0.95 * r || d < 0.1 * r || std::abs(d - r / 2) < 1e-3 * r || form.kind == FormKind::fixed_weights) continue;
     ++forms[static_cast<std::size_t>(form.kind)];
