@@ -45,9 +45,9 @@ class ContactEngine {
 /// Finds contacts of one mesh at any number of positions. Only one thread at a time may use it.
 class ContactFinder {
  public:
-  /// `exclusions`: excluded pairs, given by groups of vertices and by partners. A vector with one number for each
-  /// vertex converts to groups. Throws compare::InputError if an index is out of range or repeated, or if exclusions do
-  /// not have one entry for each vertex. Throws compare::ResourceError if `contestant(backend)` does.
+  /// `exclusions`: pairs that are excluded by groups of vertices or by partners. A vector with one number per vertex
+  /// converts to groups. Throws compare::InputError if an index is out of range or repeated, or if groups or partners
+  /// do not have one entry per vertex. Throws compare::ResourceError if `contestant(backend)` throws it.
   ContactFinder(compare::Index vertex_count, std::span<const compare::Triangle> triangles,
                 std::span<const compare::Edge> loose_edges = {}, Backend backend = Backend::cpu,
                 const compare::ExclusionView& exclusions = {});
@@ -65,7 +65,7 @@ class ContactFinder {
   ContactView find_resident(const compare::Vec3f* positions, const ContactQuery& query);
 
  private:
-  // the engine refers to it, so its address must stay when the finder is moved
+  // the engine refers to this topology, so the topology's address must stay when the finder is moved
   std::unique_ptr<const compare::Topology> topology_;
   std::unique_ptr<ContactEngine> engine_;
 };

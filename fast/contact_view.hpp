@@ -5,7 +5,7 @@
 
 namespace ogc::fast {
 
-/// A contact (v, a): corner[1] = corner[2] = -1 if a is a vertex, corner[2] = -1 if it is an edge.
+/// A contact (v, a): corner[1] = corner[2] = -1 if a is a vertex, corner[2] = -1 if a is an edge.
 struct alignas(16) VertexFacetRecord {
   int vertex;     ///< v
   int corner[3];  ///< vertices of a; a triangle's are in the order of the mesh
@@ -39,7 +39,7 @@ struct ContactView {
   const int* incidence_offsets = nullptr;   ///< vertex_count + 1
   const Incidence* incidences = nullptr;    ///< row of vertex v: from incidence_offsets[v]
   const float* bound = nullptr;             ///< b_v, Eq. 21 [m]
-  /// Eq. 22 by vertex [m], at most r_q; with planes, over all pairs of the vertex
+  /// by vertex: smallest distance (Eq. 22) [m], at most r_q; if bounds are planes, over all pairs of the vertex
   const float* d_min_vertex = nullptr;
 };
 

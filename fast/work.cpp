@@ -1,6 +1,6 @@
 // Counts the work of an iteration from the source. Operations: each +, −, ×, ÷ and root of fast/kernels on the path of
 // the default models counts one. Comparisons, negations and the additions that join team lanes do not count. Of several
-// branches, the longest one that generic input takes is counted. Bytes: each struct that is read counts once an
+// branches, the longest one that generic input takes is counted. Bytes: each struct that is read counts once per
 // iteration, even if a cache serves it, because no order of work can avoid this read. The searches' work depends on the
 // state, so their nodes, candidates and distances are counted during a detection.
 #include "fast/contestant.hpp"
@@ -19,7 +19,7 @@ namespace ogc::fast {
 
 namespace {
 
-// Operations of recurring parts: difference or scaling of vectors 3, dot 5, cross 9, add_force 6, add_identity 3,
+// Operations of small functions: difference or scaling of vectors 3, dot 5, cross 9, add_force 6, add_identity 3,
 // add_outer 15.
 
 /// Operations of a segment's update without damping (fast/kernels/models/orientation.hpp): difference 3, two neighbours
@@ -49,13 +49,13 @@ constexpr double contact_vertices = 4;
 /// Operations of squared_gaps for four children: six differences, three products and two sums for each child.
 constexpr double node_flop = 44;
 /// Operations of a candidate edge: separation of two edges in single precision 96; distance 161 (differences 9, normal
-/// 9, squares 16, size 8, limits 3, dots 15, feet 6, from four ends 95); is_pair and meet 6.
+/// 9, squares 16, size 8, limits 3, dots 15, feet 6, distances from four ends 95); is_pair and meet 6.
 constexpr double edge_distance_flop = 96 + 161 + 6;
 /// Operations of a candidate facet: separation of point and triangle 158; distance 192 (differences 15, normal 9,
-/// squares 21, size 8, limits 3, sides 69, from three edges 67); is_pair and meet 6.
+/// squares 21, size 8, limits 3, sides 69, distances from three edges 67); is_pair and meet 6.
 constexpr double facet_distance_flop = 158 + 192 + 6;
-/// Bytes of a candidate edge: its ends, and its two positions if the distance is computed. The next line has the same
-/// numbers for a candidate facet.
+/// Bytes of a candidate edge: its ends, and its two positions if the distance is computed. The next line has the bytes
+/// of a candidate facet.
 constexpr double edge_bytes = sizeof(EdgeEnds), edge_position_bytes = 2 * sizeof(PaddedVec);
 constexpr double facet_bytes = sizeof(Facet::corner), facet_position_bytes = 3 * sizeof(PaddedVec);
 
@@ -165,7 +165,7 @@ SweepWork sweep_work(const compare::Scene& scene) {
   work.colours = colour_vertices(rest).count;
   const double vertices = work.vertices;
   work.flop = vertices * vertex_flop;
-  // x padded, y, X_prev, b_v read; x written padded and unpadded
+  // Reads x (padded), y, X_prev and b_v; writes x padded and unpadded.
   work.bytes = vertices *
                (sizeof(SweepVertex) + sizeof(ContactRow) + 2 * sizeof(PaddedVec) + 3 * sizeof(Vec) + sizeof(float));
   Kinds::for_each([&]<class Kind>(Kind) { add_elements<Kind>(rest, work); });

@@ -133,7 +133,8 @@ class CpuBackend {
     });
   }
 
-  /// Calls f(i, smallest number, number of rank F::rank) for each row i of `values`. One thread reads a row.
+  /// Calls f(i, a, b) for each row i of `values`: a is the smallest number, b the number with index F::rank in
+  /// ascending order (infinity if there is none). One thread reads a row.
   template <class F>
   void for_each_row(int n, const int* offsets, const float* values, F f) {
     for_each(n, [f, offsets, values](int i) {
@@ -234,7 +235,7 @@ class CpuBackend {
     scan.out[scan.count] = total;
   }
 
-  /// Calls run(begin, end) for ranges that together cover 0 … n.
+  /// Calls run(begin, end) for ranges that together cover 0 … n − 1.
   template <class Run>
   static void for_each_range(int n, const Run& run) {
     constexpr int grain = 64;

@@ -23,8 +23,8 @@ inline constexpr bool has_packs = requires(const SweepView& view, const SweepVer
   Part::is_packed(view, vertex);
 };
 
-/// Computes the sum of GatherAll with a SerialTeam and the activation `ogc`. `alone` has one element for each part. Its
-/// sums are null if packs compute the part, or if the vertex has no items of the part.
+/// Computes the sum of GatherAll with a SerialTeam and the activation `ogc`. `alone` has one element for each part. The
+/// sums of an element are null if packs compute the part, or if the vertex has no items of the part.
 using GatherInPacks = ForceAndBlock (*)(const SweepView& view, int slot, const SweepVertex& vertex, const Vec& own,
                                         const TeamLaneSums* alone);
 /// The kernels that run in packs: sums of vertices, and updates of rods' segments.

@@ -80,8 +80,8 @@ void add_contact_parts(const SweepView& view, int slot, TeamLanes<W, P>& lanes) 
   lanes.add_part(contacts + row.vertex_facet, row.count - row.vertex_facet, add);
 }
 
-/// Returns the sum over a vertex's stencils. Parts with sums in `alone` add these sums; other parts are computed in
-/// packs.
+/// Returns the sum over a vertex's stencils. Adds the sums of a part if `alone` has them; otherwise computes the part
+/// in packs.
 template <int W, class Activation, class... Parts>
 [[gnu::flatten]] ForceAndBlock gather(Gather<Activation, Parts...>, const SweepView& view, int slot,
                                       const SweepVertex& vertex, const Vec& own, const TeamLaneSums* alone) {

@@ -111,7 +111,7 @@ __global__ void __launch_bounds__(cuda_block_size, resident_blocks<G>())
   for (i -= m; i < count; i += stride) g(i);
 }
 
-/// Runs f for each row, with one warp a row (fast/cuda/least.cuh).
+/// Runs f for each row, with one warp per row (fast/cuda/least.cuh).
 template <class F>
 __global__ void __launch_bounds__(cuda_block_size) run_each_row(int n, const int* offsets, const float* values, F f) {
   follow_launch();
@@ -179,7 +179,7 @@ class CudaBackend {
   CudaBackend& operator=(CudaBackend&&) = delete;
   ~CudaBackend();
 
-  /// Launches one thread an item. If the device cannot hold so many threads, a thread takes several items.
+  /// Launches one thread per item. If the device cannot hold so many threads, a thread takes several items.
   template <class F>
   void for_each(int n, F f) {
     if (n <= 0) return;
@@ -203,7 +203,7 @@ class CudaBackend {
     follow(typeid(G), run_both<F, G>, blocks(std::int64_t{m} + capacity), block_threads_, m, f, n, capacity, g);
   }
 
-  /// Launches one warp a row. If the device cannot hold so many warps, a warp takes several rows.
+  /// Launches one warp per row. If the device cannot hold so many warps, a warp takes several rows.
   template <class F>
   void for_each_row(int n, const int* offsets, const float* values, F f) {
     if (n <= 0) return;
@@ -340,7 +340,7 @@ class CudaBackend {
     if (tree.count > largest_searched_count)
       throw compare::ResourceError("a mesh of more than 134 million edges or triangles needs --backend cpu");
   }
-  /// Returns the number of searches of a warp. If there are too few searches to fill the device with 32 warps a
+  /// Returns the number of searches of a warp. If there are too few searches to fill the device with 32 warps per
   /// multiprocessor, a warp gets one search. With more searches, a warp gets several and has fewer rounds in which
   /// lanes are idle.
   int search_group(int searches) const {

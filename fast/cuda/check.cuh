@@ -1,5 +1,5 @@
-// Defines the macro for CUDA calls. A failed call throws an exception with the call, its place and the runtime's error.
-// An error of an earlier kernel appears at the next call that waits; the text says so.
+// Defines the macro for CUDA calls. A failed call throws an exception with the call, its source line and the runtime's
+// error. An error of an earlier kernel appears at the next call that waits; the message says so.
 #pragma once
 
 #include <string>

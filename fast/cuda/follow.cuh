@@ -15,8 +15,8 @@ __device__ inline void follow_launch() {
   cudaTriggerProgrammaticLaunchCompletion();
 }
 
-/// Launches a kernel. `early`: the device may begin it before the previous launch has ended, because the kernel itself
-/// waits for that.
+/// Launches a kernel. `early`: the device may begin the kernel before the previous launch has ended, because the kernel
+/// itself waits for this end.
 template <class... Parameters, class... Arguments>
 void launch_kernel(cudaStream_t stream, bool early, void (*kernel)(Parameters...), int blocks, int threads,
                    const Arguments&... arguments) {

@@ -31,8 +31,8 @@ __device__ inline float sorted(float own, int lane) {
   return merged(own, lane);
 }
 
-/// Returns in lane k ≤ rank < 32 the k-th smallest of values[0] … values[count − 1], from 0; infinite if there is none.
-/// All 32 threads of a warp call it together.
+/// Returns in lane k ≤ rank < 32 the k-th smallest of `count` numbers, counted from 0, or infinity if k ≥ count. All 32
+/// threads of a warp call it together.
 __device__ inline float least_of_row(const float* values, int count, int rank) {
   const int lane = static_cast<int>(threadIdx.x) % 32;
   const float infinite = __int_as_float(0x7f800000);
@@ -40,8 +40,8 @@ __device__ inline float least_of_row(const float* values, int count, int rank) {
   for (int begin = 0; begin < count; begin += 32) {
     const float own = begin + lane < count ? values[begin + lane] : infinite;
     if (!__any_sync(0xffffffffu, own < __shfl_sync(0xffffffffu, least, rank))) continue;
-    // The lane-by-lane minima of an ascending and a descending row are the 32 smallest numbers of both. They form a
-    // bitonic row.
+    // In each lane, takes the smaller number of an ascending and a descending row. These are the 32 smallest numbers of
+    // both rows, and they form a bitonic row.
     const float descending = __shfl_xor_sync(0xffffffffu, sorted(own, lane), 31);
     least = merged(fminf(least, descending), lane);
   }

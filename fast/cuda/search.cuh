@@ -1,7 +1,7 @@
-// Searches trees with whole warps. One thread a search would leave a device idle: a mesh of 5,000 vertices has too few
-// searches to hide the chain node → child → primitive → arithmetic, and the longest of 32 searches delays the others.
-// Here a warp takes a few searches and keeps their open work in three lists in shared memory. In each round every lane
-// takes one item, of any of these searches:
+// Searches trees with whole warps. One thread per search would leave a device idle: a mesh of 5,000 vertices has too
+// few searches to hide the latency of the chain node → child → primitive → arithmetic, and the longest of 32 searches
+// delays the others. So a warp takes a few searches and keeps their pending items in three lists in shared memory. In
+// each round every lane takes one item, of any of these searches:
 //
 //   nodes       nodes to open: four lanes open one node, one child each
 //   candidates  primitives offered by leaves: a lane calls is_pair
@@ -9,7 +9,7 @@
 //
 // The warp takes the last list that can fill it, so lanes idle only when little is left. `nodes` is a stack. A round
 // takes up to 8 nodes from the top, where the lowest level is, and pushes at most 32 children. The stack then has no
-// other nodes of the children's level, so room for 32 nodes a level suffices.
+// other nodes of the children's level, so room for 32 nodes per level suffices.
 #pragma once
 
 #include <algorithm>
@@ -48,13 +48,13 @@ struct alignas(16) SearchItem {
   Offer offer;
 };
 
-/// Holds the open work of one warp. A list with 32 items gets no more, and no round adds more than 32.
+/// Holds the pending items of one warp. A list with 32 items gets no more, and no round adds more than 32.
 struct SearchMemory {
   /// A round that adds items to a list finds at most 31 there and adds at most 32. `nodes` has one node for each search
   /// and at most 32 of each level.
   static constexpr int most_items = 31 + 32, most_nodes = largest_group + 32 * (max_levels - 1);
   Search searches[largest_group];  ///< by number in the group
-  /// two stacks; is_pair moves items from the first to the second
+  /// two stacks; is_pair moves items from `candidates` to `pairs`
   SearchItem candidates[most_items], pairs[most_items];
   SearchNode nodes[most_nodes];
 };
@@ -156,8 +156,8 @@ class WarpSearch {
   unsigned node_count_ = 0, candidate_count_ = 0, pair_count_ = 0;
 };
 
-/// Divides the searches of a kind among warps, up to `group` each. A warp takes every `warps`-th search, because long
-/// searches are neighbours: a warp with all of them would delay the launch.
+/// Divides the searches of one kind among warps, up to `group` per warp. A warp takes every `warps`-th search, because
+/// long searches are neighbours: a warp with all of them would delay the launch.
 struct SearchGroups {
   int group, warps;  ///< largest number of searches of a warp; number of warps that have any
 
@@ -166,7 +166,8 @@ struct SearchGroups {
   int blocks(int block_warps) const { return (warps + block_warps - 1) / block_warps; }
 };
 
-/// Runs the searches of warp number `warp` of a kind. Runs none if `warp` ≥ groups.warps, or if the query is off.
+/// Runs the searches of one kind that belong to warp number `warp`. Runs none if `warp` ≥ groups.warps, or if the query
+/// is off.
 template <class Query>
 __device__ void run_group(const Searches<Query>& searches, const SearchGroups& groups, int warp, SearchMemory& memory) {
   if (warp >= groups.warps || searches.query.is_off()) return;

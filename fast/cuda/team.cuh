@@ -1,16 +1,16 @@
 // Defines teams of W team lanes, which are neighbouring threads of a warp. Their sums have the bits of SerialTeam<W>.
-// There are two kinds.
+// There are two types.
 //
 // SpreadTeam: a block has as many warps as a sum has parts. Warp p computes part p of 32/W teams, so no warp waits for
-// other terms than its own. The time of a small launch is its chain of dependent instructions; here this is the chain
-// of the longest part instead of all parts. Team lanes store their parts in shared memory. Warp 0 adds the parts in
-// their order and then the team lanes.
+// the terms of other parts. A small launch takes as long as its chain of dependent instructions; here this is the chain
+// of the longest part, not of all parts. Team lanes store their parts in shared memory. Warp 0 adds the parts in their
+// order and then the team lanes.
 //
-// SerialLaneTeam: the same team lanes compute one part after the other. A launch that fills the device pays for
-// instructions, and here no warp waits for another kind of term. The terms of a pooled part of all teams of a block are
-// computed by all its threads together, a block's worth at a time. Then each team lane adds its own terms from shared
-// memory, in their order. So a team with fifty contacts does not delay the others, and the chain of dependent reads has
-// the block's average length.
+// SerialLaneTeam: the same team lanes compute one part after the other. A launch that fills the device takes as long as
+// all its instructions, and here no warp waits for terms of other parts. All threads of a block together compute the
+// terms of a pooled part, of all teams, as many at a time as there are threads. Then each team lane adds its own terms
+// from shared memory, in their order. So a team with fifty contacts does not delay the others, and the chain of
+// dependent reads has the block's average length.
 //
 // The sum of the team lanes is a butterfly: at distance s every team lane adds the number of its partner l xor s. After
 // that round all team lanes with the same l mod s have the same bits: both partners add the same two numbers, in
@@ -167,9 +167,9 @@ class NeighbourLanes {
   __device__ static unsigned everyone() { return (0xffffffffu >> (32 - W)) << begin(); }
 };
 
-/// A team with one warp for each part (head of this file). In both kinds of teams `present` is false for a team without
-/// an item, which only fills up a block. Every thread of the block must call `sum` once, or `leave` instead. Both wait
-/// for the previous launch, and the next launch relies on this.
+/// A team with one warp for each part (head of this file). In both types of teams, `present` is false for a team
+/// without an item, which only fills up a block. Every thread of the block must call `sum` or `leave` once. Both
+/// functions wait for the previous launch, and the next launch relies on this wait.
 template <int W>
 class SpreadTeam : public NeighbourLanes<W> {
   using NeighbourLanes<W>::lane;

@@ -34,7 +34,7 @@ struct ProbeBlock {
     return exact_sign(End{x, e.a, e.b}) > 0 && exact_sign(End{x, e.b, e.a}) > 0;
   }
 
-  /// Decides by the same predicates as CollectVertexFacet.
+  /// Returns whether vertex v is in the block of the face. Calls the predicates of CollectVertexFacet.
   OGC_HD bool is_vertex_in_surface(int v, const compare::Face& face) const {
     const Vec x = positions[v];
     if (face.kind == compare::FaceKind::vertex) return in_vertex_block(x, face.index, surface, positions);
@@ -45,7 +45,8 @@ struct ProbeBlock {
     return closest_feature(x, corners, facet.descending) == TriangleFeature::interior;
   }
 
-  /// Decides by the same predicates as CollectEdgeEdge: the lower-numbered edge comes first.
+  /// Returns whether the point of edge e that is nearest to the face lies in the face's block. Calls the predicates of
+  /// CollectEdgeEdge in its order: the lower-numbered edge is the first.
   OGC_HD bool is_edge_in_edges(int e, const compare::Face& face) const {
     if (face.kind == compare::FaceKind::edge) {
       const bool is_first = face.index < e;

@@ -102,7 +102,7 @@ class ProbeRods {
     backend.synchronize();
   }
 
-  /// Puts the quaternions and c into the sweep's view.
+  /// Puts the quaternions and the vectors c of rod_rest_direction into the sweep's view.
   void complete(RodStream& rods) {
     rods.orientation = orientation_.data();
     rods.orientation_start = start_.data();

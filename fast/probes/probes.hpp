@@ -1,5 +1,5 @@
-// Lets the judge test each stage. A function from the stage's In to its Out runs the kernels and launches of the
-// simulation.
+// Lets the judge test each stage. For each stage, a function takes its In, runs the kernels and launches of the
+// simulation, and returns its Out.
 #pragma once
 
 #include <cstdint>

@@ -82,7 +82,8 @@ class StepTrace : public StepObserver {
     }
     const Vec* previous = state_.previous.data();
     event.position = download_positions(backend_, previous, n);
-    // Before the first iteration this is a round of the guess loop, which does not search for contacts with volumes.
+    // A detection before the first iteration belongs to the guess loop, which does not search for contacts with
+    // volumes.
     if (control.iterations == 0) step_.find_in_volumes(previous);
     set_contacts(event);
     return event;

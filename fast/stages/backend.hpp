@@ -49,7 +49,7 @@
 //         on the device
 //   replay_milliseconds()
 //         returns the time of each repetition of all replays since the last call [ms]; after synchronize
-//   synchronize()                        host only, once a frame
+//   synchronize()                        host only, once per frame
 //
 // Calls are enqueued in order and may return before the work is done. Only synchronize and the Buffer copies wait.
 // Functors get raw pointers and values, never a Buffer. Atomics are those of fast/kernels/arithmetic/atomic.hpp; their

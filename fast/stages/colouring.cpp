@@ -226,9 +226,9 @@ std::vector<std::vector<int>> components(const compare::CompressedRows& graph, c
   return found;
 }
 
-// Balances each component by itself, so that equal components keep equal colours. Then rotates the colours of the k-th
-// component by k: otherwise facing vertices of identical cloths would move at once, each by the whole overlap of their
-// contact (method.md §7.3).
+// Balances the colour classes of each component alone, so that equal components keep equal colours. Then adds k to the
+// colours of the k-th component, modulo `count`. Otherwise facing vertices of identical cloths would move at once, each
+// by the whole overlap of their contact (method.md §7.3).
 void balance_and_turn(const compare::CompressedRows& graph, const std::vector<int>& vertices, int count,
                       std::vector<int>& colour) {
   int turn = 0;

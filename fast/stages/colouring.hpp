@@ -32,7 +32,8 @@ int colouring_passes(std::size_t neighbours);
 /// Colours the vertices with Mobility::free.
 Colouring colour_vertices(const RestState& rest);
 
-/// Colours the free segments. An open chain gets two colours, an odd ring three; without segments there are none.
+/// Colours the free segments. The number of colours is two for open chains, three for an odd ring, and zero without
+/// segments.
 Colouring colour_segments(const RodsAtRest& rods);
 
 }  // namespace ogc::fast

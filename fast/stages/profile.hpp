@@ -44,8 +44,8 @@ class StageClock {
  private:
   static constexpr std::size_t none = 6;  ///< index of the time outside all stages
 
-  /// Adds the time since the last change to the current stage, then measures for `next`. Returns the stage that was
-  /// measured before.
+  /// Adds the time since the last call to the current stage, and makes `next` the current stage. Returns the previous
+  /// stage.
   std::size_t change_to(std::size_t next) {
     backend_.synchronize();
     const auto now = std::chrono::steady_clock::now();

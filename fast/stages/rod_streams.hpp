@@ -1,5 +1,5 @@
-// Holds segments in the order of the sweep, made once on the host. Launches their updates, which precede the vertices'
-// updates of an iteration. Without rods, there is no segment and no launch.
+// Holds segments in the order of the sweep, which the host makes once. Launches the updates of segments, which precede
+// the updates of vertices in an iteration. Without rods, there is no segment and no launch.
 #pragma once
 
 #include <vector>

@@ -19,8 +19,8 @@ namespace ogc::fast {
 /// segment's direction at rest to the direction at the start.
 std::vector<Quat> start_orientations(const compare::Scene& scene, const RodsAtRest& rods);
 
-/// Returns the rotation of each motion in `steps` steps from step `first` on, counted from 0: [step][motion]. A
-/// quaternion with w = 2 marks a motion that gives no rotation.
+/// Returns rotations indexed [step][motion] for `steps` steps from step number `first`, counted from 0. A quaternion
+/// with w = 2 marks a motion that defines no rotation.
 std::vector<Quat> motion_turns(const compare::Scene& scene, std::int64_t first, int steps);
 
 /// Holds the resident rods of one scene.

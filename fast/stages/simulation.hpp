@@ -334,8 +334,8 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     return result;
   }
 
-  /// Returns the orientations of a snapshot; if it has none, those with which the scene starts. Throws
-  /// std::invalid_argument if there is not one for each segment.
+  /// Returns the orientations of a snapshot. If the snapshot has none, returns the scene's orientations at the start.
+  /// Throws std::invalid_argument if the number of orientations is not that of the segments.
   std::vector<Quat> orientations_of(const compare::Snapshot& snapshot) const {
     if (snapshot.orientations.empty()) return start_orientations(scene_, rest_.rods);
     if (snapshot.orientations.size() != rest_.rods.segments.size())

@@ -15,7 +15,7 @@
 // they contain only sorts, detections and the iterations after a detection. All other launches always run; the arrays
 // that they read are complete even after `active` has been cleared.
 //
-// An observer, and a clock that is on, are called between these calls; the sequence stays the same.
+// The observer and the clock (if set) are called in between, which does not change the sequence.
 #pragma once
 
 #include <algorithm>
@@ -258,9 +258,9 @@ class Step {
   }
 
   /// Enqueues iterations `first` to `first` + `count` − 1, and a detection after each iteration that requires one. A
-  /// decision (`when`) costs a device as much as ten launches that do nothing. So all iterations are enqueued at once,
-  /// and those after an iteration that requires a detection do nothing. As long as a detection is due, it is made and
-  /// the iterations are enqueued again.
+  /// conditional node (`when`, `repeat`) costs a device as much as ten launches that do nothing. So all iterations are
+  /// enqueued at once; those after an iteration that requires a detection do nothing. Then `repeat` detects and runs
+  /// the remaining iterations, as long as a detection is due.
   void iterate(int first, int count) {
     const int last = first + count - 1, *due = flag(&StepControl::detect);
     const auto end = [&](int i) { return EndIteration{control(), settings_.control, count > 1 ? i : -1}; };
@@ -308,8 +308,8 @@ class Step {
     return view;
   }
 
-  /// Enqueues an iteration. If `turn` (on the backend) is not null, the iteration does nothing unless *turn is its
-  /// number. `start`: see Sweep::iterate.
+  /// Enqueues an iteration. If `turn` (on the backend) is not null, the iteration does nothing unless *turn equals
+  /// `iteration`. `start`: see Sweep::iterate.
   void sweep(int iteration, const int* turn, Start start) {
     SweepView view = this->view(iteration);
     view.turn = turn;

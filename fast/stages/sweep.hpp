@@ -59,8 +59,8 @@ inline unsigned asked_of_sum(const RestState& rest, const compare::Scene& scene)
 /// Updates `count` vertices of a colour, each by a team of `lanes` team lanes.
 template <class Backend, class Sum>
 void update_vertices(Backend& backend, int lanes, int count, const UpdateVertex<Sum>& kernel, Start start);
-/// Measures the force on the vertex of each slot, each by a team. The number of lanes is fixed, because no position
-/// depends on these sums.
+/// Measures the force on the vertex of each slot; one team sums the force of one slot. The number of lanes is fixed,
+/// because no position depends on these sums.
 template <class Backend>
 void measure_vertices(Backend& backend, int slots, const MeasureVertex<GatherAll>& kernel);
 
@@ -93,7 +93,7 @@ class Sweep {
     const int bodies = static_cast<int>(rest.materials.size());
     tables_ = {body_.data(), contact_materials_.data(), bodies, rest_squared_.data(), nullptr};
     for (std::size_t v = 0; v < rest.mobility.size(); ++v) {
-      // volumes' vertices are at their targets already
+      // vertices of driven volumes are at their targets already
       if (rest.mobility[v] == Mobility::prescribed && !is_of_volume(scene, rest.body[v]))
         prescribed_host_.push_back(static_cast<int>(v));
     }
@@ -120,11 +120,10 @@ class Sweep {
   int slots() const { return streams_.slots(); }
   /// Returns the contact stream of the last detection, on the backend. Contacts have the indices of their incidences.
   const ContactIncidence* contacts() const { return contacts_.data(); }
-  /// Returns the functor that makes the rows of the contact stream after a detection. If *overflow is not 0, the old
-  /// stream stays, because it is complete.
+  /// Returns the free vertices by slot, on the backend.
   const SweepVertex* vertices() const { return streams_.vertices(); }
-  /// Returns the functor that makes the rows of the contact stream after a detection. If *overflow is not 0, the old
-  /// stream, which is complete, stays.
+  /// Returns the functor that makes the rows of the contact stream after a detection. If *overflow is not 0, the
+  /// functor keeps the old stream, which is complete.
   template <class Item>
   CopyContactRows<Item> contact_rows(const int* incidence_offsets, const Item* incidences, const int* overflow) {
     return {incidence_offsets, incidences, overflow, vertices(), contact_rows_.data()};
@@ -165,8 +164,8 @@ class Sweep {
   /// previous launch writes, except StepControl::turn.
   void iterate(const SweepView& view, Start start = Start::after_previous) {
     const int prescribed = static_cast<int>(prescribed_host_.size());
-    // The first colour may begin before UpdatePrescribed ends: only its sums read the positions that UpdatePrescribed
-    // writes, and a sum first waits for the previous launch.
+    // The first colour may begin before UpdatePrescribed ends. Only the colour's sums read the positions that
+    // UpdatePrescribed writes, and a sum first waits for the previous launch.
     backend_.for_each(prescribed, UpdatePrescribed{view, prescribed_.data()});
     rods_.enqueue(backend_, view, prescribed == 0);
     const bool is_before = prescribed > 0 || rods_.colours() > 0;

@@ -1,5 +1,5 @@
 // Defines the launches whose kernels sum over a vertex's stencils. They take longest to compile, so each backend
-// instantiates them in a separate object for each sum.
+// instantiates each sum in its own object file.
 #pragma once
 
 #include "fast/kernels/sweep/sums.hpp"

@@ -214,8 +214,8 @@ class Volumes {
     if (!has_free()) return {capacity_};
     return {capacity_, corner_capacity_};
   }
-  /// Host only: makes rows of these lengths, empty until the next detection. Throws std::invalid_argument if they
-  /// cannot be lengths of these rows.
+  /// Host only: sets the capacities of the rows, which are empty until the next detection. Throws std::invalid_argument
+  /// if the number of capacities differs from that of capacities(), or if a capacity is out of range.
   void reserve(std::span<const std::int64_t> capacities) {
     if (capacities.size() != this->capacities().size()) throw std::invalid_argument("capacities of other lists");
     for (const std::int64_t capacity : capacities)

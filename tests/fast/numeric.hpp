@@ -1,4 +1,4 @@
-// Holds double-precision vectors and differences of energies for the tests of kernels.
+// Defines double-precision vectors and differences of energies for the tests of kernels.
 #pragma once
 
 #include <cmath>

@@ -34,8 +34,8 @@ fast::SearchWork work_of(const compare::Scene& scene) {
 
 TEST_CASE("searches of two triangles within each other's radius open, are offered and measure what one counts by hand",
           "[unit]") {
-  // Trees have four primitives a node. Edges: six edges are in two leaves under a root, and a search tests only the
-  // edges behind its own. Six searches open the root and the second leaf, three searches also the first leaf: 6 + 6 + 3
+  // Trees have four children per node. Edges: six edges are in two leaves under a root, and a search tests only edges
+  // with a larger index. Six searches open the root and the second leaf, three searches also the first leaf: 6 + 6 + 3
   // nodes, 15 candidates. Vertices: six searches open the root and the leaf of both facets: 12 nodes, 12 candidates.
   // Pairs that share a vertex have no distance; 3 · 3 pairs of edges and 3 + 3 pairs of vertex and facet have one.
   const fast::SearchWork work = work_of(two_triangles(0.1, 10));
@@ -82,7 +82,7 @@ TEST_CASE("the work of a sweep counts a segment once, and for each of its free e
   CHECK(one.colours == 4);  // two for segments, two for vertices
   CHECK(two.flop == 2 * one.flop);
   CHECK(two.bytes == 2 * one.bytes);
-  // One more vertex means one more segment with two ends: about the work of the paper's yarn for each vertex.
+  // Each further vertex adds a segment with two ends. Flop and bytes per vertex are about those of the paper's yarn.
   CHECK((longer.flop - one.flop) / 100 == Approx(54 + 2 * 51 + 336));
   CHECK((longer.bytes - one.bytes) / 100 == Approx(280).epsilon(0.1));
   CHECK(one.flop - held.flop == Approx(2 * 54 + 3 * 51 + 336));

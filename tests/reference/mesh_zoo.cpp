@@ -1,5 +1,5 @@
-// The radii are so large that blocks of neighbours overlap. With smaller radii most points would lie in one block or
-// none.
+// The contact radii of the meshes are so large that blocks of neighbouring faces overlap. With smaller radii most test
+// points would lie in one block or in none.
 #include "tests/reference/mesh_zoo.hpp"
 
 #include <algorithm>

@@ -219,8 +219,8 @@ TEST_CASE("plane: what an answer takes from the vertices is told", "[unit]") {
     CHECK(reference::plane_freedom(two.in(), out).missing == due);
   }
   SECTION("room between two sides, however little") {
-    // Together both sides lose 2⁻¹⁷ of the gap. The moduli of coordinate differences sum to at most 23 gaps, so 3 · 23
-    // · 2⁻²⁴ of the gap are accepted.
+    // Both sides together lose 2⁻¹⁷ of the gap, and Σ|δ| (case size) is at most 23 gaps. So the accepted loss, 3 · 2⁻²⁴
+    // · Σ|δ|, is smaller.
     const double height = 0x1p-18 * gap;
     for (VertexPlane& plane : out.planes.items) plane.offset -= height;
     CHECK(reference::plane_freedom(two.in(), out).narrowing > compare::plane_narrowing_tolerance);
@@ -243,8 +243,8 @@ TEST_CASE("plane: a fixed side leaves the other all the room", "[unit]") {
   compare::PlaneOut out = reference::pair_planes(two.in());
   CHECK(reference::plane_guarantee(two.in(), out).kept());
   CHECK(reference::plane_freedom(two.in(), out).narrowing <= compare::plane_narrowing_tolerance);
-  // Planes that leave γ_p of the gap instead of 2γ_p are too narrow by γ_p = 0.45 of the gap. The unit of narrowing is
-  // 2⁻²⁴ times the moduli of coordinate differences, which sum to at most 23 gaps.
+  // Planes that leave γ_p of the gap instead of 2γ_p are too narrow by γ_p = 0.4375 of the gap. The error scale of the
+  // narrowing is 2⁻²⁴ Σ|δ| (case size), and Σ|δ| is at most 23 gaps.
   for (VertexPlane& plane : out.planes.items) plane.offset -= double{relaxation} * double{gap};
   CHECK(reference::plane_freedom(two.in(), out).narrowing > 1e5);
 }

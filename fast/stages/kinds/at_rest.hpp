@@ -5,7 +5,7 @@
 //   add(build)                   adds the elements of a scene, and their masses
 //   add(in, out)                 adds the elements with the rest values of a contestant's answer to the judge
 //   give                         writes the elements in the judge's format
-//   reads_beside, beside         whether a model of the scene reads data beside an incidence; these data (Beside)
+//   reads_beside, beside         whether a model of the scene reads extra data of an incidence; these data (Beside)
 //   damps                        whether an element is damped
 //   by_body                      constants by body (ByBody)
 #pragma once

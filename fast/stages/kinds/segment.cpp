@@ -42,8 +42,8 @@ RestFrame turn_between(const RestVector& a, const RestVector& b) {
 /// The segments that meet at a vertex: number of the segment, number of its end at this vertex.
 using Ends = std::vector<std::pair<int, int>>;
 
-/// Finds the neighbours of segments. Computes their rest frames by walks along the rods, which
-/// compare/stages/rest_state.hpp defines.
+/// Finds the neighbours of segments. Computes rest frames by the walks along rods that compare/stages/rest_state.hpp
+/// defines.
 class Walks {
  public:
   Walks(const std::vector<SegmentRest>& segments, std::vector<RestVector> directions, std::size_t vertices)

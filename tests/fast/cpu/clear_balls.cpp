@@ -86,7 +86,8 @@ struct Counts {
   int far = 0, balls = 0, inside = 0;
 };
 
-/// Tests points in the box of `shape`. Checks that all points in their clear balls are far from the part.
+/// Tests points in the box of `shape`. If a point has a clear ball, checks that all points in the ball are far from the
+/// part.
 Counts check(std::mt19937& random, const Shape& shape, float radius) {
   const Asked part(shape, radius);
   std::uniform_real_distribution<float> anywhere(-1.2f, 1.2f), share(0.5f, 1);

@@ -35,8 +35,8 @@ P pack(const Floats<P>& a) {
   return P::of_each([&a](int k) { return a[static_cast<std::size_t>(k)]; });
 }
 
-/// Returns whether the bits are the same, or both are NaN. Of two NaN operands a processor returns the first, and the
-/// compiler may choose the order.
+/// Returns whether the bits are the same, or both are NaN. If both operands of an operation are NaN, the result depends
+/// on their order, which the compiler may choose.
 bool alike(float a, float b) { return (std::isnan(a) && std::isnan(b)) || std::memcmp(&a, &b, sizeof a) == 0; }
 
 /// Counts the cases in which f of packs differs from f of single numbers. Numbers are of every size, zeros of both

@@ -111,7 +111,7 @@ double twist_between(const compare::Quaternion& a, const compare::Quaternion& b)
 
 TEST_CASE("a free rod keeps its angular momentum but for what backward Euler loses; without turned frames it does not",
           "[property]") {
-  // Backward Euler loses the share (ω h)² a step: 500 · (10 · 4·10⁻⁴)² = 0.8 %.
+  // Backward Euler loses the share (ω h)² per step: 500 · (10 · 4·10⁻⁴)² = 0.8 %.
   CHECK(kept_spin(compare::RodStart::turned) == Approx(0.992).margin(0.002));
   CHECK(kept_spin(compare::RodStart::kept) < 0.6);
 }

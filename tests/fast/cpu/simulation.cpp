@@ -81,13 +81,14 @@ TEST_CASE("a cloth far from everything falls as -g h^2 n(n+1)/2 until the guess 
     for (const compare::Vec3f& p : x) worst = std::max(worst, std::abs(p.y - (1.0f - fall)));
     // Each step rounds a position below 4 m to 2^-23 m once. Its velocity keeps this error, which grows to at most
     // n(n+1)/2 times as much. These errors strain the sheet. The internal forces that the sweep leaves displace
-    // vertices by as much again.
+    // vertices by up to the same amount.
     REQUIRE(worst <= n * (n + 1) * 0x1p-23);
     REQUIRE(row.momentum_lost_end <= 1e-4);
     followed = g * h * n;
   }
   CHECK(capped);
-  // The speed [m/s] that bounds allow: γ_p times an edge of about 11 mm, in each of 16 rounds of a step of 1/100 s.
+  // Bounds allow this speed [m/s]: each of the 16 rounds of a step of 1/100 s moves a vertex by γ_p times an edge of
+  // about 11 mm.
   CHECK(followed > 3.0);
   CHECK(followed < 16 * 0.45 * 0.012 / h);
 }
@@ -289,8 +290,8 @@ TEST_CASE("energy only falls while a cloth drops, touches and slides", "[propert
   for (const auto& row : outcome.rows) {
     const double total = row.kinetic_energy + row.elastic_energy + row.contact_energy + row.gravity_energy;
     if (!std::isfinite(before)) start = row.kinetic_energy;
-    // An unconverged step may leave a little of the energy that its truncated start lost: a thousandth of the first
-    // kinetic energy.
+    // A step begins at a truncated guess. If its sweeps do not converge, the energy may rise by at most a thousandth of
+    // the first kinetic energy.
     CHECK(total <= before + 1e-3 * start);
     before = total;
   }
@@ -302,7 +303,7 @@ TEST_CASE("handles that move faster than bounds allow fall behind, and catch up 
   add_sheet(scene, 10, 0.1, 0, false);
   compare::PrescribedMotion motion;
   for (compare::Index v = 0; v < 10; ++v) motion.vertices.push_back(v);
-  motion.velocity = {-8, 0, 0};  // 80 mm a step
+  motion.velocity = {-8, 0, 0};  // 80 mm per step
   motion.end = 0.02;
   scene.motions.push_back(motion);
   scene.settings.guess_rounds = 1;

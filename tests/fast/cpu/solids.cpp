@@ -74,7 +74,7 @@ TEST_CASE("a block far from everything falls as -g h^2 n(n+1)/2, and keeps its s
     const compare::Snapshot now = simulation->snapshot();
     for (std::size_t v = 0; v < now.positions.size(); ++v) {
       const compare::Vec3& rest = scene.mesh.positions[v];
-      // Coordinates of 1 m are rounded once a step and once a sweep.
+      // Coordinates of 1 m are rounded once per step and once per sweep.
       CHECK(double{now.positions[v].y} == Approx(rest.y - g * h * h * n * (n + 1) / 2).margin(n * 1e-6));
       CHECK(double{now.positions[v].x} == Approx(rest.x).margin(n * 1e-6));
     }
@@ -214,7 +214,7 @@ TEST_CASE("the work of a sweep counts a tetrahedron once for each of its free co
   CHECK(damping > 200 * stencils);
   scene.bodies[0].fixed = true;
   CHECK(sweep_work(scene).flop == one.flop + damping);
-  // A held vertex needs no work, and its stencils are not computed for it.
+  // A prescribed vertex needs no work, because no element computes its force on this vertex.
   scene.bodies[0].fixed = false;
   scene.bodies[1].material.solid_damping = 0;
   scene.motions.resize(1);

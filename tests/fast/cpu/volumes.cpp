@@ -184,8 +184,8 @@ TEST_CASE("a driven volume is at its targets, and carries along what lies on it"
 }
 
 TEST_CASE("without friction a driven volume slides away below what lies on it", "[unit]") {
-  // Compares with the same sheet on a volume at rest. The difference comes from rounding errors of the triangles'
-  // points.
+  // Compares with the same sheet on a volume at rest. The velocities differ only by rounding errors of the contact
+  // points on triangles.
   const auto velocities = [](bool is_driven) {
     Scene scene = sheet_over_box(0.0049, 0);
     if (is_driven) drive(scene, {0.2, 0, 0});
@@ -215,8 +215,8 @@ TEST_CASE("two sheets on a volume that rises fast never pass through each other"
   }
 }
 
-// γ_e K = 1,122 vertices must be cut to cause a detection, but the layers have only 98. Their bounds allow 0.045 mm
-// between two detections, and the box rises 5 mm a step.
+// γ_e K = 1,122 vertices must be cut to cause a detection, but the layers have only 98. The bounds of the layers allow
+// 0.045 mm between two detections, and the box rises 5 mm per step.
 TEST_CASE("layers that nearly touch are not left deep inside a volume that rises into them, whatever else is not cut",
           "[property]") {
   Scene scene = empty_scene();

@@ -80,8 +80,9 @@ struct TwoOfRow {
   OGC_HD void operator()(int i, float smallest, float after_rank) const { least[i] = smallest, after[i] = after_rank; }
 };
 
-// After a sum, finds the first and (if the count is even) the second number below 20 in a row, and the smallest of 45
-// and all numbers of the row. Teams of one warp search different numbers of times, so that their control flow diverges.
+// After a sum, searches a row for the first number below 20, for the next one if the row's count is even, and for the
+// minimum of 45 and all numbers of the row. Teams of one warp search different numbers of times, so that their control
+// flow diverges.
 struct AskRow {
   static constexpr int parts = 1;
   const int* offsets;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int numbers_a_case = 10;
 
-/// Writes ten numbers, each of another kind, of the case with this index.
+/// Writes ten random numbers of the case with this index, by different functions of Random.
 struct NumbersOfCase {
   std::uint64_t* target;
   OGC_HD void operator()(int index) const {

@@ -18,7 +18,7 @@ struct Placed {
   Cell cell;
 };
 
-/// Returns the cells of a cube along the curve.
+/// Returns the cells of a cube in the order of the Hilbert curve.
 std::vector<Placed> along_curve(const Cell& corner, std::uint32_t side) {
   std::vector<Placed> cells;
   for (std::uint32_t i = 0; i < side; ++i)
@@ -106,7 +106,7 @@ TEST_CASE("keys keep vertices, edges and facets apart, and follow the middles of
   for (int i = 0; i < 4; ++i) HilbertKeys{some, positions.data(), tree, tree, of_some.data(), numbers.data()}(i);
   CHECK(numbers == searched);
   CHECK(of_some == std::vector<std::uint64_t>{keys[3], keys[1], keys[5], keys[6]});
-  // A mesh without extent is in the first cell.
+  // If the box of the mesh is a point, the key is that of the first cell.
   Quad point;
   Box one;
   one.include(positions[3]);

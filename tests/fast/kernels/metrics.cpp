@@ -1,4 +1,4 @@
-// Tests the numbers of a step's row, because no stage judges them. All inputs are different.
+// Tests the kernels that compute a step's metrics, because no stage judges them. All inputs are different.
 #include "fast/kernels/metrics.hpp"
 
 #include <array>

@@ -38,7 +38,7 @@ bool is_exactly_in(const FeasibleRegion& region, const Vec& x) {
 
 bool same_bits(const Vec& a, const Vec& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-/// Draws points of pairs of every kind: apart, near, needles, collapsed triangles, far from the origin.
+/// Draws the points of random pairs: apart, near, needles, collapsed triangles, far from the origin.
 class RandomPairs {
  public:
   Vec point(float size) { return {size * unit_(random_), size * unit_(random_), size * unit_(random_)}; }
@@ -68,8 +68,8 @@ struct Counts {
   int planes = 0, without = 0, wrong = 0, meeting = 0, broken = 0, met = 0, off_way = 0;
 };
 
-/// Returns whether x is between `from` and `to`. The tolerance is 8 · 2⁻²⁴ of the largest coordinate along each axis:
-/// storing x and three steps by one unit in the last place.
+/// Returns whether x is between `from` and `to`. The tolerance is 8 · 2⁻²⁴ of the largest coordinate along each axis,
+/// for the rounding of x and three steps of one unit in the last place.
 bool is_on_way(const Vec& from, const Vec& to, const Vec& x) {
   const auto wide = [](const Vec& a) { return Vector<double>{a.x, a.y, a.z}; };
   const Vector<double> way = wide(to) - wide(from), gone = wide(x) - wide(from);
@@ -272,7 +272,7 @@ TEST_CASE("plane: what slides along a wall keeps its way along it", "[unit]") {
   CHECK(slid.position.x == 0.02f);
   CHECK(slid.position.y == -0.01f);
   CHECK(slid.position.z == Approx(1e-4).epsilon(1e-3));
-  // On its path the vertex goes as far as the wall allows.
+  // On its straight path the vertex moves up to the half-space's plane.
   const Truncated scaled = held_on_path(region, pair.first[0], {0.011f, 0, -0.010f});
   CHECK(scaled.position.x == Approx(0.011 * 0.9 / 11).epsilon(1e-3));
   CHECK(scaled.position.z == Approx(1e-4).epsilon(1e-3));
@@ -332,7 +332,7 @@ TEST_CASE("plane: what goes along its half-space gets to the end, whichever coor
     const Truncated kept = held_on_path(region, x, target);
     const Vec gone = kept.position - x;
     outside += !is_exactly_in(region, kept.position);
-    // tolerance: storing a position and three steps of an ulp, with coordinates of up to 1
+    // the tolerance covers the rounding of a stored position and three steps of one ulp, with coordinates of up to 1
     short_of_end += std::sqrt(dot(gone, gone)) < 4e-3f - 16 * 0x1p-24f;
     ++count;
   }
@@ -359,7 +359,7 @@ TEST_CASE("plane: turned axes turn the answer, but for the spacing of stored num
       const Vec apart = turned(a.position) - b.position;
       cut += a.cut;
       outside += a.cut != b.cut;
-      // each position is stored within half a spacing of 2⁻²³ and stepped back by at most three
+      // each of the two positions is rounded by half a spacing (2⁻²³) and moved back by at most three spacings
       far += std::sqrt(dot(apart, apart)) > 7 * 0x1p-23f;
     }
   }

@@ -218,8 +218,8 @@ TEST_CASE("planes: a sheet that falls past a wall a few micrometres away falls f
   // Each step rounds a position below 2 m to 2⁻²⁴ m, and its velocity keeps this error.
   for (std::size_t v = 0; v < 16; ++v)
     CHECK(std::abs(free[v].y - (scene.mesh.positions[v].y - fall)) < steps * (steps + 1) * 0x1p-24);
-  // With balls, the sheet falls at most γ_p times the distance of the wall in each of 16 rounds and 10 iterations a
-  // step.
+  // With balls, each of the 16 rounds and 10 iterations of a step lets the sheet fall by at most γ_p times its distance
+  // from the wall.
   scene.settings.bounds = compare::Bounds::ball;
   const auto stuck = positions_after(scene, steps);
   for (std::size_t v = 0; v < 16; ++v)
@@ -249,7 +249,7 @@ TEST_CASE("planes: a cloth pulled out between two plates leaves, and passes neit
     CHECK(compare::audit(topology, compare::to_double(state.positions), compare::exclusions(scene)).count == 0);
     CHECK(reference::broken_planes(state.planes, state.positions) == 0);
   }
-  // After 0.3 m it has left the plates, whose edges are 0.15 m from the middle.
+  // After 0.3 m the cloth has left the plates, whose edges are 0.15 m from the middle.
   const auto end = simulation->snapshot().positions;
   CHECK(std::ranges::all_of(end.begin(), end.begin() + 36, [](const compare::Vec3f& p) { return p.x > 0.15f; }));
 }
@@ -274,7 +274,7 @@ TEST_CASE("planes: two hooked corners stay hooked, however far they are pulled",
   }
   // The folds are still hooked: vertex 4, the middle of the first fold, has a larger x than vertex 13, the middle of
   // the second fold. The strips' ends have been pulled from |x| = 0.1 m to more than 0.2 m, but lag behind their
-  // motion.
+  // prescribed motion.
   const auto end = simulation->snapshot().positions;
   CHECK(contacts > 0);
   CHECK(end[4].x > end[13].x);

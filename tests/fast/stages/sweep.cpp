@@ -169,8 +169,8 @@ TEST_CASE("an iteration reads lower colours from the fresh buffer and all others
     const SweepView view = f.view();
     f.sweep->iterate(view);
     const std::vector<Vec> answer = f.fresh;
-    // Applies the rule naively: before each colour copies the positions written so far, then solves each vertex of the
-    // colour with this copy.
+    // Solves each vertex by the rule. Before each colour, copies the positions written so far; the vertices of the
+    // colour read this copy.
     std::vector<Vec> now = f.x;
     for (int c = 0; c < f.colouring.count; ++c) {
       std::vector<Vec> seen = now, out = now;
@@ -364,7 +364,7 @@ TEST_CASE("that holds for edges on either side of the limit below which two coun
       };
       const EdgeEdgeRecord& record = view.edge_edge[i];
       const D3 a = direction(record.first_edge), b = direction(record.second_edge), normal = cross(a, b);
-      // 1 is the limit of closest_on_segments
+      // closest_on_segments treats edges with a share below 1 as parallel
       const double share = dot(normal, normal) / (1e-6 * dot(a, a) * dot(b, b));
       below += share > 0.5 && share < 1;
       above += share > 1 && share < 2;

@@ -266,9 +266,9 @@ TEST_CASE("a position beyond its bound, or none, at a step's end stops the run a
 }
 
 TEST_CASE("iterations are asked in groups whether a detection is due until a frame has one in four of them", "[unit]") {
-  // Steps that sort the trees, the first and the seventeenth, have their own recordings. Detections of the guess loop
-  // do not count here, and this scene has no others. A frame (steps that are enqueued together) does not count, either,
-  // if its step is repeated because lists grew.
+  // Steps that sort the trees (the first and the seventeenth) have their own recordings. Detections of the guess loop
+  // are not counted, and this scene has no others. If a step is repeated because lists grew, its frame (the steps that
+  // are enqueued together) is not counted.
   constexpr int frames = steps_between_sorts + 1;
   const WatchedBackend::Replayed still = replayed(still_sheet(), frames);
   REQUIRE(still.size() == frames);

@@ -74,7 +74,7 @@ std::vector<Vec3f> points_around(const Surface& surface, std::mt19937& random) {
   return points;
 }
 
-/// Returns the faces nearest to x: the faces at the smallest distance whose blocks of any radius hold x.
+/// Returns the faces nearest to x, among those whose block of unlimited radius holds x.
 std::vector<Face> nearest_faces(const Complex& mesh, const Vec3f& x) {
   constexpr float far = 1e6f;
   std::vector<Face> nearest;
@@ -177,7 +177,8 @@ TEST_CASE("closed surface: a ridge has its outward block, a dent only its own po
   // The point is outside, but no normal of the dent points to it.
   CHECK_FALSE(closed.in_outward_block(dent, {1.5f, 1.5f, 1.5f}, 4));
   CHECK(reference::in_block(body.mesh(), dent, {0.25f, 0.5f, 0.25f}, 4));
-  CHECK_FALSE(closed.in_outward_block(dent, {0.25f, 0.5f, 0.25f}, 4));  // a normal points to it, but it is inside
+  // a normal points to the point, but the point is inside
+  CHECK_FALSE(closed.in_outward_block(dent, {0.25f, 0.5f, 0.25f}, 4));
 }
 
 TEST_CASE("closed surface: what is not closed, not oriented, folded or inside out is refused by its element's name",

@@ -38,7 +38,7 @@ std::vector<Face> faces_touched(const std::vector<VertexFacetContact>& contacts,
 
 TEST_CASE("counterexample to the remark on saddles in §3.3: within r of one, and in no block of its faces or edges",
           "[unit]") {
-  // The star extends 2.3 from its saddle and r = 6, so its closest points are vertices on its rim.
+  // The star extends 2.3 from its saddle and r = 6, so the points of the star closest to x are vertices on the rim.
   const Surface star = with_vertex(saddle(), {0, 0, 5});
   const auto topology = star.topology();
   const Complex mesh{topology, star.positions};
@@ -147,8 +147,8 @@ TEST_CASE(
 TEST_CASE(
     "counterexample to \"detected exactly twice\" (§4.2): Algorithm 2 as printed enters a pair from one side only",
     "[unit]") {
-  // Edge 0 ends at vertex 1, where edge 1 continues and comes nearer to edge 2 (vertices 3, 4), which crosses beyond
-  // vertex 1.
+  // Edge 1 continues edge 0 at vertex 1. Edge 2 (vertices 3, 4) crosses beyond vertex 1, where edge 1 is nearer to it
+  // than edge 0.
   const Surface bend{{{-2, 0, 0}, {0, 0, 0}, {2, 0, 0.5f}, {1, -2, 1}, {1, 2, 1}}, {}, {{0, 1}, {1, 2}, {3, 4}}, {}};
   const auto topology = bend.topology();
   const Complex mesh{topology, bend.positions};

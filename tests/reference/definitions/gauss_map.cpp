@@ -1,5 +1,5 @@
-// Tests the polyhedral Gauss map: kinds of vertices by hand, corners that are normals of triangles, and areas that are
-// angle deficits.
+// Tests the polyhedral Gauss map: kinds of vertices on handmade meshes, corners (which are normals of triangles), and
+// areas (which are angle deficits).
 #include "reference/definitions/gauss_map.hpp"
 
 #include <algorithm>

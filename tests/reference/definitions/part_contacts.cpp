@@ -251,8 +251,8 @@ TEST_CASE("a rim has no inner side, and what lies behind a surface with rims is 
   // At the rim's height, the foot of the perpendicular lies on the rim.
   const std::vector<PartContact> level = body.ask({1, 0.25f, 2}, 0.5f);
   CHECK(std::ranges::none_of(level, &PartContact::inside));
-  // Outside the box of a cube that faces inward no point is inside, neither next to a valley nor next to its end at the
-  // rim.
+  // The triangles of this cube face inward. A point outside its box is not inside, neither beside a vertical edge nor
+  // beside the upper end of this edge, at the rim.
   Surface inward = open_cube();
   for (compare::Triangle& t : inward.triangles) std::swap(t[1], t[2]);
   const std::vector<PartContact> along = Body(inward).ask({2.25f, 2.25f, 1.5f}, 0.5f),

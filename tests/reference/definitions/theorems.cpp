@@ -199,8 +199,8 @@ Surface renumbered(const Surface& surface, const std::vector<Index>& name, std::
 
 Vec3f scaled(Vec3f x, float factor) { return {factor * x.x, factor * x.y, factor * x.z}; }
 
-/// Returns whether the map and its inverse are exact and, if the map moves the origin, move every point by the same
-/// amount.
+/// Returns whether the map and its inverse are exact. If the map moves the origin, it must also move every point by the
+/// same amount.
 template <class Map>
 bool is_exact(const Surface& surface, Map map, Map back) {
   const float shift = map({0, 0, 0}).x;
@@ -255,8 +255,8 @@ TEST_CASE("theorems: the block of a vertex without normals is the vertex itself,
 
 TEST_CASE("theorems: orthogonality, the connection of a point in a block with the face is perpendicular to it",
           "[property]") {
-  // The shortest line from x to a is perpendicular to a if it ends in the interior of a, which is decided without
-  // rounding.
+  // The shortest line from x to the face a is perpendicular to a if it ends in the interior of a. Where it ends is
+  // decided without rounding.
   for (const Specimen& specimen : mesh_zoo()) {
     if (specimen.collapsed) continue;
     CAPTURE(specimen.name);

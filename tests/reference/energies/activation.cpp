@@ -123,7 +123,7 @@ TEST_CASE("activation: the two stages by hand, and their scales", "[unit]") {
 
 TEST_CASE("activation: IPC's curvature over OGC's at equal force", "[unit]") {
   // Here k_c = r = 1, f is the force, and κ is IPC's stiffness over k_c. For κ = 1 the largest ratio of the curvatures
-  // is 3.35, at f = 1/2, where OGC's stages meet; at f = 0.02 it is 0.52. For small f the depth of IPC's contact is
+  // is 3.35, at f = 1/2, where OGC's formula changes; at f = 0.02 it is 0.52. For small f the depth of IPC's contact is
   // √(f/(3κ)), and the ratio is κ √(12 f/κ). For large f OGC's curvature is 4 f² and IPC's is f²/κ, up to a logarithm.
   using reference::curvature_ratio;
   CHECK(curvature_ratio(0.5, 1) == Approx(3.35).margin(0.005));
@@ -142,7 +142,7 @@ TEST_CASE("activation: the curves of the drawing are those of the energies", "[u
   for (std::size_t i = 0; i < reference::stiffness_ratios.size(); ++i)
     for (const auto& point : panels[1].layers[i].points)
       CHECK(point[1] == reference::curvature_ratio(point[0], reference::stiffness_ratios[i]));
-  // Forces below k_c r/2 belong to OGC's quadratic stage, whose curvature is k_c = 1. So the ratio equals IPC's
+  // Forces below k_c r/2 belong to OGC's quadratic branch, whose curvature is k_c = 1. So the ratio equals IPC's
   // curvature, which is a value of the first panel's layer ipc_log.
   const reference::DrawingLayer& ipc = panels[0].layers[3];
   REQUIRE(ipc.name == "ipc_log");

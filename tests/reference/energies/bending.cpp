@@ -254,17 +254,17 @@ TEST_CASE("a force that vanishes because angle and gradient both do keeps the pr
   const compare::ForceAnswer answer = reference::bending(c)[0];
   const double error = compare::bending_force_tolerance * compare::unit_roundoff * answer.force_scale;
   CHECK(norm({answer.force.x, answer.force.y, answer.force.z}) < 1e-20);
-  // A single-precision kernel has an error of 1.5e-22 N here: the product of the moment's error and the gradient's
-  // error. The gradient's error is 2⁻²⁴ over the triangles' height.
+  // A single-precision kernel has a force error of 1.5e-22 N here, the product of the errors of moment and gradient.
+  // The gradient's error is 2⁻²⁴ divided by the height of the triangles.
   CHECK(error > 1.5e-22);
   CHECK(error < 1e-3 * c.stiffness / 0.0668945 * 0x1p-24);
 }
 
 TEST_CASE("a hinge passes from π to -π only where its triangles touch, so that its angle needs no unwrapping",
           "[property]") {
-  // At ±π both triangles lie in one plane on the same side of their edge and overlap: a vertex of one lies on the
-  // other, or two of their edges cross. Bounds keep both distances above zero. Coordinates are integers, so nothing is
-  // rounded.
+  // At ±π both triangles lie in one plane on the same side of their edge and overlap: a corner of one triangle lies in
+  // the other, or two edges cross. Bounds keep the distances of these pairs above zero. Coordinates are integers, so
+  // nothing is rounded.
   std::mt19937 engine(3);
   std::uniform_int_distribution<int> along(-8, 16), up(1, 12);
   const compare::Topology topology = compare::build_topology(4, std::vector<compare::Triangle>{{0, 1, 2}, {1, 0, 3}});

@@ -225,7 +225,8 @@ TEST_CASE("where a decision is grey both answers are accepted, the exact one fir
   const auto on_side = reference::contact_force(beside);
   REQUIRE(on_side.size() == 2);
   REQUIRE(on_side[0].force.z == 0);
-  // Within rounding the point may touch, so every force up to the force at the distance 2^-23 r is accepted.
+  // Rounding hides whether the point touches the triangle. So every force up to the force at the distance 2^-23 r is
+  // accepted.
   REQUIRE(reference::contact_force(above(1e-7f)).size() == 2);
 }
 

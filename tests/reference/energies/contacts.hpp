@@ -1,5 +1,5 @@
-// Makes random contacts, and finds closest points without features, to test the reference's contact stages. Minima come
-// from alternating projections or are the smallest of all candidates; no Voronoi region is tested.
+// Makes random contacts to test the reference's contact stages. Finds closest points without Voronoi regions: by
+// alternating projections, or as the nearest of all candidates.
 #pragma once
 
 #include <algorithm>

@@ -57,7 +57,7 @@ struct Lagged {
   }
 };
 
-/// Returns a point 0.25 m above a large triangle that has slipped along x and has moved up; λ = 2 N.
+/// Returns a point 0.25 m above a large triangle; since the start, the point has slipped along x and moved up. λ = 2 N.
 FrictionForceCase above(float slip, float lift) {
   FrictionForceCase c;
   c.contact.sides = ContactSides::point_triangle;

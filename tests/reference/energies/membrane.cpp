@@ -114,8 +114,8 @@ TEST_CASE("the reference's membrane exerts no net force and, without damping, no
       }
       scale += answer.force_scale;
     }
-    // When another corner becomes the first, gradients are rounded to single precision again: an input has an error of
-    // 2⁻²⁴, one unit of the scale. Arms are shorter than 3 m.
+    // When another corner becomes the first, gradients are rounded to single precision again. Inputs with an error of
+    // 2⁻²⁴ change a force by 2⁻²⁴ · force_scale. Lever arms are shorter than 3 m.
     CHECK(norm(force) < 4 * compare::unit_roundoff * scale);
     CHECK(norm(torque) < 12 * compare::unit_roundoff * scale);
   }
@@ -235,8 +235,8 @@ TEST_CASE(
     double largest = 0;
     for (std::size_t k = 0; k < 6; ++k)
       raised[k] = block[k] - second[k], largest = std::max(largest, std::abs(raised[k]));
-    // Energies have the size of the block. Differences over 10⁻⁴ have errors of 2⁻⁵³/10⁻⁸ by rounding and of 10⁻⁸ times
-    // fourth derivatives.
+    // Energies are as large as the block's entries. Second differences with steps of 10⁻⁴ have errors of 2⁻⁵³/10⁻⁸ by
+    // rounding and of 10⁻⁸ times fourth derivatives.
     CHECK(smallest_quadratic(raised, draw) >= -1e-4 * size);
     if (smallest_quadratic(second, draw) < 1e-3 * size) continue;
     ++definite;

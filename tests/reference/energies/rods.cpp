@@ -90,8 +90,8 @@ double energy(const OrientationAnswer& answer, const Four& q) {
 
 double size(const Four& q) { return std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]); }
 
-/// Returns the angle θ of the rotation between the segment and a neighbour relative to rest, from the trace of matrices
-/// only.
+/// Returns the angle θ of the rotation from a segment to its neighbour, relative to the rotation at rest. Uses only the
+/// trace of a product of matrices.
 double angle_to(const OrientationCase& c, const Quaternion& q, bool is_ahead) {
   const RodNeighbour& f = is_ahead ? c.ahead : c.behind;
   const auto a = matrix_of(is_ahead ? q : f.now), b = matrix_of(is_ahead ? f.now : q), p = matrix_of(f.rest);
@@ -131,8 +131,9 @@ TEST_CASE("the reference's force of a rod is minus the slope of its energy, its 
       const compare::ForceAnswer exact = reference::rod(c);
       const Point x = point(c.vertex[static_cast<std::size_t>(own)]),
                   by_differences = slope([&](const Point&at) { return energy(c, at); }, x, 1e-3);
-      // A parabola has no truncation error. Energies of 200 J have a rounding error of 2⁻⁵³ · 200 J, which the
-      // difference divides by the step. Quaternions have length 1 up to 2⁻²³, which changes forces of at most 300 N.
+      // The energy is quadratic in x, so differences have no truncation error. Energies of 200 J have a rounding error
+      // of 2⁻⁵³ · 200 J, which the difference divides by the step. Quaternions have length 1 up to 2⁻²³, which changes
+      // forces of at most 300 N.
       CHECK(std::abs(exact.force.x + by_differences[0]) <= 1e-4);
       CHECK(std::abs(exact.force.y + by_differences[1]) <= 1e-4);
       CHECK(std::abs(exact.force.z + by_differences[2]) <= 1e-4);
@@ -227,7 +228,7 @@ TEST_CASE("where neighbours ask for nothing the frame turns about nothing but wh
   const Four q = reference::orientation(c).front().orientation;
   CHECK(q[1] == Approx(std::sqrt(0.5)).epsilon(1e-12));
   CHECK(q[3] == Approx(std::sqrt(0.5)).epsilon(1e-12));
-  c.vertex[1] = {0, 0, 0};  // no energy depends on the frame
+  c.vertex[1] = {0, 0, 0};  // D = 0: no energy depends on the orientation
   CHECK(reference::orientation(c).front().orientation == Four{0, 0, 0, 1});
 }
 

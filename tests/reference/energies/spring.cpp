@@ -174,8 +174,8 @@ TEST_CASE("what a lost length leaves of a stitch's block is accepted, no block i
     c.rest_length = rest_length;
     const compare::ForceAnswer answer = reference::spring(c);
     const double accepted = compare::spring_block_tolerance * compare::unit_roundoff * answer.block_scale;
-    // If rounding loses the length, the block lacks its multiple of I − n nᵀ, with n = e₂. `missing` is the norm of
-    // this multiple: of the entries xx and zz, without yy.
+    // If rounding makes the length 0, the block has no multiple of I − n nᵀ, with n = e₂. `missing` is the norm of this
+    // multiple, from the entries xx and zz.
     const double missing = std::sqrt(answer.block[0] * answer.block[0] + answer.block[5] * answer.block[5]);
     CHECK((missing <= accepted) == (rest_length > 0));
     CHECK(std::sqrt(missing * missing + answer.block[3] * answer.block[3]) > accepted);

@@ -138,7 +138,7 @@ class Mesh {
     }
   }
 
-  /// Adds Eq. 10 in barycentric coordinates of the foot.
+  /// Adds the conditions of Eq. 10 on the barycentric coordinates of x's foot.
   void within(const Point& x, Index t, Printed& conditions) const {
     const auto& [i, j, k] = topology_.triangles[static_cast<std::size_t>(t)];
     const Point a = at(i), u = at(j) - a, v = at(k) - a, p = x - a;
@@ -219,8 +219,8 @@ TEST_CASE(
 }
 
 TEST_CASE("block: a boundary is grey within rounding of it, and decided exactly", "[unit]") {
-  // The edge from vertex 0 to vertex 1 is slanted. At x = 2 + δ the margin of its end plane at vertex 0 is (1 + δ) − 1,
-  // so its terms cancel.
+  // The edge from vertex 0 to vertex 1 is slanted. For x = 2 + δ, the margin of vertex 2 at the edge's end plane
+  // through vertex 0 is (1 + δ) − 1, so the terms cancel.
   const auto about = [](float x) {
     const Surface surface{{{1, 1, 0}, {2, 2, 0}, {x, 0, 5}, {9, 9, 9}, {9, 8, 9}}, {}, {{0, 1}, {2, 3}, {3, 4}}, {}};
     return Mesh(surface).ask({{Kind::vertex_in_surface, 2, {FaceKind::vertex, 0}}});

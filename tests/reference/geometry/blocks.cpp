@@ -70,7 +70,7 @@ struct Counts {
   int inside = 0, covered = 0, shared = 0, uncovered = 0, farther = 0;
 };
 
-/// Counts violations of the properties at one point, over the faces of every triangle.
+/// Counts at x the faces whose block contains x, and the violations of the properties of blocks (§3.3).
 void examine(const Complex& mesh, const Vec3f& x, float r, Counts& counts) {
   bool within = false, covered = false;
   for (std::size_t t = 0; t < mesh.topology.triangles.size(); ++t) {

@@ -1,4 +1,4 @@
-// Tests bounds: Eq. 21, 23, 25 by brute force over the definitions, rounded down.
+// Compares bounds with Eq. 21, 23 and 25, which are computed by the definitions over all pairs and rounded down.
 #include "reference/geometry/bound.hpp"
 
 #include <algorithm>

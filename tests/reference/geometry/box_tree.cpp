@@ -7,8 +7,8 @@
 
 using namespace ogc::reference;
 
-/// Tests numbers of boxes near the size of a leaf, and near the size from which two threads build the tree. The threads
-/// rely on node positions that are computed beforehand.
+/// The numbers of boxes are near the capacity of a leaf, and near the number from which two threads build the tree. The
+/// threads rely on node positions that are computed beforehand.
 TEST_CASE("the reference's box tree visits each box that meets the query once, and no other, at any number of boxes",
           "[property]") {
   std::mt19937 random(11);

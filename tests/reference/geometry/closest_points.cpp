@@ -89,7 +89,8 @@ TEST_CASE("closest_points: every pair of features, with the edges in both roles 
 }
 
 TEST_CASE("closest_points: parallel edges that overlap meet in the middle of the overlap", "[unit]") {
-  // The overlap is [2, 4] on the first edge. Its middle 3 has s = 0.75, and its projection t = (3 − 2)/4.
+  // The overlap is [2, 4] on the first edge. The middle of the overlap has s = 0.75 on the first edge and t = (3 − 2)/4
+  // on the second.
   const auto truth = ask(edge, {Vec3f{2, 3, 4}, Vec3f{6, 3, 4}});
   CHECK(truth.exact.nearly_parallel[0] == 1);
   CHECK(truth.exact.first_feature[0] == interior);
@@ -175,8 +176,8 @@ TEST_CASE("closest_points: next to a boundary both answers are accepted, away fr
   const auto code = [](EdgeFeature f, EdgeFeature g, unsigned parallel_rule) {
     return 1u << (static_cast<unsigned>(f) + 3 * static_cast<unsigned>(g) + 9 * parallel_rule);
   };
-  // The second edge lies in the plane x + y = 8 through end_1 = (4,4,0), up to the last place of one coordinate; 8 −
-  // 5.1 and 8 − 5.7 are exact.
+  // The second edge lies in the plane x + y = 8 through end_1 = (4,4,0), up to one unit in the last place of a
+  // coordinate; 8 − 5.1 and 8 − 5.7 are exact.
   const Ends diagonal{Vec3f{0, 0, 0}, Vec3f{4, 4, 0}};
   const auto nudged = [&](float x) { return ask(diagonal, {Vec3f{x, 8 - 5.1f, 2}, Vec3f{8 - 5.7f, 5.7f, 2}}); };
   const auto inside = nudged(std::nextafter(5.1f, 0.0f)), on = nudged(5.1f),

@@ -1,5 +1,5 @@
-// Tests detect_edge_edge: contacts by hand, Algorithm 2 against the definition of method.md §1.2 to §1.4, smallest
-// distances, invariances, grey decisions.
+// Tests detect_edge_edge: contacts derived by hand, Algorithm 2 against the definition of method.md §1.2 to §1.4,
+// smallest distances, invariances and grey decisions.
 #include "reference/geometry/detect_edge_edge.hpp"
 
 #include <algorithm>
@@ -367,8 +367,8 @@ TEST_CASE("detect_edge_edge: pairs inside one rigid group are neither contacts n
 
 TEST_CASE("detect_edge_edge: boundaries of every kind are grey on both sides", "[unit]") {
   const auto one_up = [](float x) { return std::nextafter(x, 1e9f); };
-  // At an oblique end the second edge lies in the plane x + y = 8 through vertex 1, up to the last place; 8 − 5.1 and 8
-  // − 5.7 are exact.
+  // The second edge lies in the plane x + y = 8 through the end of an oblique edge (vertex 1), up to one unit in the
+  // last place; 8 − 5.1 and 8 − 5.7 are exact.
   for (const float x : {5.1f, one_up(5.1f)}) {
     const auto truth = detect(two_edges({0, 0, 0}, {4, 4, 0}, {x, 8 - 5.1f, 2}, {8 - 5.7f, 5.7f, 2}), 3, 4);
     REQUIRE(truth.grey.size() == 1);
@@ -376,7 +376,7 @@ TEST_CASE("detect_edge_edge: boundaries of every kind are grey on both sides", "
     CHECK(truth.grey[0].contacts ==
           std::vector<EdgeEdgeContact>{{vertex_face(1), edge_face(1), 0, 1}, {edge_face(0), edge_face(1), 0, 1}});
   }
-  // Near the distance r, absence is accepted on both sides.
+  // If the distance is nearly r, below or above, a missing contact is accepted.
   for (const float z : {std::nextafter(1.0f, 0.0f), 1.0f, one_up(1.0f)}) {
     const auto truth = detect(two_edges({-2, 0, 0}, {2, 0, 0}, {0, -2, z}, {0, 2, z}), 1, 1);
     REQUIRE(truth.grey.size() == 1);
@@ -406,8 +406,8 @@ TEST_CASE("detect_edge_edge: moving every coordinate by a unit in the last place
     CHECK(accepted(truth, truth.exact.contacts));
     for (int k = 0; k < 10; ++k) CHECK(accepted(truth, detect(mapped(flat, moved), r, 30).exact.contacts));
   }
-  // Edges 01 and 23 are exactly parallel. In 81 cases their blocks contain one end of the overlap, the other end, both
-  // ends or neither, or have their boundary at an end.
+  // Edges 01 and 23 are exactly parallel. The 81 cases differ in the blocks: each end of the overlap lies inside,
+  // outside or on the boundary of the blocks of each edge.
   for (int way = 0; way < 81; ++way) {
     const auto lean = [way](int place) { return static_cast<float>(way / place % 3 - 1); };
     const Surface surface{{{0, 0, 0},

@@ -1,5 +1,5 @@
-// Tests detect_vertex_facet: contacts by hand, Algorithm 1 against the definition (Eq. 12), smallest distances,
-// invariances, grey decisions.
+// Tests detect_vertex_facet: contacts derived by hand, Algorithm 1 against the definition (Eq. 12), smallest distances,
+// invariances and grey decisions.
 #include "reference/geometry/detect_vertex_facet.hpp"
 
 #include <algorithm>
@@ -276,8 +276,8 @@ TEST_CASE("detect_vertex_facet: loose edges are no faces of triangles, coincidin
   CHECK(contacts_of(truth, 3).size() == 1);
   CHECK(truth.exact.d_min_vertex[3] == 0.5f);
   CHECK(truth.exact.d_min_vertex[4] == 0);
-  // Vertices 1 and 2 coincide, so both are closest in triangle 0. The lower-numbered corner is 1, whose block ends
-  // before its neighbour 4. Another order of the corners would give a contact with 2.
+  // Corners 1 and 2 of triangle 0 coincide, so both are closest to vertex 3. The exact answer takes corner 1, the lower
+  // number. Vertex 3 is not in the block of corner 1, because of neighbour 4. With corner 2 there would be a contact.
   Surface coinciding{
       {{4, 0, 0}, {0, 0, 0}, {0, 0, 0}, {-1, 0, 1}, {-1, 0, 2}, {-1, 1, 2}}, {{0, 1, 2}, {1, 4, 5}}, {}, {}};
   const auto tie = detect(coinciding, 2, 3);

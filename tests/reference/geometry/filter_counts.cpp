@@ -1,4 +1,5 @@
-// Tests filter counts: each predicate counts once, on every thread, and is undecided only if exact numbers were needed.
+// Tests filter counts: each predicate is counted once, on every thread; it counts as undecided only if it needed exact
+// numbers.
 #include "reference/geometry/filter_counts.hpp"
 
 #include <set>

@@ -1,4 +1,4 @@
-// Tests which pairs detections skip if only their exact answer is needed.
+// Tests which pairs a detection skips if only the exact answer is needed (DetectionExtent::exact).
 #include "reference/geometry/separation.hpp"
 
 #include <random>

@@ -1,5 +1,5 @@
-// Tests that pictures show the blocks that are decided exactly: points inside the patches are in the block, points
-// beyond them are not.
+// Compares pictures of blocks with the exact decision: points inside the patches are in the block, points beyond the
+// patches are not.
 #include "reference/illustrations/block_picture.hpp"
 
 #include <cmath>
@@ -95,7 +95,7 @@ TEST_CASE(
   CHECK(reference::block_picture(mesh, reference::edge_face(2), 1).patches.size() == 5);
   const Surface flat = grid(3);
   const auto names = flat.topology();
-  // The block is a line segment on either side of the sheet.
+  // The block of a flat vertex is a line segment on either side of the sheet.
   CHECK(reference::block_picture({names, flat.positions}, reference::vertex_face(4), 1).patches.size() == 2);
   const Surface star = saddle();
   const auto around = star.topology();

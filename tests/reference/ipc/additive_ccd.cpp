@@ -75,7 +75,8 @@ TEST_CASE("CCD: no meeting is missed on the ladders of gaps, angles, needles, ne
              << "of the last two " << tally.false_positives << " do not meet at all");
   CHECK(tally.cleared > cases / 10);
   CHECK(tally.stopped > cases / 10);
-  // CCD keeps a tenth of the gap, so it stops harmless motions that end closer than that. Most of these do.
+  // CCD keeps a tenth of the gap, so it also stops motions that end closer than that without a meeting. Most false
+  // positives are such motions.
   CHECK(tally.false_positives < cases / 4);
 }
 
@@ -105,8 +106,8 @@ TEST_CASE("CCD: a long slide at a hair's breadth, away from a triangle, and a co
   CHECK(additive_ccd(ContactSides::point_triangle, x, delta, 0) == 1);
 }
 
-/// The first safe step ends where rounding hides the gap. There the computed vector between the closest points is only
-/// rounding: the edges move apart along it, but this proves nothing.
+/// The first safe step ends where the gap is smaller than its rounding error. There the vector between the closest
+/// points is only rounding error. That the edges move apart along this vector proves nothing.
 TEST_CASE("CCD: two nearly parallel edges that meet after 2e-12 of their way are stopped before", "[unit]") {
   const Points4 x{{{0.80323611859320732, -0.19054859758035292, 0.28876038511262969},
                    {0.80187377197897902, -0.19347845971359057, 0.28876038511262969},

@@ -24,7 +24,7 @@ Many exact_barrier(const Many& gap, const Many& support) {
   return -(gap - support) * (gap - support) * log(gap / support);
 }
 
-/// A mesh of separate pieces, with all arguments of the pairs' functions.
+/// A mesh of separate pieces, with the other data of its PairMesh.
 struct Pieces {
   State x;
   compare::Topology topology;
@@ -78,8 +78,8 @@ TEST_CASE("barrier: value, slope and curvature are those of -(g - H)^2 ln(g/H), 
       const Second<1> b = barrier_slopes(gap, support);
       const Many g(gap), h(support), step = g * Many("1e-25");
       const Many before = exact_barrier(g - step, h), here = exact_barrier(g, h), after = exact_barrier(g + step, h);
-      // Near the end of its support H the barrier is the cube of 1 − g/H, with the gap g. 1 − g/H has a rounding error
-      // of 2⁻⁵³.
+      // Near the end of its support H the barrier is proportional to (1 − g/H)³, with the gap g. 1 − g/H has a rounding
+      // error of 2⁻⁵³.
       const double loss = 1e-14 / (1 - share);
       CHECK(b.value == Approx(static_cast<double>(here)).epsilon(3 * loss));
       CHECK(b.slope[0] == Approx(static_cast<double>((after - before) / (2 * step))).epsilon(3 * loss));
@@ -97,8 +97,8 @@ TEST_CASE("barrier: a vertex over a triangle, its rim and its corner has one ter
     return barriers(pieces({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {x, y, 0.05}, {x, y, 5}}, triangle, {{3, 4}}), shape)
         .terms;
   };
-  // The edge {3, 4} points upwards. So vertex 3 is also its closest point to the triangle's edges, and each of these
-  // edges nearer than d̂ adds 1 to the term's weight.
+  // The edge {3, 4} points upwards. So its closest point to each edge of the triangle is vertex 3, and each edge nearer
+  // than d̂ adds 1 to the weight of the vertex's term.
   const auto inside = above(0.25, 0.25);
   REQUIRE(inside.size() == 1);
   CHECK(inside[0].count == 4);

@@ -112,7 +112,8 @@ inline bool parted_by(const MeetingQuestion& q, const std::array<Integer, 3>& di
 }
 
 /// Returns whether the direction perpendicular to the first edge, towards the second edge, separates the primitives.
-/// Every separating direction is a proof, so it may be rounded. For parallel edges no other direction can separate.
+/// Any direction that separates them is a proof, so a rounded direction suffices. For parallel edges no other direction
+/// can separate.
 inline bool parted_across_edge(const MeetingQuestion& q) {
   using reference::operator*, reference::operator-;
   reference::Triple<double> w, u;

@@ -10,8 +10,8 @@ using compare::Index;
 
 namespace {
 
-/// Two soups of triangles that cross each other. Vertices lie on a coarse lattice, so edges in planes, ends on edges
-/// and equal corners are common.
+/// Two soups of triangles that cross each other. Vertices lie on a coarse lattice, so there are many edges in planes of
+/// triangles, ends on edges, and equal corners.
 struct Soup {
   State x;
   std::vector<compare::Triangle> triangles;

@@ -34,8 +34,8 @@ class MotionLadder {
   double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
   static double rung(int i, int bottom) { return std::pow(10.0, -(i % (bottom + 1))); }
 
-  /// Places touching primitives in the plane z = 0: a vertex inside, on the rim of or next to the triangle, or edges
-  /// that cross, meet at an end or miss.
+  /// Places touching primitives in the plane z = 0. A vertex lies inside the triangle, on its boundary or outside. Two
+  /// edges cross, meet at an end or miss each other.
   void shape(PairMotion& m, int i) {
     const double slender = i % 5 == 0 ? rung(i / 10, 12) : 1,
                  miss = (i % 3 == 0 ? rung(i / 6, 14) : 0) * (i % 4 < 2 ? 1 : -1);
@@ -72,8 +72,8 @@ class MotionLadder {
     }
   }
 
-  /// Rotates the case, shrinks it to the size of a cloth's triangles, moves it away from the origin, adds a common
-  /// velocity, and rounds it for the exact answer.
+  /// Rotates the case, scales it to the size of a cloth's triangles, shifts it from the origin and adds a common
+  /// velocity. Rounds coordinates so that the exact decision can represent them.
   void place(PairMotion& m) {
     std::array<std::array<double, 3>, 3> q{};
     const double a = between(0, 6.283), b = between(0, 6.283), size = std::pow(10.0, between(-3, 0));

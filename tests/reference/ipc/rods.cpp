@@ -50,8 +50,8 @@ compare::Scene crossing_cords() {
   return scene;
 }
 
-/// Returns the least height of the falling cord above the other one at edges that cross in the view from above, or
-/// infinity if none cross.
+/// Returns the smallest height of the falling cord above the fixed cord, over pairs of edges that cross when seen from
+/// above; infinity if none cross.
 double lowest_above(const compare::Topology& topology, const State& x) {
   double least = std::numeric_limits<double>::infinity();
   const auto side = [&](Index a, Index b, Index c) {

@@ -170,8 +170,8 @@ TEST_CASE("IPC: friction brakes what slides with its coefficient times gravity, 
 }
 
 // Gravity is inclined by 20 degrees to a level floor: g (sin θ − μ cos θ) along it. Implicit Euler adds half a step to
-// the distance, 0.5 % of it after 200 steps. Nothing brakes the sheet while it falls onto the barrier, on a tenth of
-// its distance.
+// the distance, 0.5 % of it after 200 steps. At first the sheet falls by a tenth of the barrier's distance until the
+// barrier acts; nothing brakes it there.
 TEST_CASE("IPC: a sheet slides down a slope by the law, however large the floor is", "[property]") {
   compare::Material material;
   material.density = 1;
@@ -317,8 +317,8 @@ TEST_CASE(
     const compare::StepMetrics row = full.step();
     REQUIRE(row.status == compare::step_clean);
     REQUIRE_FALSE(full.intersects());
-    // One broad phase belongs to the start of the step, and one to each bound of a step length. The guard makes all
-    // others. If the guard made one for each accepted state, it has rejected no state.
+    // The start of a step makes one broad phase, and so does each bound of a step length. The guard makes all others.
+    // If their number is that of the accepted states, the guard has rejected no state.
     const std::int64_t bounds = row.continuous_detections / 2, guards = row.broad_phases - 1 - bounds;
     CHECK(guards == accepted);
     REQUIRE(partial.step().status == compare::step_clean);

@@ -1,5 +1,5 @@
-// Tests the bound of a step by both rules of ipc_ccd: the bound by all pairs must include the active pairs and all
-// pairs that come near.
+// Tests the bound of a step by both rules of ipc_ccd. The rule for all pairs must take account of the active pairs and
+// of all pairs that come near.
 #include "reference/ipc/step_bound.hpp"
 
 #include <algorithm>

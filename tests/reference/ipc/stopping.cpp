@@ -1,4 +1,4 @@
-// Tests the lengths in which a step's tolerance is measured.
+// Tests which bodies define the length that a step's tolerance is relative to.
 #include "reference/ipc/stopping.hpp"
 
 #include <cmath>

@@ -18,7 +18,7 @@ namespace {
 compare::Scene lone_triangle() {
   compare::Scene scene;
   scene.name = "lone_triangle";
-  compare::Material soft;  // rest data are rounded to single precision; the force of this strain must be negligible
+  compare::Material soft;  // soft, because rounded rest data cause a strain, whose force must be negligible
   soft.lame_lambda = soft.lame_mu = 1e-3;
   append_body(scene, {.name = "triangle", .material = soft},
               {{{0, 0, 0}, {0, 0, 0.01}, {0.01, 0, 0}}, {{0, 1, 2}}, {}});
@@ -34,7 +34,8 @@ TEST_CASE("the residual is the mean force by that after the guess loop, to the r
   const compare::Settings& settings = scene.settings;
   const double speed = 2, h = settings.time_step, way = speed * h;
   const double mass = scene.bodies[0].material.density * 0.5e-4 / 3;  // a third of the triangle's mass, at each vertex
-  // By Eq. 21, with nothing near, each vertex stays within γ_p r_q of its start; r_q is capped (method.md §5.3).
+  // Nothing is near, so by Eq. 21 each vertex stays within γ_p r_q of its start; r_q has an upper limit (method.md
+  // §5.3).
   const double query_radius = std::min(settings.contact_radius + way,
                                        settings.detection_radius_cap * settings.contact_radius);
   const double guessed = settings.bounds_relaxation * query_radius;

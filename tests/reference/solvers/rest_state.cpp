@@ -1,5 +1,5 @@
-// Tests rest data by partitions and identities that hold for every mesh, and by shapes whose numbers can be written
-// down.
+// Tests rest data by sums and identities that hold for every mesh, and by shapes whose rest data are known in closed
+// form.
 #include "reference/solvers/kinds/rest_state.hpp"
 
 #include <cmath>

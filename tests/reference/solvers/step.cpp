@@ -15,7 +15,8 @@ namespace {
 
 constexpr StepEventKind find = StepEventKind::detection, guess = StepEventKind::guess, sweep = StepEventKind::sweep;
 
-/// Returns the events of a step whose rounds and iterations cut these numbers of vertices; later ones cut none.
+/// Returns the events of a step. `cuts`: numbers of vertices that the rounds and iterations cut, in order; later ones
+/// cut none.
 std::vector<StepEventKind> order(const compare::Settings& settings, Index moving, std::vector<Index> cuts) {
   reference::StepOrder order(settings, moving);
   std::vector<StepEventKind> events;
@@ -59,7 +60,7 @@ compare::Scene scene_of(const compare::Mesh& mesh, const compare::Vec3& velocity
   return scene;
 }
 
-/// Returns the truth about an answer that stays at its start.
+/// Returns the truth about an answer whose vertices stay at their start.
 compare::StepTruth truth_of(compare::Scene& scene) {
   compare::round_to_single(scene);
   const compare::Topology topology = compare::build_topology(scene);

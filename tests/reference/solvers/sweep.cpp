@@ -92,8 +92,8 @@ void shake(std::vector<Vec3f>& points, std::mt19937& random, float size) {
 
 double distance(const Vec3& a, const Vec3f& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
-/// Returns inertia and St. Venant–Kirchhoff energy of a sheet of unit right triangles, whose edges are the columns of
-/// F.
+/// Returns inertia and St. Venant–Kirchhoff energy of a sheet. At rest, triangles are right-angled with legs of length
+/// 1, so two deformed legs are the columns of F.
 double energy(const Question& q, const std::vector<Vec3f>& x) {
   const compare::Material& m = q.scene.bodies[0].material;
   double sum = 0;

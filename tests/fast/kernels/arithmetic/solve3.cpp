@@ -37,8 +37,8 @@ TEST_CASE("the 3x3 solve leaves a residual of a few roundings for positive defin
                       static_cast<double>(h.yz) * x.z - s.force.y;
     const double rz = static_cast<double>(h.xz) * x.x + static_cast<double>(h.yz) * x.y +
                       static_cast<double>(h.zz) * x.z - s.force.z;
-    // LDL^T without pivoting is backward stable for positive definite matrices: 12 roundings of three terms, in units
-    // of the trace.
+    // LDL^T without pivoting is backward stable for positive definite matrices: 12 roundings of three terms, relative
+    // to the trace.
     REQUIRE(std::abs(rx) + std::abs(ry) + std::abs(rz) <= 36 * 0x1p-24 * size);
   }
 }
@@ -60,8 +60,7 @@ TEST_CASE("a pivot of one unit in the last place of its diagonal entry is noise,
   const Vec force{1, -2, 3};
   for (const float size : {0x1p20f, 0x1p-20f}) {
     const float next = std::nextafter(size * size, INFINITY);
-    // the matrix (1, size)(1, size)ᵀ in x and y, or in x and z, with a last entry that is one unit in the last place
-    // larger
+    // the matrix (1, size)(1, size)ᵀ in x and y, or in x and z; its last entry is raised by one unit in the last place
     for (const Symmetric3& h : {Symmetric3{1, size, 0, next, 0, 1}, Symmetric3{1, 0, size, 1, 0, next}})
       CHECK(solve_symmetric(h, force, 0.5f).y == -1.0f);
   }

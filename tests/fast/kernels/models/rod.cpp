@@ -36,8 +36,8 @@ TEST_CASE("quaternions turn as their product says, back as their conjugates do, 
     const Quat q = some_orientation(random);
     const Vec v = some_vector(random);
     const Quat by_product = q * pure(v) * conjugate(q);
-    // With u = 2⁻²⁴: each of two products errs by 8 u, the rotation by 14 u. The error of q's length, 8 u, enters
-    // twice.
+    // Error limits, with u = 2⁻²⁴: each of two products errs by 8 u, the rotation by 14 u. The error of q's length, 8
+    // u, counts twice.
     REQUIRE(length(turned(q, v) - Vec{by_product.x, by_product.y, by_product.z}) <= 46 * u * length(v));
     REQUIRE(length(turned_back(q, turned(q, v)) - v) <= 44 * u * length(v));
     worst = std::max(worst, std::abs(size(q) - 1));

@@ -1,5 +1,5 @@
-// Tests kernels of rods that no stage judges alone: frames at the start and the end of a step, the numbers of a row,
-// and the published update of a frame.
+// Tests kernels of rods that no stage judges alone: frames at the start and the end of a step, metrics of rods, and the
+// published update of a frame.
 #include <array>
 #include <random>
 

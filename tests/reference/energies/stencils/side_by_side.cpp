@@ -59,8 +59,8 @@ Matrix<N> with_eigenvalues(Draw& draw, const std::array<double, N>& values) {
   return 0.5 * (h + h.transpose());
 }
 
-/// Returns matrices of several kinds: arbitrary, with equal eigenvalues, over many orders of magnitude, of low rank,
-/// diagonal, coupled in parts.
+/// Returns a matrix of the given kind: arbitrary, with equal moduli of eigenvalues, over many orders of magnitude, of
+/// low rank, diagonal, or without coupling between even and odd rows.
 template <std::size_t N>
 Matrix<N> matrix_of_kind(Draw& draw, int kind) {
   std::array<double, N> values;

@@ -33,8 +33,9 @@ std::vector<reference::StencilDerivatives> differentiated(
   return result;
 }
 
-/// Returns whether two derivatives have the same bits; zeros of either sign are equal. Compares only the lower triangle
-/// of the Hessian: the upper one is its mirror image in batches, and differs by roundings for single stencils.
+/// Returns whether energies, gradients and lower triangles of the Hessians have the same bits; zeros of either sign are
+/// equal. The upper triangle of a Hessian is a copy of the lower one in batches, but differs by roundings for single
+/// stencils.
 inline bool same_bits(const reference::StencilDerivatives& a, const reference::StencilDerivatives& b) {
   bool same = a.energy == b.energy && a.gradient == b.gradient;
   for (std::size_t i = 0; i < 12; ++i)

@@ -194,8 +194,8 @@ TEST_CASE(
     };
     const Mollifier<double> mollifier(x[1] - x[0], x[3] - x[2], side * side, side * side);
     acted += mollifier.acts();
-    // The mollifier changes by its own size if the sine of the edges' angle does, or, for parallel edges, if the sine
-    // reaches the mollifier's limit 0.03.
+    // The mollifier changes by its own size if the sine of the edges' angle changes by its own size. If the edges are
+    // parallel, the sine must reach the mollifier's limit 0.03.
     check_all<4>(x, 1e-3 * side, form.kind != FormKind::fixed_weights, energy);
   }
   CHECK(acted > 20);
@@ -240,7 +240,7 @@ TEST_CASE(
     for (std::size_t k = static_cast<std::size_t>(vertex_count(sides)); k < 4; ++k) x[k] = {};
     const ClosestForm form = closest_form(sides, x);
     const double d = form_distance(form, x);
-    // Skips cases whose differences would cross r or r/2, where the activation's stages end, or come near the
+    // Skips cases whose differences would cross r or r/2, where the activation's formula changes, or come near the
     // activation's pole d = 0.
     if (d > 0.95 * r || d < 0.1 * r || std::abs(d - r / 2) < 1e-3 * r || form.kind == FormKind::fixed_weights) continue;
     ++forms[static_cast<std::size_t>(form.kind)];

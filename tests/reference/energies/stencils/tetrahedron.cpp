@@ -68,7 +68,7 @@ TEST_CASE("tetrahedron: the stage's force and block are the derivatives of Newto
       const StencilDerivatives all = stencil_derivatives<4>(x, HessianProjection::none,
                                                             [&](const auto& at) { return term.energy(at); });
       const compare::ForceAnswer answer = tetrahedron(question_of(term, x, start));
-      // 1/6 is rounded to single precision, which changes a product by 2⁻²⁵ of it.
+      // 1/6 is rounded to single precision, which changes a product by 2⁻²⁵ of its size.
       const double margin = 1e-7 * answer.force_scale;
       CHECK(answer.force.x == Approx(-all.gradient[0]).margin(margin));
       CHECK(answer.force.y == Approx(-all.gradient[1]).margin(margin));

@@ -54,7 +54,7 @@ struct Sheets {
 TEST_CASE("what closes a contact is taken, and what opens it or goes along it is left", "[unit]") {
   CHECK(held_by(above({}), {1, 2, -3}) == Move{1, 2, 0});
   CHECK(held_by(above({}), {1, 2, 3}) == Move{1, 2, 3});
-  // If the vertex lies below its partner, its weight is negative.
+  // A vertex below its partner has a negative weight.
   CHECK(held_by(above({}, 0, -1), {1, 2, 3}) == Move{1, 2, 0});
   CHECK(held_by(above({}, 0, -0.5), {1, 2, -3}) == Move{1, 2, -3});
 }
@@ -73,7 +73,7 @@ TEST_CASE("friction takes slip up to mu times the approach that was taken", "[un
   CHECK(between(held_by(above({}, 0.5), {3, 4, -2}), {2.4, 3.2, 0}) < 1e-15);
   CHECK(held_by(above({}, 0.5), {0.3, 0.4, -2}) == Move{0, 0, 0});
   CHECK(held_by(above({}, 0.5), {3, 4, 2}) == Move{3, 4, 2});
-  // Slip is relative to the partner, which takes the vertex along.
+  // Slip is measured relative to the partner, so friction moves the vertex with the partner.
   CHECK(held_by(above({-1, 0, 0}, 1), {0, 0, -2}) == Move{1, 0, 0});
   CHECK(between(held_by(above({-5, 0, 0}, 1), {0, 0, -2}), {2, 0, 0}) < 1e-15);
 }

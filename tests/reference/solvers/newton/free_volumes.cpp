@@ -99,7 +99,8 @@ TEST_CASE("free volumes: Newton's method and converged sweeps end at the same mi
     // volumes.cpp in this folder derives this limit.
     for (std::size_t v = 0; v < a.positions.size(); ++v)
       CHECK(distance(a.positions[v], b.positions[v]) < std::pow(3, step) * std::sqrt(3) * 0x1p-25 * 0.12);
-    // Only single steps are compared: a contact in only one of both runs would enlarge their difference.
+    // Both solvers start the next step from the same state. Otherwise a contact in only one of the runs would enlarge
+    // the difference.
     vbd->restore(a);
   }
 }

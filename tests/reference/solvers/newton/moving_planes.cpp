@@ -47,7 +47,8 @@ State shifted(const State& x, double share, const State& step) {
   return to;
 }
 
-/// Returns two free sheets `gap` apart. The upper one is tilted, and no vertex lies above one of the lower sheet.
+/// Returns two free sheets `gap` apart. The upper sheet is sheared, so none of its vertices lies straight above a
+/// vertex of the lower sheet.
 compare::Scene facing(double gap) {
   compare::Scene scene;
   scene.name = "facing";
@@ -110,7 +111,7 @@ TEST_CASE("pair by pair: sheets leave one another as far as the balls let them, 
   const State step = held.planes.truncated(x, uniform(held, {0, 2e-3, 0}, {0, -1e-3, 0})), end = shifted(x, 1, step);
   const auto distances = compare::smallest_distances(held.topology, compare::to_double(rounded(end)), held.exclusions);
   const double least = std::min(distances.vertex_triangle, distances.edge_edge);
-  // At least 1 − 2γ_p of the gap is left. Sweeps may leave more, because they are no projection.
+  // At least 1 − 2γ_p of the gap is left. Sweeps may leave more, because they do not project onto the regions.
   CHECK(least > 0.0999e-4);
 }
 

@@ -101,7 +101,7 @@ TEST_CASE("rods: Newton's method and converged sweeps end at the same minimiser"
     vbd->advance(1);
   }
   const compare::Snapshot a = newton->snapshot(), b = vbd->snapshot();
-  // Each of five steps rounds both results to single precision, within 1 cm of the origin, by 2⁻²⁴ of 1 cm.
+  // Coordinates are below 1 cm. In each of five steps both solvers round them to single precision, by 2⁻²⁴ of 1 cm.
   for (std::size_t v = 0; v < points.size(); ++v) CHECK(distance(a.positions[v], b.positions[v]) < 5e-9);
   for (std::size_t e = 0; e < a.orientations.size(); ++e)
     for (std::size_t k = 0; k < 4; ++k)
@@ -178,7 +178,7 @@ TEST_CASE("rods: a ring of a straight rod with k_b = GJ leaves its plane at a tw
                                                            is_held ? 0 : ripple * radius * std::sin(2 * angle * k)};
     }
     // Frames follow the polygon. Side e has the direction of the x axis, rotated by -angle (e + 1/2) about z. Each
-    // frame is also rotated about its director by the twist of the ring at its side.
+    // frame is also rotated about its director by the ring's twist at side e.
     const double twist = share_of_critical * std::sqrt(3.0) * angle;
     for (Index e = 0; e < n; ++e) {
       const double way = -angle * (e + 0.5) / 2, turn = twist * e / 2, half = std::sqrt(0.5);

@@ -98,9 +98,9 @@ TEST_CASE("Newton: sheets in contact that fly together stay as they are, however
 }
 
 TEST_CASE("Newton: a stiff sheet that one close vertex holds back leaves as fast as its balls grow", "[property]") {
-  // The sheet flies 1 cm per step away from a patch 10 µm below its middle. If all vertices move alike, the distance
-  // grows by γ_p of itself in an iteration. With the direction δ', truncated vertex by vertex (method.md §7.6), the
-  // middle would stay behind, and the sheet would bend.
+  // The sheet flies 1 cm per step away from a patch 10 µm below its middle. If all vertices move alike, each iteration
+  // multiplies the distance by 1 + γ_p. With the direction δ', truncated vertex by vertex (method.md §7.6), the middle
+  // would stay behind, and the sheet would bend.
   compare::Scene scene;
   scene.name = "held";
   compare::Material stiff = heavy();
@@ -121,9 +121,9 @@ TEST_CASE("Newton: a stiff sheet that one close vertex holds back leaves as fast
 }
 
 TEST_CASE("Newton: sheets that are nearly closed and travel far together converge quadratically", "[property]") {
-  // The middle of two sheets 10 µm apart lands on a patch, and their rims fly on for 3 mm. Truncation alone scales the
-  // motion of each of two facing vertices to a thousandth, and with it their relative motion. Springs on cut vertices
-  // (method.md §7.6) keep the relative motion.
+  // Two sheets 10 µm apart fall. A small patch stops their middle, and their rims move on by 3 mm. Truncation alone
+  // scales the motion of each of two facing vertices to a thousandth, and so also their relative motion. Springs on cut
+  // vertices (method.md §7.6) preserve the relative motion.
   compare::Scene scene;
   scene.name = "closed";
   compare::Material material;
@@ -334,8 +334,8 @@ TEST_CASE("Newton: friction solves go on until one changes nothing, and end with
   once->restore(before.end);
   once->advance(1);
   const double lagged = meter.at(once->snapshot().positions).share;
-  // The settled state has only the error of stored positions. After one solve, friction is lagged to the previous step,
-  // so its force differs.
+  // The settled state has only the error of stored positions. After one solve, friction still depends on the state of
+  // the previous step, so its force differs.
   CHECK(settled < 1e-4);
   CHECK(lagged > 10 * settled);
 }
