@@ -41,7 +41,7 @@ class Windows {
   std::vector<std::string> stage_names() const { return simulation_->stage_names(); }
   std::string device() const { return simulation_->device(); }
   const fast::SweepWork& work() const { return work_; }
-  /// Returns the work of one detection at the end of the windows.
+  /// Returns the work of a detection in the state at the end of a window.
   const fast::SearchWork& searches() {
     if (!searches_) {
       const compare::Snapshot end = simulation_->snapshot();
@@ -166,8 +166,8 @@ class Registrar {
   }
 
  private:
-  /// Names of the parts of a step on the fast path, in the order of StepMetrics::stage_ms; a measurement checks its
-  /// name.
+  /// Names of the parts of a step on the fast path, in the order of StepMetrics::stage_ms. A measurement throws if the
+  /// simulation gives its part another name.
   static constexpr std::array<std::string_view, 5> stages{"begin", "detection", "initial_guess", "sweep", "metrics"};
 
   void add_one(const std::string& name, const std::function<BenchScene()>& make, fast::Backend backend,

@@ -37,7 +37,7 @@ Bytes bytes_of_one(const Item& item) {
 struct BlockHead {
   std::uint64_t mark = right_mark;  ///< tells a head from other bytes
   std::uint64_t length = 0;         ///< of the block behind the head [bytes]
-  /// The bytes "gc-block", which a plug-in hardly sends by chance as a length, a count or text.
+  /// The bytes "gc-block". A plug-in is unlikely to send them by chance in a length, a count or a text.
   static constexpr std::uint64_t right_mark = 0x6b636f6c622d6367;
 };
 

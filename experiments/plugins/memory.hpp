@@ -25,7 +25,8 @@ class PluginMemory {
   virtual ~PluginMemory() = default;
   /// Returns a read-only copy that lives until `release`.
   virtual const void* input(Bytes content) = 0;
-  /// Returns `bytes` of memory that live until `release`, filled with the pattern for `unit` (4 bytes or 1).
+  /// Returns `bytes` of memory that live until `release`. They are filled with the pattern for elements of `unit` bytes
+  /// (4 or 1).
   virtual void* output(std::size_t bytes, std::size_t unit) = 0;
   /// Waits until all work on the device has finished. Throws std::runtime_error if the device reports an error.
   virtual void synchronize() = 0;

@@ -145,7 +145,7 @@ class Call {
     return {CallResult::Status::answered, arrays.counts, seconds};
   }
 
-  /// Returns the first list that is longer than its room.
+  /// Returns the index of the first list that is longer than its capacity.
   std::optional<std::size_t> too_long(const CallResult& result) const {
     for (std::size_t k = 0; k < list_count; ++k)
       if (result.counts[k] > capacities_[k]) return k;

@@ -84,7 +84,8 @@ class Band {
   Band(const char* name, std::array<Index, 2> cells, std::array<double, 2> heights, std::array<double, 2> radii)
       : name_(name), rows_(cells[0]), columns_(cells[1]), heights_(heights), radii_(radii) {}
 
-  /// Appends the band. Its upper edge lies on the straight lines between the slots of the lower edge of `above`.
+  /// Appends the band. Its upper edge follows the straight lines between neighbouring vertices of the lower edge of
+  /// `above`.
   void append(Scene& scene, const Band* above) {
     const Mesh cut{{}, cross_diagonals(rows_ + 1, columns_ + 1), {}};
     for (Index panel = 0; panel < quarters; ++panel) {
@@ -109,7 +110,7 @@ class Band {
   }
 
   Index slots() const { return quarters * columns_; }
-  /// Returns the vertices at a slot of a row: one, or two where panels meet.
+  /// Returns the vertices of a row at one position around the body (slot): one, or two where panels meet.
   std::vector<Index> vertices_at(Index row, Index slot) const {
     const Index panel = slot / columns_ % quarters, column = slot % columns_;
     if (column > 0) return {vertex(panel, row, column)};

@@ -9,7 +9,7 @@ namespace ogc::experiments {
 /// regime is always that of r = 5 mm on 200 × 200.
 struct LargeRadiusTwistSizes {
   compare::Index vertices_a_side = 200;  ///< of the cloth
-  std::int64_t steps = 1200;             ///< 4 s: half a turn of one end relative to the other
+  std::int64_t steps = 1200;             ///< 4 s, in which one end rotates by 180° relative to the other
 };
 
 /// Returns the scene: cloth and handles of twist, which rotate at ±π/8 rad/s. IPC's barrier distance is r.

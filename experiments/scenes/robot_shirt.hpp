@@ -19,20 +19,20 @@ struct RobotShirtSizes {
 
 /// Returns the scene. The shirt lies flat on a fixed table at y = 0, with the shoulders along the x axis and the hem
 /// towards −z. Back and front are 1.05 r apart and start in their rest shape, with an ironed crease where they meet.
-/// They are two panels, stitched along the shoulders and joined along sides and sleeves. This follows from the paper's
-/// counts: 2 · 13.8K − 27.4K = 200 ± 150 equals the number of boundary edges plus twice the Euler characteristic, and
-/// already a single open sheet of 27.4K triangles would have 470.
+/// They are two panels, stitched along the shoulders and joined along sides and sleeves. The paper's counts show that
+/// its shirt has this topology. The number of boundary edges plus twice the Euler characteristic is 2 · 13.8K − 27.4K =
+/// 200 ± 150; a single open sheet of 27.4K triangles would have 470.
 ///
 /// The table ends 6 cm before the shoulders; the lower jaws start under the shoulders at y = 0. Jaws are closed boxes.
 /// Each gripper is one motion with keyframes 1/60 s apart: approach and pinch (0.5 s), lift, shake, move back, lay
 /// down, fold over, open and withdraw (6 s). The pinch narrows the jaws to 2.2 r, which presses the two layers, because
-/// at rest each layer is r away from its neighbours. While they hold the shirt, jaws move at most at 0.35 m/s, 0.3 r a
-/// step. Jaws are volumes with the paper's γ_e = 0.01; the table is a surface.
-/// As surfaces (`--set body_contact=surface`) jaws obey bounds, up to γ_p r_q = 3.6 mm in one detection. Cloth that a
-/// jaw lifts is closer than r, so both move by less than r/2. With a lift at 1 m/s and γ_e = 0.01 the few vertices
-/// between jaws and shirt trigger no detection. Distances then fall below the spacing of single precision, and the
-/// lower jaws never catch up; they lag by 0.83 m at paper scale. So one cut vertex triggers a detection (γ_e = 0, our
-/// choice), as in `dress`.
+/// at rest each layer is r away from its neighbours. While they hold the shirt, jaws move at most at 0.35 m/s, 0.3 r
+/// per step. Jaws are volumes with the paper's γ_e = 0.01; the table is a surface. As surfaces (`--set
+/// body_contact=surface`) jaws obey bounds, up to γ_p r_q = 3.6 mm in one detection. Cloth that a jaw lifts is closer
+/// than r, so cloth and jaw both move by less than r/2. If jaws lift at 1 m/s with γ_e = 0.01, the few vertices between
+/// jaws and shirt trigger no detection. Distances then fall below the spacing of single precision, and the lower jaws
+/// never catch up; they lag by 0.83 m at paper scale. So one cut vertex triggers a detection (γ_e = 0, our choice), as
+/// in `dress`.
 ///
 /// The material is that of `fifty_layers`, with Table 1's friction. Stitches have 100 N/m: where a seam bears 2.6 N/m,
 /// half of the weight on a shoulder of 0.3 m, they open by 0.2 mm, a tenth of r. This stiffness and the whole

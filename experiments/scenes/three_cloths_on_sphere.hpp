@@ -13,7 +13,8 @@ struct ThreeClothsSizes {
   std::int64_t iterations = 500;        ///< sweeps in each step
 };
 
-/// Returns the scene: the sphere of cloth_on_sphere and three of its cloths, at y = 0.30 m and 2 r and 4 r above.
+/// Returns the scene: the sphere of cloth_on_sphere and three of its cloths, the lowest at y = 0.30 m, the others 2 r
+/// and 4 r above the lowest.
 compare::Scene three_cloths_on_sphere(const ThreeClothsSizes& sizes = {});
 
 }  // namespace ogc::experiments

@@ -59,7 +59,8 @@ std::vector<double> equal_arcs() {
 /// Sets numbers below 1 nm to 0, so that exact arithmetic stays cheap.
 double tidy(double x) { return std::abs(x) < 1e-9 ? 0 : x; }
 
-/// Returns the yarn from end to end, centred in the plane z = 0. Wales run along y.
+/// Returns the vertices of the yarn from end to end, centred in the plane z = 0. Wales (columns of stitches) run along
+/// y.
 std::vector<Vec3> knit(const YarnSizes& sizes) {
   const std::vector<double> parameters = equal_arcs();
   std::vector<Vec3> row;

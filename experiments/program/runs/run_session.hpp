@@ -91,7 +91,8 @@ struct RunSummary {
   double left_residual = 0, left_held = 0;
   std::size_t audited_states = 0, failed_states = 0, intersections = 0, certificate_violations = 0, unsafe_bounds = 0;
   bool has_volumes = false;  ///< the next members describe the states that this command audited, if there are volumes
-  /// largest numbers of vertices inside and of edges that meet a surface; vertices inside at the start
+  /// largest number of vertices inside volumes, largest number of edges that meet a volume's surface, and number of
+  /// vertices inside at the start
   std::size_t most_inside = 0, most_edges_meeting = 0, inside_at_start = 0;
   double deepest = 0;                ///< largest depth inside a volume [m]
   std::int64_t deepest_step = 0;     ///< step of the largest depth

@@ -17,8 +17,9 @@ inline constexpr double largest_diagonal = 20;
 /// Largest r without a warning, in median edges of a body. With a larger r, vertices are in contact with mesh
 /// neighbours that are several rings away.
 inline constexpr double most_edges_a_radius = 2;
-/// Largest distance without a warning between keyframes and their body at the start, in multiples of r. The body covers
-/// this distance in the first step. A jump so small can't pass a contact, and the rounding of files is far smaller.
+/// Largest distance between the first keyframe and its body at the start that causes no warning, in multiples of r. The
+/// body covers this distance in the first step, and so short a motion can't pass through a contact. The rounding of
+/// files causes far smaller distances.
 inline constexpr double most_radii_from_keys = 0.01;
 /// Largest share of a step's motion that truncation may take without a warning (MomentumShare).
 inline constexpr double most_momentum_lost = 0.5;
@@ -35,7 +36,7 @@ inline constexpr double most_force_left = 0.1;
 /// fall.
 class ForcesLeft {
  public:
-  /// Adds a step's row if it has these numbers.
+  /// Adds the residual and the number of held vertices of a step, if the step counts.
   void look_at(const compare::StepMetrics& row);
   /// Returns the number of steps that count.
   std::size_t steps() const { return residuals_.size(); }
@@ -56,9 +57,10 @@ class Warnings {
   /// bending. Also warns of a large tolerated speed at the end of IPC's steps, and of keyframes that begin away from
   /// their body.
   explicit Warnings(const compare::Scene& scene, Solver solver = Solver::vbd);
-  /// Checks a step: the loss of a guess loop that did all its rounds (MomentumShare; empty: not known), the lag of
-  /// prescribed vertices, and whether bounds end most_held_steps in a row. Returns a warning for the first step of each
-  /// kind; `list` names the worst step.
+  /// Checks a step for three kinds of warning: the guess loop did all its rounds and lost much of the motion,
+  /// prescribed vertices lag, or bounds held all vertices in most_held_steps steps in a row. `momentum_lost`:
+  /// MomentumShare::lost; empty if it is not known. Returns a warning for the first step of each kind; `list` names the
+  /// worst step.
   std::vector<std::string> look_at(const compare::StepMetrics& row, std::optional<double> momentum_lost);
   /// Returns the forces that the steps left so far.
   const ForcesLeft& forces_left() const { return forces_left_; }

@@ -19,8 +19,9 @@ namespace {
 
 using Simplex = std::vector<Index>;
 
-/// Solves the equations `rows` for the unknowns in the bit set `set`; the others are 0. Returns the solution if it is
-/// unique and non-negative, else an empty list. The last entry of a row is its right side.
+/// Solves the linear equations `rows` for the unknowns in the bit set `set`; the other unknowns are 0. Returns the
+/// solution if it is unique and non-negative, else an empty list. The last number of a row is the right-hand side of
+/// its equation.
 std::vector<Rational> basic_solution(const std::vector<Row>& rows, std::size_t columns, unsigned set) {
   std::vector<Row> chosen(rows.size());
   std::vector<std::size_t> place;

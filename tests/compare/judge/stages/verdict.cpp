@@ -14,8 +14,8 @@ constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
 
 std::string first_message(const Tally& tally) { return tally.mismatches.empty() ? "" : tally.mismatches[0].message; }
 
-/// A point at distance 1 above the corner (0, 0, 0) of a right triangle. It lies on the planes between the corner and
-/// both of its edges; the exact answer is the corner.
+/// A point at distance 1 above the corner (0, 0, 0) of a right triangle. It lies on the two planes that separate the
+/// Voronoi region of this corner from those of its edges. The exact answer is the corner.
 struct FaceFixture {
   std::vector<TestCase> cases{{{Stage::closest_face, "uniform", 0, 0, "", {}}, ClosestFaceCase{}}};
   ClosestFaceIn in{{{0, 0, 1}}, {{Vec3f{0, 0, 0}, Vec3f{1, 0, 0}, Vec3f{0, 1, 0}}}};
