@@ -36,10 +36,10 @@ struct BenchChange {
 
 /// Holds the comparison of two result files.
 struct BenchComparison {
-  std::vector<BenchChange> changes;                  ///< by name
+  std::vector<BenchChange> changes;                  ///< one change for each benchmark that both files have
   std::vector<std::string> only_before, only_after;  ///< benchmarks that only one file has
   std::vector<std::string> differing_context;        ///< "device_cpu: 2 threads, then 16 threads"
-  /// false: a file has only one process, so that p does not cover differences between processes
+  /// false: a file has only one process, so that BenchChange::probability does not cover differences between processes
   bool is_of_processes = true;
   /// Returns whether any benchmark has become slower.
   bool has_slower() const;

@@ -27,7 +27,7 @@ enum class LoadStatus : std::uint8_t {
 struct CallResult {
   /// broken: the next question needs a new process
   enum class Status : std::uint8_t { answered, failed, broken } status = Status::answered;
-  ListSizes counts{1};  ///< entries of the lists that the stage has
+  ListSizes counts{1};  ///< number of entries of each list
   double seconds = 0;   ///< time of the plug-in's function, including the device's work
 };
 

@@ -33,8 +33,8 @@ Vec3 coil(const Vec3& axis, double turn) {
   return axis + Vec3{0.12 * turn, 0.09 * std::cos(angle), 0.09 * std::sin(angle)};
 }
 
-/// Returns the control points [m]: three coils, four overhand knots, and three coils about the continuation of the
-/// first coils' axis.
+/// Returns the control points [m]: three coils, four overhand knots, and three more coils about the extended axis of
+/// the first coils.
 std::vector<Vec3> control_points() {
   std::vector<Vec3> points{{-0.9, -0.4, 0.035}};
   for (int third = 4; third < 12; ++third) points.push_back(coil({-0.9, -0.3, 0.035}, third / 3.0));

@@ -9,7 +9,7 @@ namespace ogc::experiments {
 /// Holds the sizes in cells of the shirt's grid; the defaults give the paper's number of vertices and triangles.
 /// `across` cells are 0.45 m wide; the contact radius is proportional to the spacing.
 struct RobotShirtSizes {
-  compare::Index across = 56, length = 105;              ///< of front and back; `across` is even
+  compare::Index across = 56, length = 105;              ///< cells of front and back; `across` is even
   compare::Index sleeve_rows = 20, sleeve_columns = 26;  ///< width of a flat sleeve, and its length
   compare::Index neck_columns = 10;                      ///< half of the width of the neck
   compare::Index front_neck = 8, back_neck = 2;          ///< depth of the neck in its middle

@@ -55,8 +55,8 @@ Face face_of(const Topology& topology, Index t, TriangleFeature feature) {
   return {FaceKind::triangle, t};
 }
 
-/// Lists the closest face of every triangle within r without the block test. k triangles around an edge, seen from the
-/// concave side, then give k contacts.
+/// Lists the closest face of every triangle within r without the block test. A vertex on the concave side of an edge
+/// with k triangles then gets k contacts.
 void without_feasible_region(const DetectIn& in, const Authority& authority, DetectVertexFacetOut& out) {
   const Topology& topology = *in.topology;
   for (Index v = 0; v < topology.vertex_count; ++v) {

@@ -70,8 +70,8 @@ struct Question {
   static void keep_nearer(Nearest& best, const Nearest& other) {
     if (other.distance < best.distance) best = other;
   }
-  // is_before_vertex tests whether p is in the block of vertex w (Eq. 8). is_before_edge tests that no triangle of edge
-  // e lies on the side of p (Eq. 9).
+  // is_before_vertex tests whether p is in the block of vertex w (Eq. 8). is_before_edge tests that p is beyond edge e
+  // for each triangle of e, so that no triangle is nearer than the edge (Eq. 9).
   bool is_before_vertex(Vec p, int w) const {
     for (int k = mesh.vertex_neighbours.offsets[w]; k < mesh.vertex_neighbours.offsets[w + 1]; ++k)
       if (!is_beyond(p, w, mesh.vertex_neighbours.items[k])) return false;

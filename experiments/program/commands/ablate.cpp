@@ -353,8 +353,8 @@ std::string counted_run(const std::string& name, std::size_t i, std::size_t coun
   return name + " (" + std::to_string(i + 1) + " of " + std::to_string(count) + ")";
 }
 
-/// Makes the missing runs of the grid in `folder`, each in a separate process. A run that fails there is continued when
-/// the grid is tabulated, or fails again.
+/// Makes the missing runs of the grid in `folder`, each in a separate process. A run that fails in its process is
+/// continued by this process when it tabulates the grid, or fails again.
 void make_side_by_side(const AblateOptions& options, const std::vector<PlannedRun>& planned, const CLI::App& command,
                        const std::string& folder) {
   std::vector<OwnCommand> commands;

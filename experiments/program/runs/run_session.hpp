@@ -72,7 +72,7 @@ struct RunSummary {
   std::string left_out_of_audits;    ///< in words; empty if nothing is left out
   AuditMode audit = AuditMode::off;  ///< which states were requested for audits
   std::string failure;           ///< description of the failure, with the names of primitives; empty if there was none
-  bool was_interrupted = false;  ///< Ctrl-C ended it
+  bool was_interrupted = false;  ///< whether Ctrl-C ended the run
   bool is_unbounded = false;     ///< bounds=off: nothing is guaranteed
   std::int64_t first_step = 0, last_step = 0;  ///< numbers of the first and the last state
   double median_ms = 0, worst_ms = 0;          ///< times of a step

@@ -24,11 +24,11 @@ inline constexpr double most_radii_from_keys = 0.01;
 /// Largest share of a step's motion that truncation may take without a warning (MomentumShare).
 inline constexpr double most_momentum_lost = 0.5;
 
-/// Number of consecutive steps, each ending with every free vertex cut by its bound, that causes a warning.
+/// Number of consecutive steps that causes a warning if bounds cut every free vertex in each of them.
 inline constexpr std::int64_t most_held_steps = 10;
 
-/// Largest residual (Eq. 29, the share of the force that is left on free vertices) of the median step without a
-/// warning.
+/// Largest residual of the median step that causes no warning. The residual is the share of the force that is left on
+/// free vertices (Eq. 29).
 inline constexpr double most_force_left = 0.1;
 
 /// Collects the residuals (Eq. 29) that the steps of a run leave. A step counts only if the part of its residual that

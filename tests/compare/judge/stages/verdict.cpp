@@ -79,8 +79,8 @@ TEST_CASE("closest_face: features are accepted on both sides of a grey boundary 
 
 TEST_CASE("closest_face: distances, bounds and weights", "[unit]") {
   FaceFixture test;
-  // The unit is 2⁻²⁴ Σ|δ|, where δ are the differences of the point and the corners: Σ|δ| = 1 + 2 + 2 = 5. The
-  // tolerance is 12 units, 3.6e-6.
+  // The error scale is 2⁻²⁴ Σ|δ|, where δ are the differences of the point and the corners: Σ|δ| = 1 + 2 + 2 = 5. The
+  // tolerance is 12 times the error scale, 3.6e-6.
   test.out.distance[0] = 1 + 3.5e-6f;
   REQUIRE(test.verdict().empty());
   test.out.distance[0] = 1 + 3.8e-6f;
