@@ -38,7 +38,7 @@ double tie_sum(std::span<const double> before, std::span<const double> after) {
 /// set; in the second term it belongs to the second set. Shares replace counts so that nothing overflows.
 double share_up_to(std::size_t n, std::size_t m, std::size_t u) {
   const std::size_t most = n * m;
-  // by_second[j][u]: the share for j values in the second set and the current size of the first set
+  // by_second[j][u]: share of orders with U = u, for sets of i and j values
   std::vector<std::vector<double>> by_second(m + 1, std::vector<double>(most + 1, 0));
   for (auto& shares : by_second) shares[0] = 1;
   for (std::size_t i = 1; i <= n; ++i) {

@@ -43,7 +43,7 @@ enum class List : std::uint8_t {
   volume_contacts
 };
 inline constexpr std::size_t list_count = 10;
-/// Number of entries of each list, or room for them; 1 for `none`.
+/// Number of entries of each list, or capacity of each list; 1 for `none`.
 using ListSizes = std::array<std::int64_t, list_count>;
 
 /// Describes one output array of a stage.
@@ -62,7 +62,7 @@ constexpr std::size_t bytes_of(Element element) {
 constexpr std::size_t group_bytes(const OutputInfo& info) { return bytes_of(info.element) * info.elements; }
 /// Returns the number of groups.
 std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, const ListSizes& lists);
-/// Returns the room for the lists at the first call.
+/// Returns the capacities of the lists for the first call.
 ListSizes first_capacities(const QuestionSizes& sizes);
 /// Returns upper limits for every correct answer; never below first_capacities.
 ListSizes most_entries(const QuestionSizes& sizes);

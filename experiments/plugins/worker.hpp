@@ -31,7 +31,7 @@ struct CallResult {
   double seconds = 0;   ///< time of the plug-in's function, including the device's work
 };
 
-/// Holds a question, which its arrays follow.
+/// Holds the beginning of a question. The arrays of the question follow it.
 struct CallRequest {
   std::uint64_t stage = 0;  ///< position in plugin_stages()
   QuestionSizes sizes;

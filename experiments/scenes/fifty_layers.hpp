@@ -15,7 +15,7 @@ struct FiftyLayersSizes {
   double contact_radius = 3e-3;         ///< r [m]
   double shift = 3e-3;                  ///< standard deviation of each layer's shift in x and in z [m]
   CylinderCells cylinder{};             ///< cells of its mesh
-  /// 4 s. The layers come to rest only later, for which `ogc run --steps` is needed.
+  /// 4 s. Layers come to rest later than this; `ogc run --steps` extends the run.
   std::int64_t steps = 4800;
   std::uint64_t seed = 0;  ///< seed of the shifts
 };

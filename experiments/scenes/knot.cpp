@@ -26,8 +26,8 @@ Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Returns a point of a coil about an axis along x, with radius 0.09 m and pitch 0.12 m. `turn`: number of turns from
-/// its top.
+/// Returns a point of a coil about an axis along x, with radius 0.09 m and pitch 0.12 m. `turn`: number of revolutions
+/// from the coil's top.
 Vec3 coil(const Vec3& axis, double turn) {
   const double angle = 2 * std::numbers::pi * turn;
   return axis + Vec3{0.12 * turn, 0.09 * std::cos(angle), 0.09 * std::sin(angle)};

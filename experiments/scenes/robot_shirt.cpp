@@ -113,7 +113,8 @@ compare::Mesh table(double spacing) {
   return mesh;
 }
 
-/// Holds the pose of both grippers [m]: the upper side of the lower jaws, and the distance of the upper jaws from it.
+/// Holds the pose of both grippers [m]: position of the lower jaws' upper side, and gap between this side and the upper
+/// jaws.
 struct Pose {
   double y, z, opening;
 };

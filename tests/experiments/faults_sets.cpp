@@ -122,7 +122,7 @@ struct OverlapEnd {
 };
 
 /// Returns the ends of the overlap, computed in double. The line between exactly parallel edges is perpendicular to
-/// both, so the block test allows a rounding error above 0.
+/// both. Its product with an edge is 0 except for rounding, so the block test allows slightly more than 0.
 std::vector<OverlapEnd> ends_of_overlap(const DetectIn& in, const Edge& e, const Edge& f) {
   const auto at = [&](Index v) { return Vec3{in.positions[v].x, in.positions[v].y, in.positions[v].z}; };
   const auto in_block = [&](Index v, const Vec3& c) {

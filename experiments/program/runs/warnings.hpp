@@ -52,10 +52,10 @@ class ForcesLeft {
 /// Collects the warnings of a run, each kind at most once.
 class Warnings {
  public:
-  /// Checks the scene's start; the scene must be rounded and valid. Warns of bounds=off, the size of the bounding box,
-  /// r against the edges of each body and against the thickness of each solid, and curved rest shapes with isometric
-  /// bending. Also warns of a large tolerated speed at the end of IPC's steps, and of keyframes that begin away from
-  /// their body.
+  /// Checks the scene's start; the scene must be rounded and valid. Warns of bounds=off, of a large bounding box, of an
+  /// r that is large for the edges of a body or the thickness of a solid, and of curved rest shapes with isometric
+  /// bending. Also warns of a large tolerated speed at the end of IPC's steps, and of first keyframes that differ from
+  /// their body's start.
   explicit Warnings(const compare::Scene& scene, Solver solver = Solver::vbd);
   /// Checks a step for three kinds of warning: the guess loop did all its rounds and lost much of the motion,
   /// prescribed vertices lag, or bounds held all vertices in most_held_steps steps in a row. `momentum_lost`:
