@@ -27,7 +27,7 @@ Json parse_results(const std::filesystem::path& file);
 /// Holds the change of one benchmark that both files have.
 struct BenchChange {
   std::string name;                                   ///< name of the benchmark
-  std::size_t samples_before = 0, samples_after = 0;  ///< times in each file
+  std::size_t samples_before = 0, samples_after = 0;  ///< number of times in each file
   double before_ns = 0, after_ns = 0;                 ///< medians
   double ratio = 1;                                   ///< after / before (typical_ratio)
   double probability = 1;  ///< p of Mann–Whitney, corrected by Holm over all compared benchmarks

@@ -161,7 +161,8 @@ class Band {
 };
 
 /// Appends a strap: half a cone about an axis along x. The strap leads over the shoulder from the front of the bodice's
-/// upper edge to its back. Each of its columns of vertices begins and ends at a slot of the bodice. `side`: −1 or 1.
+/// upper edge to its back. Each column of the strap's vertices begins and ends at a vertex of this edge. `side`: −1 or
+/// 1.
 void append_strap(Scene& scene, const Band& bodice, Index cells, int side) {
   const Index around = bodice.slots();
   const auto slot_at = [&](double radians) {

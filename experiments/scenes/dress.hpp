@@ -8,7 +8,7 @@
 namespace ogc::experiments {
 
 /// Holds the numbers of cells of the stand-in's panels, [along the body, around a panel]. With the defaults the
-/// stand-in has about as many as the data set. The contact radius is proportional to the spacing.
+/// stand-in has about as many vertices as the data set. The contact radius is proportional to the spacing.
 struct DressSizes {
   std::array<compare::Index, 2> bodice{40, 30}, hips{28, 37}, hem{26, 48};  ///< cells of each panel
   compare::Index strap = 50;                                                ///< cells along a strap

@@ -1,4 +1,4 @@
-// Fig. 2: half a turn of a fine cloth whose contact radius is as large as its edges, to compare contact models.
+// Fig. 2: a fine cloth, whose contact radius is as large as its edges, is twisted by 180° to compare contact models.
 #pragma once
 
 #include "compare/problem/scene.hpp"

@@ -156,7 +156,7 @@ class Trajectory {
   std::vector<Waypoint> points_;
 };
 
-/// Appends two boxes at x = `centre` that form a gripper. They move apart vertically, and otherwise together.
+/// Appends two boxes at x = `centre` that form a gripper. They open and close vertically and share all other motion.
 void append_gripper(Scene& scene, const char* name, double centre, double spacing, const Trajectory& trajectory) {
   constexpr double thickness = 0.012, inner = -0.045, outer = 0.03, seconds_a_frame = 1.0 / 60, seconds = 6;
   const double half = std::max(0.03, 1.1 * spacing);

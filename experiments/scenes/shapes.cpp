@@ -66,7 +66,7 @@ void add_ring(Mesh& mesh, Index count, double radius, const Vec3& centre, double
 }
 
 /// Adds two triangles for each cell between two rings of `count` vertices, which begin at `from` and `to`. Normals
-/// point outward if the second ring lies towards +z, or inside the first one.
+/// point outward if the second ring lies towards +z, or inside the first ring.
 void join_rings(Mesh& mesh, Index count, Index from, Index to) {
   for (Index i = 0; i < count; ++i) {
     const Index next = (i + 1) % count;

@@ -103,7 +103,7 @@ class Auditor {
   void submit(compare::Snapshot snapshot);
   /// Returns the verdicts that are ready. Throws what the judge threw.
   std::vector<Verdict> take();
-  /// Waits until all submitted states are judged; otherwise like `take`.
+  /// Waits until all submitted states are judged. Returns the remaining verdicts. Throws what the judge threw.
   std::vector<Verdict> finish();
 
  private:

@@ -11,11 +11,11 @@
 
 namespace ogc::experiments {
 
-/// Largest plausible diagonal of a scene's bounding box [m]; a house is smaller. Longer ones suggest another unit than
-/// metres.
+/// Largest plausible diagonal of a scene's bounding box [m]; a house is smaller. A longer diagonal suggests another
+/// unit than metres.
 inline constexpr double largest_diagonal = 20;
-/// Largest r without a warning, in median edges of a body. With a larger r, vertices are in contact with mesh
-/// neighbours that are several rings away.
+/// Largest r that causes no warning, in median edge lengths of a body. With a larger r, vertices are in contact with
+/// mesh neighbours that are several rings away.
 inline constexpr double most_edges_a_radius = 2;
 /// Largest distance between the first keyframe and its body at the start that causes no warning, in multiples of r. The
 /// body covers this distance in the first step, and so short a motion can't pass through a contact. The rounding of
