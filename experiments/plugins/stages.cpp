@@ -352,8 +352,9 @@ std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, const Lis
   return static_cast<std::size_t>(of_each() * lists[static_cast<std::size_t>(info.list)]);
 }
 
-// Returns the room for lists at the first call. Room for contacts and planes is an estimate. Room for events and
-// detections is the most that Algorithm 3 needs, with a detection before each round and each iteration.
+// Returns the capacities of lists for the first call. For contacts and planes they are estimates. For events and
+// detections they are the largest numbers that Algorithm 3 needs, with a detection before each round and each
+// iteration.
 ListSizes first_capacities(const QuestionSizes& sizes) {
   const std::int64_t contacts = 64 + 4 * (std::int64_t{sizes.vertices} + sizes.edges),
                      rounds = sizes.settings.guess_rounds + sizes.settings.iterations;

@@ -1,6 +1,6 @@
-// Contacts dropped beyond a cap: each vertex has a fixed number of slots, and contacts that do not fit are dropped
-// without a message. (The public code has 32 slots; here there are 4, so that small meshes overflow.) Where cloth
-// folds, layers pass through each other because nothing separates them.
+// Drops contacts beyond a cap: each vertex has room for a fixed number of contacts, and further contacts are dropped
+// without a message. (The public code has room for 32; here it is 4, so that small meshes overflow.) Where cloth folds,
+// layers pass through each other because nothing separates them.
 #include <vector>
 
 #include "experiments/plugins/museum/geometry.h"
