@@ -45,7 +45,7 @@ struct BenchComparison {
   bool has_slower() const;
 };
 
-/// A benchmark changed if its corrected probability is below this.
+/// A benchmark has changed if its corrected probability is below this level.
 inline constexpr double significance = 0.01;
 
 /// Compares two result files by the rank test (experiments/bench/rank_test.hpp). Verdict::too_few: the files have so

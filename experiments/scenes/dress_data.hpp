@@ -26,8 +26,8 @@ struct DressData {
   std::vector<std::array<double, 2>> pattern;     ///< rest shape by vertex [m]
   compare::Mesh garment;                          ///< at the start [m]
   std::vector<compare::Index> panel_of_triangle;  ///< panel of each triangle, from 0
-  std::vector<Stitch> stitches;                   ///< stitches of the garment
-  compare::Mesh body;                             ///< at the start [m]
+  std::vector<Stitch> stitches;
+  compare::Mesh body;  ///< at the start [m]
   /// the body's vertices in each frame [m], translated so that frame 0 is at the body's start
   std::vector<std::vector<compare::Vec3>> motion;
 };

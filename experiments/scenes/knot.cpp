@@ -83,8 +83,8 @@ class Curve {
   std::vector<double> knots_;
 };
 
-/// Returns `count` points at equal distances along the curve. Lengths are measured on a polyline of 48,000 points, and
-/// parameters are interpolated linearly between these.
+/// Returns `count` points at equal distances along the curve. Lengths are measured on a polyline of 48,000 points;
+/// parameters are interpolated linearly between its points.
 std::vector<Vec3> equally_spaced(const Curve& curve, Index count) {
   constexpr int fine = 48'000;
   const auto parameter = [&](int k) { return static_cast<double>(curve.segments()) * k / (fine - 1); };

@@ -194,7 +194,7 @@ compare::Scene twist_at(Scale scale) {
   return twist();
 }
 
-/// Sets frames so frequent that a short run has several.
+/// Stores a frame every 20 steps, so that a short run has several frames.
 compare::Scene with_frames(compare::Scene scene) {
   scene.settings.frame_steps = 20;
   return scene;

@@ -55,7 +55,8 @@ class Pattern {
     const Index depth = layer == Layer::front ? sizes_.front_neck : sizes_.back_neck;
     return share > 1 || j >= std::lround(depth * std::sqrt(1 - share * share));
   }
-  /// Returns whether front and back share the vertex. They do along the sides, and below and above the sleeves.
+  /// Returns whether front and back share the vertex at grid point (p, q): along the sides, and below and above the
+  /// sleeves.
   bool is_joined(Index p, Index q) const {
     const Index out = std::abs(p);
     return out >= side_ && (q == 0 || (out == side_ && q >= sizes_.sleeve_rows) || q == sizes_.sleeve_rows);

@@ -74,8 +74,8 @@ using GuessContacts = std::vector<reference::GuessContact>;
 /// A wrong rule for the move that contacts leave to vertex v: it changes the contacts or the targets y.
 using Wrong = std::function<void(GuessContacts&, const Places& previous, Places& target, std::size_t v)>;
 
-/// Returns a fault that applies the wrong rule to the moves of the first round. It does so only with bounds=ball, so
-/// that nothing else is wrong. If `sign` is −1, the remaining move is reversed.
+/// Returns a fault that applies the wrong rule to the moves of the first round, only with bounds=ball. The rest of the
+/// step is right. If `sign` is −1, the remaining move is reversed.
 Fault held_wrongly(const std::string& name, const Wrong& wrong, double sign = 1) {
   return spoiled(name, [wrong, sign](const StepIn& in, StepOut& out) {
     const Settings& settings = in.scene->settings;

@@ -276,7 +276,7 @@ void RunSession::offer_state(std::int64_t before) {
   if (step_ <= offered_step_ || step_ >= before || !finite(snapshot)) return;
   offered_step_ = step_;
   // The loss of momentum is measured only in steps after a frame. An interrupted run has the same frames as an
-  // uninterrupted one, so both report the same loss.
+  // uninterrupted run, so both runs report the same loss.
   if (is_frame(step_)) momentum_.begin_after(step_, snapshot.velocities);
   offer(std::move(snapshot));
 }
