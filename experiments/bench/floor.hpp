@@ -12,7 +12,7 @@ namespace ogc::experiments {
 
 /// Holds the limits of a device, from which the floors of a step are computed.
 struct MachineLimits {
-  double flop_per_second = 0;  ///< in single precision
+  double flop_per_second = 0;  ///< floating-point operations per second in single precision
   /// `cache_bytes`: largest amount of data that the device's cache can hold
   double cache_bytes = 0, cache_bytes_per_second = 0, memory_bytes_per_second = 0;
   double seconds_between_colours = 0;  ///< from the end of one kernel of a CUDA graph to the start of the next

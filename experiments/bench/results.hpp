@@ -27,7 +27,7 @@ Json parse_results(const std::filesystem::path& file);
 /// Holds the change of one benchmark that both files have.
 struct BenchChange {
   std::string name;                                   ///< name of the benchmark
-  std::size_t samples_before = 0, samples_after = 0;  ///< times in each file
+  std::size_t samples_before = 0, samples_after = 0;  ///< number of times in each file
   double before_ns = 0, after_ns = 0;                 ///< medians
   double ratio = 1;                                   ///< after / before (typical_ratio)
   double probability = 1;  ///< p of Mann–Whitney, corrected by Holm over all compared benchmarks
@@ -36,10 +36,10 @@ struct BenchChange {
 
 /// Holds the comparison of two result files.
 struct BenchComparison {
-  std::vector<BenchChange> changes;                  ///< by name
+  std::vector<BenchChange> changes;                  ///< one change for each benchmark that both files have
   std::vector<std::string> only_before, only_after;  ///< benchmarks that only one file has
   std::vector<std::string> differing_context;        ///< "device_cpu: 2 threads, then 16 threads"
-  /// false: a file has only one process, so that p does not cover differences between processes
+  /// false: a file has only one process, so that BenchChange::probability does not cover differences between processes
   bool is_of_processes = true;
   /// Returns whether any benchmark has become slower.
   bool has_slower() const;

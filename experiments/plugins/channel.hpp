@@ -36,8 +36,8 @@ Bytes bytes_of_one(const Item& item) {
 /// Holds the head in front of each block.
 struct BlockHead {
   std::uint64_t mark = right_mark;  ///< tells a head from other bytes
-  std::uint64_t length = 0;         ///< of the block behind the head [bytes]
-  /// The bytes "gc-block", which a plug-in hardly sends by chance as a length, a count or text.
+  std::uint64_t length = 0;         ///< bytes of the block that follows the head
+  /// The bytes "gc-block". A plug-in is unlikely to send them by chance in a length, a count or a text.
   static constexpr std::uint64_t right_mark = 0x6b636f6c622d6367;
 };
 
@@ -47,7 +47,7 @@ struct BlockLength {
 /// Allows exactly this length.
 constexpr BlockLength exactly(std::uint64_t bytes) { return {bytes, bytes}; }
 
-/// Thrown if the received bytes are no block or have a wrong length. what() ends the sentence "a message …".
+/// Thrown if the received bytes are no block or have a wrong length. what() completes the sentence "a message …".
 struct MalformedBlock : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -21,7 +21,7 @@ using NextBlock = std::function<std::vector<std::byte>(BlockLength allowed)>;
 struct Greeting {
   LoadStatus status = LoadStatus::loaded;  ///< result of loading
   std::string text;                        ///< the plug-in's name, or why it was not loaded
-  /// for each of plugin_stages() 1 if the library has it; empty if the library was not loaded
+  /// for each of plugin_stages(): 1 if the library has this stage, else 0; empty if the library was not loaded
   std::vector<std::uint8_t> has;
 };
 

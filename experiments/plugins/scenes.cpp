@@ -209,8 +209,9 @@ std::vector<Vec3f> prescribed_of(const Scene& scene) {
 struct Trace {
   std::vector<float> query_radius;
   std::vector<Index> kind, cut;
-  std::vector<Vec3f> position;                                         ///< of all events, one after another
-  std::vector<float> d_min_vertex, bound, d_min_triangle, d_min_edge;  ///< of all detections, one after another
+  std::vector<Vec3f> position;  ///< positions after each event, one event after another
+  /// results of each detection, one detection after another
+  std::vector<float> d_min_vertex, bound, d_min_triangle, d_min_edge;
   std::vector<Index> vertex_facet_end, edge_edge_end;
   std::vector<ogc_vertex_facet_contact> vertex_facet;
   std::vector<ogc_edge_edge_contact> edge_edge;

@@ -369,7 +369,8 @@ ListSizes first_capacities(const QuestionSizes& sizes) {
           64 + 4 * sizes.cases};
 }
 
-// Returns for each list its first capacity plus its most entries at each detection, together at most 2^40:
+// Returns for each list its first capacity plus the largest number of entries of each detection, in all at most 2^40.
+// Largest numbers of entries of a detection:
 //
 // - contacts: all vertices with all triangles, and all ordered pairs of edges
 // - contacts with a volume: all points with all faces

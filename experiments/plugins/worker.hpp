@@ -27,11 +27,11 @@ enum class LoadStatus : std::uint8_t {
 struct CallResult {
   /// broken: the next question needs a new process
   enum class Status : std::uint8_t { answered, failed, broken } status = Status::answered;
-  ListSizes counts{1};  ///< entries of the lists that the stage has
+  ListSizes counts{1};  ///< number of entries of each list
   double seconds = 0;   ///< time of the plug-in's function, including the device's work
 };
 
-/// Holds a question, which its arrays follow.
+/// Holds the beginning of a question. The arrays of the question follow it.
 struct CallRequest {
   std::uint64_t stage = 0;  ///< position in plugin_stages()
   QuestionSizes sizes;

@@ -139,8 +139,8 @@ std::vector<std::string> edge_places(const Topology& topology) {
   return all;
 }
 
-/// Returns one of the same words for each vertex, from the words of its edges (contacts.schema.json). In a valid mesh
-/// each vertex has an edge.
+/// Returns one of the words of edge_places for each vertex, derived from the words of its edges (contacts.schema.json).
+/// In a valid mesh each vertex has an edge.
 std::vector<std::string> vertex_places(const Topology& topology) {
   const std::vector<std::string> edges = edge_places(topology);
   std::vector<std::string> all;

@@ -118,7 +118,7 @@ std::string distribution(const std::vector<float>& distances, float query_radius
   return table(rows, 2);
 }
 
-/// Returns the lines of the closest pairs, at most `limit`.
+/// Returns one line for each of the `limit` closest contacts, the closest contact first.
 template <class Contacts, class Line>
 std::string closest(const Contacts& contacts, const std::vector<double>& distances, Line line, std::size_t limit = 5) {
   std::vector<std::size_t> order(contacts.size());

@@ -9,7 +9,7 @@ namespace ogc::experiments {
 /// Exit status after an interruption; a shell reports the same status for a program that Ctrl-C ended.
 inline constexpr int exit_interrupted = 128 + SIGINT;
 
-/// Makes the first SIGINT or SIGTERM set a flag; the second one has its default effect.
+/// Makes the first SIGINT or SIGTERM set a flag. A second signal has its default effect.
 void catch_interrupts();
 
 /// Returns whether the flag is set.

@@ -12,8 +12,8 @@ class Progress {
  public:
   /// Counts from `first` to `last` in `unit` (steps, frames).
   Progress(std::int64_t first, std::int64_t last, std::string unit);
-  /// Shows `current`, followed by `detail`: "1.2 ms a step, 340 contacts". Shows `last` once, even if it is reported
-  /// several times.
+  /// Shows `current`, followed by `detail`: "1.2 ms a step, 340 contacts". Shows the constructor's `last` only once,
+  /// even if it is reported several times.
   void show(std::int64_t current, const std::string& detail);
   /// Ends the bar, so that the next output starts on a new line. Idempotent.
   void end();

@@ -35,8 +35,10 @@ std::string names_of(const Rows& rows) {
   return names.empty() ? "none" : names;
 }
 
-/// Launch shapes that imitate other devices: small blocks; one or seven multiprocessors, so that each block computes
-/// several teams one after the other; a thousand multiprocessors, which get SpreadTeams (fast/cuda/team.cuh).
+/// Launch shapes that imitate other devices:
+/// - small blocks;
+/// - one or seven multiprocessors, so that each block computes several teams one after the other;
+/// - a thousand multiprocessors, so that launches use SpreadTeams (fast/cuda/team.cuh).
 constexpr std::array<fast::LaunchShape, 4> other_shapes{{{32, 0}, {96, 7}, {128, 1}, {64, 1000}}};
 
 std::string text_of(const fast::LaunchShape& shape) {

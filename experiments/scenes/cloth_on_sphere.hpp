@@ -8,8 +8,8 @@ namespace ogc::experiments {
 /// Holds the sizes; defaults: the paper's. The contact radius is proportional to the spacing, so that the contact
 /// regime is always that of r = 5 mm on 70 × 70.
 struct ClothOnSphereSizes {
-  compare::Index vertices_a_side = 70;  ///< of the cloth
-  int sphere_subdivisions = 3;          ///< of the sphere, from an icosahedron
+  compare::Index vertices_a_side = 70;  ///< along each side of the cloth
+  int sphere_subdivisions = 3;          ///< divisions of an icosahedron's triangles into four
   std::int64_t steps = 100;             ///< steps of the run
   double sphere_radius = 0.262;         ///< [m]
 };
@@ -19,8 +19,8 @@ compare::Material sphere_scene_material();
 /// Appends a fixed sphere of this radius [m] about (−0.15, 0, 0) as the next body of the scene.
 void append_sphere(compare::Scene& scene, int subdivisions, double radius = 0.262);
 
-/// Returns the scene: a cloth of 1 m × 1 m at y = 0.30 m above a sphere about (−0.15, 0, 0). For the solver IPC it has
-/// a barrier distance of 1 mm on 70 × 70 and the tolerance of Codimensional IPC's scripts.
+/// Returns the scene: a cloth of 1 m × 1 m at y = 0.30 m above a sphere about (−0.15, 0, 0). The solver IPC runs it
+/// with a barrier distance of 1 mm on 70 × 70 and the tolerance of Codimensional IPC's scripts.
 compare::Scene cloth_on_sphere(const ClothOnSphereSizes& sizes = {});
 
 }  // namespace ogc::experiments

@@ -20,16 +20,16 @@ struct DressSizes {
 /// Returns the stand-in. Bodice (cylinder), hips and hem (cones) have four panels each; two straps (half cones) lead
 /// over the shoulders. The body is a mannequin of capsules that walks (experiments/scenes/mannequin.hpp). At the start
 /// only stitched primitives intersect, and the dress is 1.5 r away from torso and pelvis. The pelvis supports the
-/// dress. Without such hips the skirt would hang from its straps and stretch to the knees, where the hollows would
-/// pinch it. All panels start in their rest shape except the straps, which lie on a ball instead of a cone (strain 2.2
-/// %). y is up. Bodies: the panels, then the mannequin.
+/// dress. Without a pelvis of this size the skirt would hang from its straps and stretch to the knees, where the
+/// hollows would pinch it. All panels start in their rest shape except the straps, which lie on a ball instead of a
+/// cone (strain 2.2 %). y is up. Bodies: the panels, then the mannequin.
 ///
 /// Material: wool with 5 % lycra, 543.29 kg/m³, 0.328 mm, ν 0.071, from Penava et al. (2014) as in Codimensional IPC's
 /// scripts. The scripts have E = 76 kPa but use 760 Pa for garments, because their strain limiting (at 1.134) bears the
 /// load. We have no strain limiting: with 760 Pa, E·t = 0.25 N/m, and the weight of 0.08 kg below a waist of 0.7 m (1.1
 /// N/m) stretches the waist to five times its length. So E is 76 kPa (our choice), which the scripts recommend without
-/// strain limiting: with E·t = 24.9 N/m the waist stretches by 4.5 %. Bending has a tenth of 76 kPa, as in the scripts:
-/// k_b = 0.1 · 76 kPa t³/(12 (1 − ν²)) = 2.25e-8 J. Damping is that of `fifty_layers` (our choice).
+/// strain limiting: with E·t = 24.9 N/m the waist stretches by 4.5 %. The bending stiffness uses a tenth of E, as in
+/// the scripts: k_b = 0.1 · 76 kPa t³/(12 (1 − ν²)) = 2.25e-8 J. Damping is that of `fifty_layers` (our choice).
 ///
 /// The body is a volume with the paper's γ_e = 0.01: it follows its animation exactly and pushes out the vertices
 /// inside it. As a surface (`--set body_contact=surface`) it obeys bounds, and one cut vertex triggers a detection (γ_e

@@ -17,8 +17,8 @@ struct Stitch {
 
 /// Holds the counts that the files must have, so that a truncated file is refused; defaults: the published counts.
 struct DressCounts {
-  std::size_t vertices = 15656, triangles = 29456, panels = 14, stitches = 851;  ///< of the garment
-  std::size_t body_vertices = 12811, body_triangles = 25472, frames = 121;       ///< of the body, and its frames
+  std::size_t vertices = 15656, triangles = 29456, panels = 14, stitches = 851;  ///< counts of the garment
+  std::size_t body_vertices = 12811, body_triangles = 25472, frames = 121;  ///< counts of the body; number of frames
 };
 
 /// Holds the data set.

@@ -11,11 +11,11 @@ namespace ogc::experiments {
 struct FiftyLayersSizes {
   std::string name = "fifty_layers";    ///< name of the scene
   compare::Index layers = 50;           ///< number of cloths
-  compare::Index vertices_a_side = 70;  ///< of each cloth
+  compare::Index vertices_a_side = 70;  ///< along each side of each cloth
   double contact_radius = 3e-3;         ///< r [m]
   double shift = 3e-3;                  ///< standard deviation of each layer's shift in x and in z [m]
-  CylinderCells cylinder{};             ///< cells of its mesh
-  /// 4 s. The layers come to rest only later, for which `ogc run --steps` is needed.
+  CylinderCells cylinder{};             ///< cells of the cylinder's mesh
+  /// 4 s. Layers come to rest later than this; `ogc run --steps` extends the run.
   std::int64_t steps = 4800;
   std::uint64_t seed = 0;  ///< seed of the shifts
 };

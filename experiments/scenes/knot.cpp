@@ -26,15 +26,15 @@ Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Returns a point of a coil about an axis along x, with radius 0.09 m and pitch 0.12 m. `turn`: number of turns from
-/// its top.
+/// Returns a point of a coil about an axis along x, with radius 0.09 m and pitch 0.12 m. `turn`: number of revolutions
+/// from the coil's top.
 Vec3 coil(const Vec3& axis, double turn) {
   const double angle = 2 * std::numbers::pi * turn;
   return axis + Vec3{0.12 * turn, 0.09 * std::cos(angle), 0.09 * std::sin(angle)};
 }
 
-/// Returns the control points [m]: three coils, four overhand knots, and three coils about the continuation of the
-/// first coils' axis.
+/// Returns the control points [m]: three coils, four overhand knots, and three more coils about the extended axis of
+/// the first coils.
 std::vector<Vec3> control_points() {
   std::vector<Vec3> points{{-0.9, -0.4, 0.035}};
   for (int third = 4; third < 12; ++third) points.push_back(coil({-0.9, -0.3, 0.035}, third / 3.0));
@@ -83,8 +83,8 @@ class Curve {
   std::vector<double> knots_;
 };
 
-/// Returns `count` points at equal distances along the curve. Lengths are measured on a polyline of 48,000 points, and
-/// parameters are interpolated linearly between these.
+/// Returns `count` points at equal distances along the curve. Lengths are measured on a polyline of 48,000 points;
+/// parameters are interpolated linearly between its points.
 std::vector<Vec3> equally_spaced(const Curve& curve, Index count) {
   constexpr int fine = 48'000;
   const auto parameter = [&](int k) { return static_cast<double>(curve.segments()) * k / (fine - 1); };

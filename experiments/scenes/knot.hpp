@@ -8,7 +8,7 @@ namespace ogc::experiments {
 /// Holds the sizes; defaults: the paper's. The contact radius is proportional to the spacing across the strip.
 struct KnotSizes {
   compare::Index rows = 2400;     ///< vertices along the strip
-  compare::Index columns = 20;    ///< vertices across it
+  compare::Index columns = 20;    ///< vertices across the strip
   std::int64_t hold_steps = 150;  ///< 0.5 s in which the end rows rest before they are pulled
   std::int64_t steps = 10650;     ///< the hold and 35 s of pulling
 };

@@ -1,5 +1,6 @@
-// Size, radius and half a turn are from the paper's caption. Speed, time step and iterations are those of twist and
-// dress (our choice). The tolerance of the solver IPC is that of Codimensional IPC's scripts.
+// The size, the radius and the rotation by 180° are from the paper's caption. The speed, the time step and the number
+// of iterations are those of twist and dress (our choice). The tolerance of the solver IPC is that of Codimensional
+// IPC's scripts.
 #include "experiments/scenes/large_radius_twist.hpp"
 
 #include "experiments/scenes/twist.hpp"

@@ -1,4 +1,4 @@
-// Fig. 2: half a turn of a fine cloth whose contact radius is as large as its edges, to compare contact models.
+// Fig. 2: a fine cloth, whose contact radius is as large as its edges, is twisted by 180° to compare contact models.
 #pragma once
 
 #include "compare/problem/scene.hpp"
@@ -8,8 +8,8 @@ namespace ogc::experiments {
 /// Holds the sizes; defaults: the paper's. The contact radius is proportional to the spacing (0.995 edges), so that the
 /// regime is always that of r = 5 mm on 200 × 200.
 struct LargeRadiusTwistSizes {
-  compare::Index vertices_a_side = 200;  ///< of the cloth
-  std::int64_t steps = 1200;             ///< 4 s: half a turn of one end relative to the other
+  compare::Index vertices_a_side = 200;  ///< along each side of the cloth
+  std::int64_t steps = 1200;             ///< 4 s, in which one end rotates by 180° relative to the other
 };
 
 /// Returns the scene: the cloth and handles of the scene twist; the handles rotate at ±π/8 rad/s. IPC's barrier

@@ -8,8 +8,8 @@ namespace ogc::experiments {
 /// Holds the sizes; defaults: the paper's. A frame is 10 steps. The contact radius is proportional to the spacing: 5 mm
 /// on 70 × 70.
 struct OneIterationDropSizes {
-  compare::Index vertices_a_side = 70;  ///< of the cloth
-  int sphere_subdivisions = 3;          ///< of the sphere, from an icosahedron
+  compare::Index vertices_a_side = 70;  ///< along each side of the cloth
+  int sphere_subdivisions = 3;          ///< divisions of an icosahedron's triangles into four
   std::int64_t steps = 800;             ///< steps of the run
 };
 

@@ -55,7 +55,8 @@ class Pattern {
     const Index depth = layer == Layer::front ? sizes_.front_neck : sizes_.back_neck;
     return share > 1 || j >= std::lround(depth * std::sqrt(1 - share * share));
   }
-  /// Returns whether front and back share the vertex. They do along the sides, and below and above the sleeves.
+  /// Returns whether front and back share the vertex at grid point (p, q): along the sides, and below and above the
+  /// sleeves.
   bool is_joined(Index p, Index q) const {
     const Index out = std::abs(p);
     return out >= side_ && (q == 0 || (out == side_ && q >= sizes_.sleeve_rows) || q == sizes_.sleeve_rows);
@@ -156,7 +157,7 @@ class Trajectory {
   std::vector<Waypoint> points_;
 };
 
-/// Appends two boxes at x = `centre` that form a gripper. They move apart vertically, and otherwise together.
+/// Appends two boxes at x = `centre` that form a gripper. They open and close vertically and share all other motion.
 void append_gripper(Scene& scene, const char* name, double centre, double spacing, const Trajectory& trajectory) {
   constexpr double thickness = 0.012, inner = -0.045, outer = 0.03, seconds_a_frame = 1.0 / 60, seconds = 6;
   const double half = std::max(0.03, 1.1 * spacing);

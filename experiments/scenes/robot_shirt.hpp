@@ -9,7 +9,7 @@ namespace ogc::experiments {
 /// Holds the sizes in cells of the shirt's grid; the defaults give the paper's number of vertices and triangles.
 /// `across` cells are 0.45 m wide; the contact radius is proportional to the spacing.
 struct RobotShirtSizes {
-  compare::Index across = 56, length = 105;              ///< of front and back; `across` is even
+  compare::Index across = 56, length = 105;              ///< cells of front and back; `across` is even
   compare::Index sleeve_rows = 20, sleeve_columns = 26;  ///< width of a flat sleeve, and its length
   compare::Index neck_columns = 10;                      ///< half of the width of the neck
   compare::Index front_neck = 8, back_neck = 2;          ///< depth of the neck in its middle
@@ -19,9 +19,9 @@ struct RobotShirtSizes {
 
 /// Returns the scene. The shirt lies flat on a fixed table at y = 0, with the shoulders along the x axis and the hem
 /// towards −z. Back and front are 1.05 r apart and start in their rest shape, with an ironed crease where they meet.
-/// They are two panels, stitched along the shoulders and joined along sides and sleeves. This follows from the paper's
-/// counts: 2 · 13.8K − 27.4K = 200 ± 150 equals the number of boundary edges plus twice the Euler characteristic, and
-/// already a single open sheet of 27.4K triangles would have 470.
+/// They are two panels, stitched along the shoulders and joined along sides and sleeves. The paper's counts show that
+/// its shirt has this topology. The number of boundary edges plus twice the Euler characteristic is 2 · 13.8K − 27.4K =
+/// 200 ± 150; a single open sheet of 27.4K triangles would have 470.
 ///
 /// The table ends 6 cm before the shoulders; the lower jaws start under the shoulders at y = 0. Jaws are closed boxes.
 /// Each gripper is one motion with keyframes 1/60 s apart: approach and pinch (0.5 s), lift, shake, move back, lay

@@ -66,7 +66,7 @@ void add_ring(Mesh& mesh, Index count, double radius, const Vec3& centre, double
 }
 
 /// Adds two triangles for each cell between two rings of `count` vertices, which begin at `from` and `to`. Normals
-/// point outward if the second ring lies towards +z, or inside the first one.
+/// point outward if the second ring lies towards +z, or inside the first ring.
 void join_rings(Mesh& mesh, Index count, Index from, Index to) {
   for (Index i = 0; i < count; ++i) {
     const Index next = (i + 1) % count;
@@ -75,8 +75,8 @@ void join_rings(Mesh& mesh, Index count, Index from, Index to) {
   }
 }
 
-/// Adds the triangles between the pole and the ring that begins at `ring`. `up`: the pole lies towards the ring's
-/// positive axis.
+/// Adds the triangles between the pole and the ring that begins at `ring`. `up`: whether the pole lies on the positive
+/// side of the ring along its axis.
 void add_fan(Mesh& mesh, Index count, Index ring, Index pole, bool up) {
   for (Index i = 0; i < count; ++i) {
     const Index a = ring + i, b = ring + (i + 1) % count;
@@ -84,7 +84,7 @@ void add_fan(Mesh& mesh, Index count, Index ring, Index pole, bool up) {
   }
 }
 
-/// Adds the disc inside the ring that begins at `rim`. `up`: the disc's normal is +z, otherwise −z.
+/// Adds the disc inside the ring that begins at `rim`. `up`: whether the disc's normal is +z; otherwise it is −z.
 void add_cap(Mesh& mesh, const CylinderCells& cells, double radius, const Vec3& centre, double z, Index rim, bool up) {
   Index outer = rim;
   for (Index k = 1; k <= cells.cap; ++k) {

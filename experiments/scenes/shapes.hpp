@@ -21,8 +21,8 @@ std::vector<compare::Triangle> cross_diagonals(compare::Index rows, compare::Ind
 /// hundred times as large as the cloth's.
 compare::Mesh ground(compare::Index vertices_a_side, double height);
 
-/// Returns an icosahedron whose triangles are divided into four `subdivisions` times, with all 10 · 4ⁿ + 2 vertices on
-/// the sphere. Normals point outward.
+/// Returns an icosahedron after `subdivisions` divisions of every triangle into four. All 10 · 4ⁿ + 2 vertices (n =
+/// `subdivisions`) lie on the sphere. Normals point outward.
 compare::Mesh icosphere(int subdivisions, double radius, const compare::Vec3& centre);
 
 /// Holds the resolution of a closed cylinder: `around` vertices in each ring, `along` rings from end to end, `cap`

@@ -7,8 +7,8 @@ namespace ogc::experiments {
 
 /// Holds the sizes; defaults: the paper's. The contact radius is proportional to the spacing: 2 mm on 70 × 70.
 struct ThreeClothsSizes {
-  compare::Index vertices_a_side = 70;  ///< of each cloth
-  int sphere_subdivisions = 3;          ///< of the sphere, from an icosahedron
+  compare::Index vertices_a_side = 70;  ///< along each side of each cloth
+  int sphere_subdivisions = 3;          ///< divisions of an icosahedron's triangles into four
   std::int64_t steps = 50;              ///< steps of the run
   std::int64_t iterations = 500;        ///< sweeps in each step
 };

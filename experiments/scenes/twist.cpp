@@ -1,5 +1,5 @@
-// Numbers are the paper's Table 1 and the authors' published parameters. We take the paper's 8 turns as turns of one
-// end relative to the other (our choice).
+// Numbers are the paper's Table 1 and the authors' published parameters. We take the paper's 8 turns as rotations of
+// one end relative to the other (our choice).
 #include "experiments/scenes/twist.hpp"
 
 #include <numbers>

@@ -8,8 +8,8 @@ namespace ogc::experiments {
 /// Holds the sizes; defaults: the paper's. The contact radius is proportional to the spacing, so that the contact
 /// regime is always that of r = 2 mm on 100 × 100.
 struct TwistSizes {
-  compare::Index vertices_a_side = 100;  ///< of the cloth
-  std::int64_t steps = 9600;             ///< 8 turns of one end relative to the other, 4 s each
+  compare::Index vertices_a_side = 100;  ///< along each side of the cloth
+  std::int64_t steps = 9600;             ///< 8 rotations of one end relative to the other, 4 s each
 };
 
 /// Returns the scene: the cloth lies flat in the xz plane, without gravity. The columns at x = ±0.5 m rotate about the

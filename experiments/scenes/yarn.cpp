@@ -18,7 +18,7 @@ using compare::Vec3;
 using std::numbers::pi;
 
 constexpr double loop_width = 0.4 / 33, row_height = 0.01, bow = 0.24 * loop_width, half_height = 8.6e-3,
-                 depth = 2.1e-3;  // w, c, a, h, d of the curve [m]; c is the distance of rows
+                 depth = 2.1e-3;  // w, c, a, h, d of the curve [m]; c is the distance between rows
 constexpr Index segments_a_loop = 49, segments_a_join = 15;
 constexpr double held_width = 0.01;  // width of each held edge [m]
 

@@ -14,7 +14,7 @@ struct YarnSizes {
   std::int64_t rest_steps = 1250;        ///< yarn_stretch: steps before the pull, 0.5 s
   std::int64_t steps = 16250;            ///< steps of the run
   double pull = 0.25;                    ///< yarn_stretch: speed of each edge [m/s]
-  double turns = 5;                      ///< yarn_twist: turns of the lower edge
+  double turns = 5;                      ///< yarn_twist: revolutions of the lower edge
 };
 
 /// Returns the pulled knit. It lies horizontally, with gravity along −y, and is first at rest. Then both edges are

@@ -14,8 +14,8 @@ struct Cuts {
   int killed = 0, in_time = 0;  ///< signals sent; signals that met a run after its start
 };
 
-/// Runs `ogc run COMMAND` with the output folder `run`. Sends the signal (a name for the command kill) after random
-/// fractions of `seconds`, about the duration of the whole run. Resumes the run after each signal until it ends.
+/// Runs `ogc run COMMAND` with the output folder `run`, which takes about `seconds` in all. Sends `signal` (a name for
+/// the command kill) after random fractions of this time. Resumes the run after each signal until it ends.
 Cuts run_with_cuts(const std::string& command, const std::filesystem::path& run, const std::string& signal,
                    double seconds, unsigned seed);
 

@@ -55,8 +55,8 @@ Face face_of(const Topology& topology, Index t, TriangleFeature feature) {
   return {FaceKind::triangle, t};
 }
 
-/// Lists the closest face of every triangle within r without the block test. k triangles around an edge, seen from the
-/// concave side, then give k contacts.
+/// Lists the closest face of every triangle within r without the block test. A vertex on the concave side of an edge
+/// with k triangles then gets k contacts.
 void without_feasible_region(const DetectIn& in, const Authority& authority, DetectVertexFacetOut& out) {
   const Topology& topology = *in.topology;
   for (Index v = 0; v < topology.vertex_count; ++v) {
@@ -122,7 +122,7 @@ struct OverlapEnd {
 };
 
 /// Returns the ends of the overlap, computed in double. The line between exactly parallel edges is perpendicular to
-/// both, so the block test allows a rounding error above 0.
+/// both. Its product with an edge is 0 except for rounding, so the block test allows slightly more than 0.
 std::vector<OverlapEnd> ends_of_overlap(const DetectIn& in, const Edge& e, const Edge& f) {
   const auto at = [&](Index v) { return Vec3{in.positions[v].x, in.positions[v].y, in.positions[v].z}; };
   const auto in_block = [&](Index v, const Vec3& c) {

@@ -74,8 +74,8 @@ using GuessContacts = std::vector<reference::GuessContact>;
 /// A wrong rule for the move that contacts leave to vertex v: it changes the contacts or the targets y.
 using Wrong = std::function<void(GuessContacts&, const Places& previous, Places& target, std::size_t v)>;
 
-/// Returns a fault that applies the wrong rule to the moves of the first round. It does so only with bounds=ball, so
-/// that nothing else is wrong. If `sign` is −1, the remaining move is reversed.
+/// Returns a fault that applies the wrong rule to the moves of the first round, only with bounds=ball. The rest of the
+/// step is right. If `sign` is −1, the remaining move is reversed.
 Fault held_wrongly(const std::string& name, const Wrong& wrong, double sign = 1) {
   return spoiled(name, [wrong, sign](const StepIn& in, StepOut& out) {
     const Settings& settings = in.scene->settings;
@@ -111,15 +111,16 @@ void ignore_partners(GuessContacts&, const Places& previous, Places& target, std
   target[v] = own;
 }
 
-/// Reverses the move of v, without friction and with other vertices at rest. If the remaining move is reversed again,
-/// the contacts have removed the part of the move that leads away from them.
+/// Reverses the move of v, removes friction, and treats other vertices as at rest. held_wrongly then reverses the
+/// remaining move back, so that the contacts remove the part of the move that leads away from them.
 void take_leaving(GuessContacts& contacts, const Places& previous, Places& target, std::size_t v) {
   for (reference::GuessContact& contact : contacts) contact.friction = 0;
   ignore_partners(contacts, previous, target, v);
   target[v] = previous[v] - (target[v] - previous[v]);
 }
 
-/// Lets cut vertices slide in the first round, although bounds=dat scales moves.
+/// Makes cut vertices slide along their half-spaces in the first round. With bounds=dat, their moves must be scaled
+/// instead.
 void slide_with_dat(const StepIn& in, StepOut& out) {
   if (in.scene->settings.bounds != Bounds::dat) return;
   const StepEvent& detection = out.events[0];

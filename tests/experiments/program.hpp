@@ -32,7 +32,7 @@ ProgramResult run_ogc(const std::string& arguments, const std::string& before = 
 /// Returns whether `text` contains all of `parts`, in any order.
 bool contains(const std::string& text, std::initializer_list<std::string> parts);
 
-/// An OBJ mesh of two triangles. Edges of the second one pass through the first one.
+/// An OBJ mesh of two triangles. Edges of the second triangle pass through the first triangle.
 extern const char* const crossing_triangles_obj;
 /// An OBJ mesh of two parallel triangles, 1 mm apart.
 extern const char* const parallel_triangles_obj;

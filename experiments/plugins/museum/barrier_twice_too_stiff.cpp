@@ -1,5 +1,5 @@
-// A barrier that is twice too stiff: each side of a contact adds the whole pair, so that the pair acts twice. A
-// simulation of a single pair still looks right.
+// Returns a barrier that is twice too stiff: each side of a contact adds the force of the whole pair, so that the pair
+// acts twice. A simulation of a single pair still looks right.
 #include "experiments/plugins/museum/activation.h"
 
 OGC_PLUGIN("barrier twice too stiff", OGC_HOST_MEMORY)

@@ -13,8 +13,8 @@ using namespace museum;
 
 constexpr int slots = 4;
 
-// The point of a triangle that is closest to a vertex: the corner or edge that contains it (-1: none), and its
-// distance.
+// Describes the closest point of a triangle to a vertex: the triangle's corner or edge that contains it (-1: none), and
+// its distance.
 struct Nearest {
   int corner = -1, edge = -1;
   double distance = INFINITY;

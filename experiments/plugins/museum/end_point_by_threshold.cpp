@@ -1,6 +1,5 @@
-// An end point chosen by an absolute threshold: an epsilon for parallel edges is compared with squared lengths, so that
-// every edge shorter than 3.2 mm counts as its first end. Distances come out too large, and contacts of fine meshes are
-// missed.
+// Compares squared lengths with an absolute epsilon that is meant for parallel edges. Every edge shorter than 3.2 mm is
+// therefore reduced to its first end. Distances come out too large, and contacts of fine meshes are missed.
 #include "experiments/plugins/museum/edges.h"
 
 OGC_PLUGIN("end point by an absolute threshold", OGC_HOST_MEMORY)

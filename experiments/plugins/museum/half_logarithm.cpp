@@ -1,5 +1,5 @@
-// Half of the logarithm's coefficient: k'_c = tau^2 k_c / 2. Slope and curvature then differ from those of the
-// quadratic branch at tau = r/2. Force and stiffness halve when a contact comes closer than tau, where they are needed
+// Uses half of the logarithm's coefficient: k'_c = tau^2 k_c / 2. Slope and curvature then differ from those of the
+// quadratic branch at tau = r/2. When a contact comes closer than tau, force and stiffness halve where they are needed
 // most.
 #include "experiments/plugins/museum/activation.h"
 

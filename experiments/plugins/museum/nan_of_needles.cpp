@@ -1,4 +1,4 @@
-// Weights divided by an area that may be 0: the weights are then NaN, and the test for weights below 0 accepts NaN.
+// Divides weights by an area that may be 0. The weights are then NaN, and the test for weights below 0 accepts NaN.
 // Triangles whose corners lie on one line, or nearly so, pass NaN on to all their contacts.
 #include "experiments/plugins/museum/triangle.h"
 

@@ -174,7 +174,7 @@ FrameReader reader_of(const std::string& path) {
 }
 
 /// Returns the options for the mesh that provides the faces of files with positions alone. The mesh keeps every vertex,
-/// because those files have a position for each.
+/// because those files have a position for every vertex.
 compare::MeshOptions of_frames(compare::MeshOptions options) {
   options.keep_unused = true;
   options.weld = false;

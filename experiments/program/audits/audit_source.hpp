@@ -49,11 +49,11 @@ class AuditSource {
   virtual void judge(AuditedState& state) const = 0;
   /// Returns the scene of the states; null if they are meshes.
   virtual const compare::Scene* scene() const { return nullptr; }
-  /// Returns in words which proof besides `ogc audit` covers the motion between the states; empty if there is none.
+  /// Describes the proof besides `ogc audit` that covers the motion between the states; empty if there is none.
   virtual std::string proof_of_ways() const { return ""; }
   /// Returns the pairs that the audit leaves out.
   virtual compare::ExclusionView exclusions() const { return {}; }
-  /// Returns in words what the audit leaves out besides faces that share a vertex; empty if nothing.
+  /// Describes what the audit leaves out besides faces that share a vertex; empty if it leaves out nothing else.
   virtual std::string left_out() const { return ""; }
 };
 
@@ -62,7 +62,7 @@ struct AuditRequest {
   std::vector<std::string>
       paths;                    ///< run folder, folder of meshes, meshes, patterns of meshes, or one .npz, .npy or .pc2
   std::string topology;         ///< mesh with the triangles for files that hold positions alone; may be empty
-  compare::MeshOptions meshes;  ///< how mesh files are read
+  compare::MeshOptions meshes;  ///< options for reading mesh files
   std::size_t limit = compare::AuditOptions{}.limit;  ///< number of intersections listed for each state
 };
 

@@ -30,8 +30,8 @@ std::string name_of(AuditMode mode);
 /// Returns the mode with this name. Throws compare::InputError if there is none.
 AuditMode audit_mode(const std::string& name);
 
-/// Returns in words what audits of the scene leave out besides pairs inside fixed and rigidly moved bodies; empty if
-/// nothing.
+/// Describes what audits of the scene leave out besides pairs inside fixed and rigidly moved bodies; empty if they
+/// leave out nothing else.
 std::string left_out_of_audits(const compare::Scene& scene);
 
 /// Holds the exact findings about one state.
@@ -75,7 +75,7 @@ class StateJudge {
   std::string describe(const compare::AuditResult& result) const;
   /// Returns the pairs that the audit leaves out.
   const compare::Exclusions& exclusions() const { return exclusions_; }
-  /// Returns the names that these texts use for the scene's elements.
+  /// Returns the names that the texts of `describe` use for the scene's elements.
   const compare::ElementNames& names() const { return names_; }
 
  private:
@@ -103,7 +103,7 @@ class Auditor {
   void submit(compare::Snapshot snapshot);
   /// Returns the verdicts that are ready. Throws what the judge threw.
   std::vector<Verdict> take();
-  /// Waits until all submitted states are judged; otherwise like `take`.
+  /// Waits until all submitted states are judged. Returns the remaining verdicts. Throws what the judge threw.
   std::vector<Verdict> finish();
 
  private:

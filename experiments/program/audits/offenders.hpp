@@ -13,7 +13,7 @@ namespace ogc::experiments {
 struct Offenders {
   std::vector<compare::Index> vertices;  ///< vertices that lie on a triangle
   std::vector<compare::Index> edges;     ///< edges that meet a triangle, and loose edges that meet each other
-  /// triangles that are met, and triangles that contain one of these edges or vertices
+  /// triangles that an edge meets or a vertex lies on, and triangles that contain one of these edges or vertices
   std::vector<compare::Index> triangles;
   compare::Intersection first;  ///< first intersection in the audit's order
 };

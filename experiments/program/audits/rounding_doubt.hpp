@@ -20,8 +20,9 @@ inline constexpr double units_of_a_distance = 1.7320508075688773;
 /// Holds the results of an audit that the rounding of a file's coordinates may have caused.
 struct RoundingDoubt {
   compare::PrintedDigits printed;
-  std::size_t listed = 0, doubtful = 0;  ///< number of listed intersections, and of those that rounding may have caused
-  double smallest = 0;                   ///< smallest distance [m]; it matters only if nothing intersects
+  /// number of listed intersections; number of them that rounding may have caused
+  std::size_t listed = 0, doubtful = 0;
+  double smallest = 0;  ///< smallest distance [m]; it matters only if nothing intersects
 };
 
 /// Returns the results that rounding may have caused; empty if there are none.

@@ -35,8 +35,8 @@ struct AblateOptions {
   std::shared_ptr<RunOptions> run = std::make_shared<RunOptions>();
   std::vector<std::string> vary, points;  ///< as typed
   std::int64_t repeat = 1;
-  std::int64_t only = every_run;  ///< number of the only run to make
-  std::int64_t jobs = 1;          ///< runs at a time
+  std::int64_t only = every_run;  ///< index of the only run to make
+  std::int64_t jobs = 1;          ///< number of runs at the same time
   bool slurm = false;
 };
 
@@ -73,7 +73,7 @@ void check_repeats(const AblateOptions& options) {
 
 /// Holds one run of the grid.
 struct PlannedRun {
-  std::size_t setting = 0;  ///< number of its point
+  std::size_t setting = 0;  ///< index of the run's point
   std::uint64_t seed = 0;
   RunOptions options;
 };
@@ -353,8 +353,8 @@ std::string counted_run(const std::string& name, std::size_t i, std::size_t coun
   return name + " (" + std::to_string(i + 1) + " of " + std::to_string(count) + ")";
 }
 
-/// Makes the missing runs of the grid in `folder`, each in a separate process. A run that fails there is continued when
-/// the grid is tabulated, or fails again.
+/// Makes the missing runs of the grid in `folder`, each in a separate process. A run that fails in its process is
+/// continued by this process when it tabulates the grid, or fails again.
 void make_side_by_side(const AblateOptions& options, const std::vector<PlannedRun>& planned, const CLI::App& command,
                        const std::string& folder) {
   std::vector<OwnCommand> commands;

@@ -153,7 +153,7 @@ struct Audits {
   std::string stopped;  ///< why the remaining states can't be read; empty if all were read
 };
 
-/// Holds a state between reading and report, or the reason why it can't be read.
+/// Holds a state from its reading to its report, or the reason why it can't be read.
 struct Item {
   std::optional<AuditedState> state;
   std::string problem;

@@ -36,7 +36,7 @@ using compare::StageReport;
 // Largest number of mismatches printed for each generator, so that a generator that always fails does not hide the
 // others.
 constexpr std::size_t printed_mismatches = 3;
-// Largest number of cases. At 10⁷ cases a second they would take more than a day.
+// Largest number of cases. At 10⁷ cases per second they would take more than a day.
 constexpr std::uint64_t most_cases = 1'000'000'000'000;
 
 struct CompareOptions {

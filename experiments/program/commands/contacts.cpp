@@ -37,7 +37,7 @@ struct ContactsOptions {
   bool schema = false, margins = true, squares = false;
 };
 
-/// Returns the number in the file of each vertex and triangle. The JSON itself numbers them from 0.
+/// Returns the numbers that vertices and triangles have in the file. The rest of the JSON numbers them from 0.
 Json numbers_in_file(const MeshInput& input) {
   const compare::MeshSource& source = input.source;
   const auto listed = [&](const std::vector<compare::Index>& numbers, std::size_t count) {

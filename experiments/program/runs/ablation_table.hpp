@@ -44,10 +44,10 @@ struct MetricRange {
 /// Returns the range of a metric. The median of an even number of runs is the mean of the middle two.
 MetricRange range_of(const SettingRows& setting, std::size_t metric);
 
-/// Returns one sentence that compares the settings `one` and `other` in a metric. If every run of `one` lies above, or
-/// below, every run of `other`, the sentence gives the ratio: "is 1.8 times …, range 1.6 to 2.1". Otherwise it states
-/// that no difference is shown. The range covers the ratios of all pairs of runs, or their differences if a value is
-/// not positive. Empty if a setting did not measure the metric.
+/// Returns one sentence that compares the settings `one` and `other` in a metric, or an empty text if one of them did
+/// not measure it. If every run of `one` lies above, or below, every run of `other`, the sentence gives the ratio: "is
+/// 1.8 times …, range 1.6 to 2.1". Otherwise it states that no difference is shown. The range covers the ratios of all
+/// pairs of runs, or their differences if a value is not positive.
 std::string sentence(const Metric& metric, const SettingRows& one, const MetricRange& range_of_one,
                      const SettingRows& other, const MetricRange& range_of_other);
 

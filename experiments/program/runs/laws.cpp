@@ -56,8 +56,8 @@ std::string failure_of(const compare::StepMetrics& row) {
 constexpr std::uint32_t ends_run = compare::step_not_finite | compare::step_bound_violated |
                                    compare::step_not_converged | compare::step_indefinite | compare::step_met;
 
-/// Adapts the law's scene to the solver. IPC's barriers act from r on, like contacts, so that a body on a floor starts
-/// at its equilibrium.
+/// Adapts the law's scene to the solver. IPC's barriers get the activation distance r, like contacts, so that a body on
+/// a floor starts at its equilibrium.
 void prepare(compare::Scene& scene, const LawAsked& asked) {
   scene.settings.bounds = asked.bounds;
   if (asked.solver == Solver::ipc) compare::set_setting(scene.settings, "ipc_distance", scene.settings.contact_radius);

@@ -97,7 +97,7 @@ class MeasuredSimulation : public compare::Simulation {
 
  private:
   /// Returns the scene whose first step is the step after `before`, because a trace always covers the first step of a
-  /// scene. Each motion becomes two keyframes: its targets at the begin and the end of the step. Rotating motions keep
+  /// scene. Each motion becomes two keyframes: its targets at the start and the end of the step. Rotating motions keep
   /// their axis and angular velocity, which also rotate the orientations of rods.
   compare::Scene scene_at(const Snapshot& before) const {
     compare::Scene scene = scene_;

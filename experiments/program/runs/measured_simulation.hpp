@@ -43,9 +43,9 @@ struct Measured {
 /// SimulationOptions::profile the iterations share the whole time of the step.
 ///
 /// Meetings (compare/meetings.md) are counted from each X_prev to the next, and from the last X_prev to the end of the
-/// step. The states come from the simulation (compare::WayTeller) or from the trace. If a contestant has neither,
-/// meetings are counted from the begin of a step to its end. If the states come from detections and the scene's bounds
-/// forbid meetings, the row's status becomes step_met, and its notes name pairs.
+/// step. These states come from the simulation (compare::WayTeller) or from the trace. If a contestant has neither,
+/// meetings are counted from the start of a step to its end. If X_prev is known and the scene's bounds forbid meetings,
+/// a meeting sets the row's status to step_met, and the row's notes name pairs.
 compare::Contestant measured(compare::Contestant contestant, const Measured& what);
 
 }  // namespace ogc::experiments

@@ -51,7 +51,7 @@ std::string usable_name(const std::string& file) {
   return name.empty() ? "mesh" : name;
 }
 
-/// Returns the height of the ground relative to `origin`. The box is relative to `origin`, too; `ground` is in the
+/// Returns the height of the ground relative to `origin`. `box` is relative to `origin`, too, but `ground` is in the
 /// file's coordinates.
 double height_of_ground(const std::string& file, const Box& box, std::optional<double> ground, double origin) {
   if (!ground) return box.low.y - box.fall();

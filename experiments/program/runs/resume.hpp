@@ -13,8 +13,8 @@ std::string text_in(const compare::Provenance& provenance, const std::string& ke
 
 /// Holds the data with which a run continues.
 struct ResumedRun {
-  RunOptions options;  ///< for contestant_of
-  RunRequest request;  ///< for RunSession
+  RunOptions options;  ///< argument of contestant_of
+  RunRequest request;  ///< argument of RunSession
 };
 
 /// Reads the run in the folder and changes nothing there. Throws compare::InputError with a remedy if there is no run;

@@ -14,14 +14,14 @@ namespace ogc::experiments {
 struct RunOptions {
   std::string scene, solver = "vbd", backend = "cpu", scale, audit = "frame", audit_meetings, from_state, out, show;
   std::vector<std::string> assignments;  ///< "key=value" of each --set, applied in order
-  std::int64_t steps = 0;                ///< 0: number of steps of the scene
+  std::int64_t steps = 0;                ///< 0: as many steps as the scene has
   bool profile = false, iterations = false, condition = false, residual = false, ledger = false;
   bool tolerate_start = false;
   Jitter jitter;
   compare::MeshOptions mesh;                               ///< how a mesh file is read, if it replaces a scene
-  std::optional<double> ground;                            ///< y of the ground below such a mesh [m]
+  std::optional<double> ground;                            ///< y of the ground below the mesh of a mesh file [m]
   std::optional<double> deepest;                           ///< --deepest [m]
-  int threads = 0;                                         ///< 0: all
+  int threads = 0;                                         ///< number of CPU threads; 0: all
   double checkpoint_seconds = default_checkpoint_seconds;  ///< least time between two checkpoints [s]
 };
 

@@ -256,7 +256,7 @@ bool RunSession::one_chunk() {
   const std::string broken = rows.empty() ? "the simulation did no step; please report it" : step_failure(rows.back());
   if (broken.empty()) {
     step_ = rows.back().step;
-    // If another state still waits for its verdict, the state of a due checkpoint is not offered. The other state is
+    // If another state still waits for its verdict, no state is offered for a due checkpoint. The waiting state is
     // saved when its verdict arrives.
     if (is_planned(step_) || (is_checkpoint_due() && offered_.empty())) offer_state(any_step);
   } else if (!rows.empty()) {
@@ -276,7 +276,7 @@ void RunSession::offer_state(std::int64_t before) {
   if (step_ <= offered_step_ || step_ >= before || !finite(snapshot)) return;
   offered_step_ = step_;
   // The loss of momentum is measured only in steps after a frame. An interrupted run has the same frames as an
-  // uninterrupted one, so both report the same loss.
+  // uninterrupted run, so both runs report the same loss.
   if (is_frame(step_)) momentum_.begin_after(step_, snapshot.velocities);
   offer(std::move(snapshot));
 }

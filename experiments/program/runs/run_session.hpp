@@ -72,12 +72,12 @@ struct RunSummary {
   std::string left_out_of_audits;    ///< in words; empty if nothing is left out
   AuditMode audit = AuditMode::off;  ///< which states were requested for audits
   std::string failure;           ///< description of the failure, with the names of primitives; empty if there was none
-  bool was_interrupted = false;  ///< Ctrl-C ended it
+  bool was_interrupted = false;  ///< whether Ctrl-C ended the run
   bool is_unbounded = false;     ///< bounds=off: nothing is guaranteed
-  std::int64_t first_step = 0, last_step = 0;  ///< numbers of the first and the last state
-  double median_ms = 0, worst_ms = 0;          ///< times of a step
+  std::int64_t first_step = 0, last_step = 0;  ///< steps of the first and the last state
+  double median_ms = 0, worst_ms = 0;          ///< median and largest time of a step
   std::int64_t worst_step = 0;                 ///< step with the largest time
-  /// largest number of contacts of both kinds in one step; contacts of each kind in the last step
+  /// largest number of vertex–facet and edge–edge contacts together in one step; number of each in the last step
   std::int64_t most_contacts = 0, last_vertex_facet_contacts = 0, last_edge_edge_contacts = 0;
   /// sums over the steps of StepMetrics::broad_phases, discrete_detections and continuous_detections
   std::int64_t detections = 0, discrete_detections = 0, continuous_detections = 0;
@@ -91,7 +91,8 @@ struct RunSummary {
   double left_residual = 0, left_held = 0;
   std::size_t audited_states = 0, failed_states = 0, intersections = 0, certificate_violations = 0, unsafe_bounds = 0;
   bool has_volumes = false;  ///< the next members describe the states that this command audited, if there are volumes
-  /// largest numbers of vertices inside and of edges that meet a surface; vertices inside at the start
+  /// largest number of vertices inside volumes, largest number of edges that meet a volume's surface, and number of
+  /// vertices inside at the start
   std::size_t most_inside = 0, most_edges_meeting = 0, inside_at_start = 0;
   double deepest = 0;                ///< largest depth inside a volume [m]
   std::int64_t deepest_step = 0;     ///< step of the largest depth
@@ -99,7 +100,7 @@ struct RunSummary {
   bool asks_meetings = false;        ///< whether meetings were counted; the next two members cover the counted steps
   std::int64_t meetings = 0, first_meeting = -1;  ///< pairs that met during steps; step of the first meeting
   std::optional<bool> guarantee_kept;             ///< empty if nothing was audited and no violation is known
-  /// results of StartPairs: pairs that the guarantee excludes, and those still open at the end
+  /// results of StartPairs: number of pairs that the guarantee excludes; number of them that are still open at the end
   std::size_t start_pairs = 0, open_pairs = 0;
   std::string final_hash;  ///< state_hash of the last good state
   RunSeconds seconds;      ///< times of this command alone, which may have continued an earlier run

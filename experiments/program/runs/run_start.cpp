@@ -98,7 +98,7 @@ std::string RunSession::show(const std::string& name, const Snapshot& state, con
 }
 
 /// Finds the pairs of vertices whose faces intersect at the start. If a run continues, reads its frames and closes the
-/// pairs that have separated there.
+/// pairs that have separated in one of them.
 void RunSession::name_pairs() {
   if (!request_.resume) {
     pairs_.emplace(request_.scene, start_.positions);

@@ -24,8 +24,8 @@ std::vector<MaterialSetting> material_settings();
 /// constant of solids is set for a scene without solids.
 bool set_material(compare::Scene& scene, const std::string& key, const std::string& value);
 
-/// Sets the constants of solids among the assignments ("key=value") and ignores the others. Settings are derived from a
-/// solid's material, so this comes first.
+/// Sets the constants of solids among the assignments ("key=value") and ignores the others. Must be called before
+/// settings are suggested, because these depend on a solid's material.
 void set_solid_constants(compare::Scene& scene, const std::vector<std::string>& assignments);
 
 }  // namespace ogc::experiments

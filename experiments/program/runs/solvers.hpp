@@ -23,7 +23,7 @@ struct SolverOptions {
   bool has_backends = false;           ///< --backend; without it the solver runs on the CPU
   bool has_condition = false;          ///< --condition
   bool has_measured_residual = false;  ///< --residual: the column holds Eq. 29
-  bool has_traced_rows = false;        ///< --iterations writes rows from a trace beside the simulation
+  bool has_traced_rows = false;        ///< whether --iterations writes rows that come from a trace
   bool is_penalty = false;             ///< always bounds=off and contact_activation=quadratic
 };
 /// Returns the options of one solver.

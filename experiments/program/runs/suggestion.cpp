@@ -36,11 +36,11 @@ constexpr double most_excess = 0.01;
 /// Factor on the exponent of method.md §7.7. Measured rates are 0.9 to 1.2 times that exponent, because modes are not
 /// quite smooth, and a sweep goes colour by colour, not row by row (tests/experiments/program/runs/suggestion.cpp).
 constexpr double least_rate = 0.9;
-/// Number of sweeps in each step that a resting stack needs for each layer: `sweeps_a_layer_and_radius` · g h²/r, at
-/// most `most_sweeps_a_layer`. A step begins after all layers have fallen by g h², and each sweep transmits the
-/// ground's support upwards. With 16 in place of the first number, stacks of 10 to 50 aligned sheets keep their gaps
-/// for g h² from r/64 to r/4; with 12 they are squeezed until they tremble. If a layer falls by r or more, contacts
-/// stop it at the start of the step, and 8 sweeps a layer suffice (tests/experiments/stacks.cpp).
+/// Number of sweeps per step that a resting stack needs for each layer: `sweeps_a_layer_and_radius` · g h²/r, at most
+/// `most_sweeps_a_layer`. A step begins after all layers have fallen by g h², and each sweep transmits the ground's
+/// support upwards. Stacks of 10 to 50 aligned sheets were run with g h² from r/64 to r/4. With 16 instead of 20 they
+/// keep their gaps; with 12 they are compressed until they tremble. If a layer falls by r or more, contacts stop it at
+/// the start of the step. Then 8 sweeps per layer suffice (tests/experiments/stacks.cpp).
 constexpr double sweeps_a_layer_and_radius = 20, most_sweeps_a_layer = 8;
 
 struct Measures {
@@ -264,8 +264,8 @@ struct Sweeping {
   double enough() const { return block / (2 * mode * least_rate) * std::log1p(mode / most_excess); }
 };
 
-/// Returns the longest step up to `step` for which the excess after `iterations` sweeps is at most 1 %. Bisection works
-/// because enough() grows with the step.
+/// Returns the longest time step up to `step` for which `iterations` sweeps leave an excess (see Sweeping) of at most 1
+/// %. Bisection works because enough() grows with the step.
 double step_for(const Measures& mesh, double iterations, double step) {
   double low = 0, high = step;
   for (int halving = 0; halving < 50; ++halving) {

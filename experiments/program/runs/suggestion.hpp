@@ -29,10 +29,10 @@ struct Suggestion {
   double excess_extension = 0;
 };
 
-/// Returns the suggestion for a valid mesh with triangles. `material` provides density and membrane constants, for
-/// tetrahedra the solid_… constants; g = 9.81 m/s². `fall`: height from which the mesh falls [m], or 0. The smallest
-/// gap is exact (compare::smallest_distances), which takes a few seconds for a million triangles. Throws
-/// compare::InputError for a mesh without triangles.
+/// Returns the suggestion for a valid mesh with triangles. `material`: density and constants of the membrane; for
+/// tetrahedra, density and the solid_… constants. `fall`: height from which the mesh falls [m]; 0 if it does not fall.
+/// The smallest gap is exact (compare::smallest_distances), which takes a few seconds for a million triangles. g = 9.81
+/// m/s². Throws compare::InputError for a mesh without triangles.
 Suggestion suggest(const compare::Mesh& mesh, const compare::Material& material, double fall);
 
 /// Sets r, the cap of r_q, h and the number of iterations of the scene, and k_c of all its bodies.

@@ -7,8 +7,8 @@
 
 namespace ogc::experiments {
 
-/// Returns a warning about the thinnest solid among those whose rest shape is in contact with itself: the number of
-/// pairs and the thickness there [m]. Empty if there is none.
+/// Returns a warning about the thinnest solid whose rest shape is in contact with itself, with the number of contacts
+/// and the smallest thickness [m]. Empty if there is no such solid.
 std::string thin_solid_warning(const compare::Scene& scene);
 
 }  // namespace ogc::experiments

@@ -11,23 +11,24 @@
 
 namespace ogc::experiments {
 
-/// Largest plausible diagonal of a scene's bounding box [m]; a house is smaller. Longer ones suggest another unit than
-/// metres.
+/// Largest plausible diagonal of a scene's bounding box [m]; a house is smaller. A longer diagonal suggests another
+/// unit than metres.
 inline constexpr double largest_diagonal = 20;
-/// Largest r without a warning, in median edges of a body. With a larger r, vertices are in contact with mesh
-/// neighbours that are several rings away.
+/// Largest r that causes no warning, in median edge lengths of a body. With a larger r, vertices are in contact with
+/// mesh neighbours that are several rings away.
 inline constexpr double most_edges_a_radius = 2;
-/// Largest distance without a warning between keyframes and their body at the start, in multiples of r. The body covers
-/// this distance in the first step. A jump so small can't pass a contact, and the rounding of files is far smaller.
+/// Largest distance between the first keyframe and its body at the start that causes no warning, in multiples of r. The
+/// body covers this distance in the first step, and so short a motion can't pass through a contact. The rounding of
+/// files causes far smaller distances.
 inline constexpr double most_radii_from_keys = 0.01;
 /// Largest share of a step's motion that truncation may take without a warning (MomentumShare).
 inline constexpr double most_momentum_lost = 0.5;
 
-/// Number of consecutive steps, each ending with every free vertex cut by its bound, that causes a warning.
+/// Number of consecutive steps that causes a warning if bounds cut every free vertex in each of them.
 inline constexpr std::int64_t most_held_steps = 10;
 
-/// Largest residual (Eq. 29, the share of the force that is left on free vertices) of the median step without a
-/// warning.
+/// Largest residual of the median step that causes no warning. The residual is the share of the force that is left on
+/// free vertices (Eq. 29).
 inline constexpr double most_force_left = 0.1;
 
 /// Collects the residuals (Eq. 29) that the steps of a run leave. A step counts only if the part of its residual that
@@ -35,7 +36,7 @@ inline constexpr double most_force_left = 0.1;
 /// fall.
 class ForcesLeft {
  public:
-  /// Adds a step's row if it has these numbers.
+  /// Adds the residual and the number of held vertices of a step, if the step counts.
   void look_at(const compare::StepMetrics& row);
   /// Returns the number of steps that count.
   std::size_t steps() const { return residuals_.size(); }
@@ -51,14 +52,15 @@ class ForcesLeft {
 /// Collects the warnings of a run, each kind at most once.
 class Warnings {
  public:
-  /// Checks the scene's start; the scene must be rounded and valid. Warns of bounds=off, the size of the bounding box,
-  /// r against the edges of each body and against the thickness of each solid, and curved rest shapes with isometric
-  /// bending. Also warns of a large tolerated speed at the end of IPC's steps, and of keyframes that begin away from
-  /// their body.
+  /// Checks the scene's start; the scene must be rounded and valid. Warns of bounds=off, of a large bounding box, of an
+  /// r that is large for the edges of a body or the thickness of a solid, and of curved rest shapes with isometric
+  /// bending. Also warns of a large tolerated speed at the end of IPC's steps, and of first keyframes that differ from
+  /// their body's start.
   explicit Warnings(const compare::Scene& scene, Solver solver = Solver::vbd);
-  /// Checks a step: the loss of a guess loop that did all its rounds (MomentumShare; empty: not known), the lag of
-  /// prescribed vertices, and whether bounds end most_held_steps in a row. Returns a warning for the first step of each
-  /// kind; `list` names the worst step.
+  /// Checks a step for three kinds of warning: the guess loop did all its rounds and lost much of the motion,
+  /// prescribed vertices lag, or bounds held all vertices in most_held_steps steps in a row. `momentum_lost`:
+  /// MomentumShare::lost; empty if it is not known. Returns a warning for the first step of each kind; `list` names the
+  /// worst step.
   std::vector<std::string> look_at(const compare::StepMetrics& row, std::optional<double> momentum_lost);
   /// Returns the forces that the steps left so far.
   const ForcesLeft& forces_left() const { return forces_left_; }

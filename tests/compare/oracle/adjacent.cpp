@@ -19,8 +19,9 @@ namespace {
 
 using Simplex = std::vector<Index>;
 
-/// Solves the equations `rows` for the unknowns in the bit set `set`; the others are 0. Returns the solution if it is
-/// unique and non-negative, else an empty list. The last entry of a row is its right side.
+/// Solves the linear equations `rows` for the unknowns in the bit set `set`; the other unknowns are 0. Returns the
+/// solution if it is unique and non-negative, else an empty list. The last number of a row is the right-hand side of
+/// its equation.
 std::vector<Rational> basic_solution(const std::vector<Row>& rows, std::size_t columns, unsigned set) {
   std::vector<Row> chosen(rows.size());
   std::vector<std::size_t> place;
@@ -94,7 +95,7 @@ std::size_t audited(const Simplex& first, const Simplex& second, const std::vect
   return audit(build_topology(static_cast<Index>(x.size()), triangles, edges), x).count;
 }
 
-/// Checks both simplices in every order of their corners, with either of them first.
+/// Checks the two simplices in every order of their corners, and in both orders of the simplices.
 void check_in_all_orders(Simplex first, Simplex second, const std::vector<Vec3>& x, bool expected) {
   std::ranges::sort(first);
   do {
@@ -116,28 +117,36 @@ TEST_CASE("two triangles on an edge, a vertex, and beside a loose edge, as they 
     bool meets;
   };
   const Vec3 o{0, 0, 0};
-  const std::vector<Known> cases{
-      // Both triangles lie in one plane and cross, and no corner of one lies in the other.
-      {{{0, 0.2, 0}, {2, 0.2, 0}, {0.5, 0.2, 2}, {1.5, 0.2, 2}}, {0, 1, 2}, {0, 1, 3}, true},
-      // Folded flat, with a corner of one triangle in the other; folded flat onto the same place; folded nearly flat.
-      {{o, {2, 0, 0}, {1, 0, 2}, {0.9, 0, 1}}, {0, 1, 2}, {0, 1, 3}, true},
-      {{o, {2, 0, 0}, {1, 0, 2}, {1, 0, 2}}, {0, 1, 2}, {0, 1, 3}, true},
-      {{o, {2, 0, 0}, {1, 0, 2}, {0.9, 1e-7, 1}}, {0, 1, 2}, {0, 1, 3}, false},
-      // In one plane: an open pair, on both sides of the common edge.
-      {{o, {2, 0, 0}, {1, 0, 2}, {0.9, 0, -1}}, {0, 1, 2}, {0, 1, 3}, false},
-      // Both share one vertex: one triangle cuts the other; they overlap in their plane; an edge lies on the other
-      // triangle; they have no other common point.
-      {{o, {2, -1, 0}, {2, 1, 0}, {1, 0, -1}, {3, 0, 1.5}}, {0, 1, 2}, {0, 3, 4}, true},
-      {{o, {2, 0, 0}, {0, 0, 2}, {2, 0, 0.5}, {0.5, 0, 2}}, {0, 1, 2}, {0, 3, 4}, true},
-      {{o, {2, 0, 0}, {0, 0, 2}, {1, 0, 0}, {0, 0, -2}}, {0, 1, 2}, {0, 3, 4}, true},
-      {{o, {2, -1, 0}, {2, 1, 0}, {-1, 0, -1}, {-1, 0, 1}}, {0, 1, 2}, {0, 3, 4}, false},
-      // A loose edge crosses the opposite side in the triangle's plane; ends on it; ends before it.
-      {{o, {2, -1, 0}, {2, 1, 0}, {3, 0, 0}}, {0, 1, 2}, {0, 3}, true},
-      {{o, {2, -1, 0}, {2, 1, 0}, {2, 0, 0}}, {0, 1, 2}, {0, 3}, true},
-      {{o, {2, -1, 0}, {2, 1, 0}, {3, 0, 0x1p-60}}, {0, 1, 2}, {0, 3}, false},
-      // Loose edges are folded onto each other; one continues the other.
-      {{o, {2, 0, 0}, {1, 0, 0}}, {0, 1}, {0, 2}, true},
-      {{o, {2, 0, 0}, {-1, 0, 0}}, {0, 1}, {0, 2}, false}};
+  const std::vector<Known> cases{// Both triangles lie in one plane and cross, and no corner of one lies in the other.
+                                 {{{0, 0.2, 0}, {2, 0.2, 0}, {0.5, 0.2, 2}, {1.5, 0.2, 2}}, {0, 1, 2}, {0, 1, 3}, true},
+                                 // Pairs with a common edge:
+                                 // - folded flat, with a corner of one triangle in the other;
+                                 // - folded flat onto the same place;
+                                 // - folded nearly flat.
+                                 {{o, {2, 0, 0}, {1, 0, 2}, {0.9, 0, 1}}, {0, 1, 2}, {0, 1, 3}, true},
+                                 {{o, {2, 0, 0}, {1, 0, 2}, {1, 0, 2}}, {0, 1, 2}, {0, 1, 3}, true},
+                                 {{o, {2, 0, 0}, {1, 0, 2}, {0.9, 1e-7, 1}}, {0, 1, 2}, {0, 1, 3}, false},
+                                 // A pair in one plane, with the triangles on opposite sides of the common edge.
+                                 {{o, {2, 0, 0}, {1, 0, 2}, {0.9, 0, -1}}, {0, 1, 2}, {0, 1, 3}, false},
+                                 // Pairs of triangles with one common vertex:
+                                 // - one triangle cuts the other;
+                                 // - the triangles overlap in their plane;
+                                 // - an edge of one lies on the other;
+                                 // - the triangles have no other common point.
+                                 {{o, {2, -1, 0}, {2, 1, 0}, {1, 0, -1}, {3, 0, 1.5}}, {0, 1, 2}, {0, 3, 4}, true},
+                                 {{o, {2, 0, 0}, {0, 0, 2}, {2, 0, 0.5}, {0.5, 0, 2}}, {0, 1, 2}, {0, 3, 4}, true},
+                                 {{o, {2, 0, 0}, {0, 0, 2}, {1, 0, 0}, {0, 0, -2}}, {0, 1, 2}, {0, 3, 4}, true},
+                                 {{o, {2, -1, 0}, {2, 1, 0}, {-1, 0, -1}, {-1, 0, 1}}, {0, 1, 2}, {0, 3, 4}, false},
+                                 // A triangle and a loose edge with one common vertex:
+                                 // - the loose edge crosses the opposite edge in the triangle's plane;
+                                 // - it ends on the opposite edge;
+                                 // - it lies slightly beside the plane.
+                                 {{o, {2, -1, 0}, {2, 1, 0}, {3, 0, 0}}, {0, 1, 2}, {0, 3}, true},
+                                 {{o, {2, -1, 0}, {2, 1, 0}, {2, 0, 0}}, {0, 1, 2}, {0, 3}, true},
+                                 {{o, {2, -1, 0}, {2, 1, 0}, {3, 0, 0x1p-60}}, {0, 1, 2}, {0, 3}, false},
+                                 // Two loose edges with a common vertex: folded onto each other; in line.
+                                 {{o, {2, 0, 0}, {1, 0, 0}}, {0, 1}, {0, 2}, true},
+                                 {{o, {2, 0, 0}, {-1, 0, 0}}, {0, 1}, {0, 2}, false}};
   for (std::size_t i = 0; i < cases.size(); ++i) {
     INFO("case " << i);
     check_in_all_orders(cases[i].first, cases[i].second, cases[i].x, cases[i].meets);

@@ -173,7 +173,7 @@ TEST_CASE("curves that touch or cross in a point are listed, by the edges of no 
   apart[6].z = apart[7].z = 0x1p-60;
   apart[8].y = 2;
   CHECK(audit(topology, apart).count == 0);
-  // Two crossing edges of triangles in one plane are found once each, through their triangles.
+  // Edges of two triangles in one plane cross. The audit lists a crossing as edge and triangle, not again as two edges.
   const std::vector<Vec3> flat{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, -1, 0}, {1, 5, 0}, {9, 9, 0}};
   const AuditResult plane = audit(build_topology(6, std::vector<Triangle>{{0, 1, 2}, {3, 4, 5}}), flat);
   CHECK(std::none_of(plane.intersections.begin(), plane.intersections.end(),

@@ -99,7 +99,7 @@ TEST_CASE("one unit in the last place decides, where a computation in double doe
       const double dx = p.x - plane[0].x, dy = p.y - plane[0].y;
       wrong_in_double += (dx == dy) != (i == j);
       CHECK(segment_meets_triangle({p, p}, plane) == (i == j));
-      const double away = i < j ? -1 : 1;  // the first segment stays on p's side of the plane
+      const double away = i < j ? -1 : 1;  // the first segment stays on the same side of the plane as p
       CHECK(segment_meets_triangle({p, Vec3{0.5 + away, 0.5 - away, 0}}, plane) == (i == j));
       CHECK(segment_meets_triangle({p, Vec3{0.5 - away, 0.5 + away, 0}}, plane));
     }

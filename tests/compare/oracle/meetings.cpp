@@ -246,8 +246,8 @@ TEST_CASE("meetings: what a way will cost is told by all of a small mesh and by 
 }
 
 TEST_CASE("meetings: a braid of 65,000 edges a step on is proved in seconds", "[property]") {
-  // Pairs of strands are wound about each other at a distance of 0.7 contact radii. They are slanted, so that boxes of
-  // near edges overlap. Each coordinate moves by up to 0.05 of a radius.
+  // The strands of each pair are wound about each other at a distance of 0.7 contact radii. All strands are slanted, so
+  // that boxes of near edges overlap. Each coordinate moves by up to 0.05 of a radius.
   const Index strands = 65, segments = 1000;
   const double radius = 1e-3;
   std::vector<Vec3> from, to;

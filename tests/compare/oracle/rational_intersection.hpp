@@ -17,7 +17,7 @@ using Rational = boost::multiprecision::cpp_rational;
 using Row = std::vector<Rational>;
 
 /// Returns whether the system of five equations has exactly one solution, and the solution is non-negative. The system
-/// has one unknown for each column; the last entry of a row is its right side.
+/// has one unknown for each column; the last number of a row is the right-hand side of its equation.
 inline bool solved_by_non_negative(std::vector<Row> rows, std::size_t unknowns) {
   for (std::size_t pivot = 0; pivot < unknowns; ++pivot) {
     std::size_t row = pivot;

@@ -30,7 +30,7 @@ TEST_CASE(
     "[unit]") {
   Scene scene = small_scene();
   scene.mesh.positions[0].y = scene.rest_positions[0].y =
-      1e-13;  // above the dust limit of a body of 0.1 m, but the floor extends to ±1 m
+      1e-13;  // above the limit of dust for a body of 0.1 m, but the scene's floor extends to ±1 m
   scene.mesh.positions[1].y = 2e-13;
   scene.rest_positions[1].y = 3e-13;
   const Dust dust = clear_dust(scene);

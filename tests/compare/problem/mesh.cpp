@@ -80,7 +80,7 @@ std::vector<Edge> brute_force_edges(const Complex& complex) {
   return {edges.begin(), edges.end()};
 }
 
-// Returns in row i all j for which `belongs(i, j)`.
+// Returns rows; row i has all j for which `belongs(i, j)` is true.
 template <class Belongs>
 std::vector<std::vector<Index>> brute_force_rows(std::size_t row_count, std::size_t item_count,
                                                  const Belongs& belongs) {

@@ -73,7 +73,7 @@ TEST_CASE("robot_shirt: jaws move less than bounds allow in one detection, and c
     const Scene scene = make_scene("robot_shirt", scale);
     const Settings& s = scene.settings;
     CHECK(largest_step(scene) < s.bounds_relaxation * s.detection_radius_cap * s.contact_radius);
-    // Open jaws withdraw at 0.47 m/s. At 0.85 r a step, lower jaws would lag behind
+    // Open jaws withdraw at 0.47 m/s. At 0.85 r per step, lower jaws would lag behind
     // (experiments/scenes/robot_shirt.hpp).
     CHECK(largest_step(scene) < 0.4 * s.contact_radius);
     for (const PrescribedMotion& motion : scene.motions) {

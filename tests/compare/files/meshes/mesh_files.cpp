@@ -58,8 +58,8 @@ void append(std::string& bytes, Number value, bool big_endian) {
   bytes.append(raw.data(), raw.size());
 }
 
-// Returns a square as a scanner's file has it: single precision, colours, a list of confidences, a user element before
-// the faces, a quality after each face.
+// Returns a square in a file such as scanners write: single precision, colours, a list of confidences, a user element
+// before the faces, a quality after each face.
 std::string foreign_ply(bool big_endian) {
   std::string bytes = std::string("ply\r\nformat binary_") + (big_endian ? "big" : "little") +
                       "_endian 1.0\r\ncomment made by hand\r\nobj_info nothing\r\nelement vertex 4\r\nproperty float "

@@ -44,8 +44,8 @@ std::string square_glb();
 
 /// Returns a cube of six tetrahedra in Gmsh's binary formats, 4.1 if `is_new`, else 2.2.
 std::string binary_msh(bool is_new, std::endian order = std::endian::little);
-/// Return the same cube in the formats of Medit and VTK. cube_vtk is binary or text; its cells are those of version 5
-/// if `is_new`, else of older versions.
+/// Return the same cube in the formats of Medit and VTK. cube_vtk is binary or text, and lists its cells as version 5
+/// of the format does if `is_new`, otherwise as older versions do.
 std::string cube_medit();
 std::string cube_vtk(bool is_binary, bool is_new);
 std::string cube_vtu();

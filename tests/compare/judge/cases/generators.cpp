@@ -226,7 +226,7 @@ TEST_CASE(
     for (const Generator& generator : generators(stage))
       for (std::uint64_t i = 0; i < (generator.least > 0 ? 1u : 200u); ++i)
         sizes.insert(vertex_count(generate({stage, std::string(generator.name), 1, i, "", {}})));
-    // A scene needs a face to be valid.
+    // Scenes have at least one triangle.
     const bool is_scene = stage == Stage::rest_state || stage == Stage::sweep || stage == Stage::step;
     const bool detects = stage == Stage::detect_vertex_facet || stage == Stage::detect_edge_edge;
     INFO(stage_name(stage));

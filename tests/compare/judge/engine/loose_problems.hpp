@@ -1,4 +1,5 @@
-// Checks MetricInfo::loose_because against the errors of reports.
+// Checks that MetricInfo::loose_because gives a reason for exactly those tolerances that the errors in reports show to
+// be loose.
 #pragma once
 
 #include <algorithm>

@@ -14,8 +14,8 @@ constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
 
 std::string first_message(const Tally& tally) { return tally.mismatches.empty() ? "" : tally.mismatches[0].message; }
 
-/// A point at distance 1 above the corner (0, 0, 0) of a right triangle. It lies on the planes between the corner and
-/// both of its edges; the exact answer is the corner.
+/// A point at distance 1 above the corner (0, 0, 0) of a right triangle. It lies on the two planes that separate the
+/// Voronoi region of this corner from those of its edges. The exact answer is the corner.
 struct FaceFixture {
   std::vector<TestCase> cases{{{Stage::closest_face, "uniform", 0, 0, "", {}}, ClosestFaceCase{}}};
   ClosestFaceIn in{{{0, 0, 1}}, {{Vec3f{0, 0, 0}, Vec3f{1, 0, 0}, Vec3f{0, 1, 0}}}};
@@ -79,8 +79,8 @@ TEST_CASE("closest_face: features are accepted on both sides of a grey boundary 
 
 TEST_CASE("closest_face: distances, bounds and weights", "[unit]") {
   FaceFixture test;
-  // The unit is 2⁻²⁴ Σ|δ|, where δ are the differences of the point and the corners: Σ|δ| = 1 + 2 + 2 = 5. The
-  // tolerance is 12 units, 3.6e-6.
+  // The error scale is 2⁻²⁴ Σ|δ|, where δ are the differences of the point and the corners: Σ|δ| = 1 + 2 + 2 = 5. The
+  // tolerance is 12 times the error scale, 3.6e-6.
   test.out.distance[0] = 1 + 3.5e-6f;
   REQUIRE(test.verdict().empty());
   test.out.distance[0] = 1 + 3.8e-6f;

@@ -11,7 +11,7 @@ using namespace ogc::compare;
 
 namespace {
 
-/// Holds one triangle and one hinge; most scales of their errors are 1.
+/// Holds the truth and an answer for one triangle and one hinge. Most error scales are 1.
 struct RestFixture {
   RestStateTruth truth;
   RestStateOut out;

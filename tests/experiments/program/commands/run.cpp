@@ -247,8 +247,8 @@ TEST_CASE("rows an iteration end where the step ends, in scenes with prescribed 
       "/frames/frame_000030.h5 --out " + out);
   const compare::StepTable table = compare::read_steps(out);
   REQUIRE(table.rows.size() == 1);
-  // The residuals of both files are comparable only without contacts, because new contacts may be found at the step's
-  // end.
+  // The residuals in steps.csv and iterations.csv are equal only without contacts, because the end of a step may have
+  // new contacts.
   REQUIRE(table.rows[0].vertex_facet_contacts + table.rows[0].edge_edge_contacts == 0);
   std::ifstream file(folder / "run" / "iterations.csv");
   std::string line, last;

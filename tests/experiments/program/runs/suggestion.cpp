@@ -129,8 +129,8 @@ double sunk(const compare::Mesh& mesh, const compare::Material& material, const 
   return sum / static_cast<double>(mesh.positions.size());
 }
 
-/// Returns the relative amount by which the mesh sinks further than with ten times as many sweeps. The error that
-/// remains with ten times as many sweeps is negligible: the tenth power of the measured one.
+/// Returns by how much further the mesh sinks than with ten times as many sweeps, relative to the latter. The error
+/// that remains with ten times as many sweeps is negligible: it is the tenth power of the measured error.
 double measured_excess(const compare::Mesh& mesh, const compare::Material& material, const Suggestion& found) {
   const auto iterations = static_cast<std::int64_t>(found.iterations.value);
   return sunk(mesh, material, found, iterations) / sunk(mesh, material, found, 10 * iterations) - 1;

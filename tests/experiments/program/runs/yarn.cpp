@@ -45,7 +45,7 @@ compare::Scene yarn_of(const std::vector<Vec3>& positions, const std::vector<Edg
 
 constexpr Index ring_size = 24;
 
-/// Returns two rings that are hooked into each other. Their far sides are pulled apart by a tension far above k_c r.
+/// Returns two rings that are hooked into each other. A tension far above k_c r pulls them apart.
 compare::Scene hooked_rings(compare::Bounds bounds) {
   std::vector<Vec3> positions;
   std::vector<Edge> loose;
