@@ -32,9 +32,9 @@ Choice another(Random& random, Choice usual) {
 /// model of a body, except `none`, by a random model. Adds springs by add_springs and rounds the scene again.
 void choose_models(Random& random, Scene& scene);
 
-/// Adds up to three springs, each between two vertices, or between a vertex and a point between two others. At least
-/// one of the first two vertices is free. In half of the cases the pairs of vertices that springs connect are excluded.
-/// Does not round the scene.
+/// Adds up to three springs, each between two vertices, or between a vertex and a point between two other vertices. At
+/// least one of the first two vertices of a spring is free. In half of the cases excludes the pairs of vertices that
+/// springs connect. Does not round the scene.
 void add_springs(Random& random, Scene& scene);
 
 /// Replaces the bending model of each body that bends by a random model other than discrete hinges.

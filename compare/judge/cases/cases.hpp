@@ -97,7 +97,7 @@ struct PlaneCase {
   std::vector<Vec3f> displacement{};   ///< by vertex [m], as in PlaneIn; may be empty
 };
 
-/// A volume, and points whose depth in it is the question.
+/// A volume and points. The question is the depth of each point in the volume.
 struct VolumeDepthCase {
   std::shared_ptr<const Topology> topology;  ///< of the volume
   std::vector<Vec3f> positions;              ///< by vertex [m]

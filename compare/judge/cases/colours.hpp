@@ -15,8 +15,8 @@ using Neighbours = std::vector<std::set<Index>>;
 
 /// Returns for each vertex all vertices that share an element with it; materials do not matter.
 Neighbours element_neighbours(const Scene& scene, const Topology& topology);
-/// Returns the neighbours of each segment. Two segments are neighbours if they share a vertex that no third segment
-/// has.
+/// Returns the neighbours of each segment. Two segments are neighbours if they share a vertex and no third segment has
+/// this vertex.
 Neighbours segment_neighbours(const Scene& scene);
 
 /// Returns a colour for each free vertex and −1 for all others; no two vertices of an element share a colour. Colours

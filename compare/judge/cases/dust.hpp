@@ -11,9 +11,10 @@
 
 namespace ogc::compare {
 
-/// Makes some coordinates of the case small, down to 2⁻⁶⁰ (10⁻¹⁸), one after another, as long as the case stays legal.
-/// Double-double numbers cannot hold 1 plus the product of two smaller coordinates. Connectivity, radii, materials and
-/// rest data stay. In cases with a scene only the positions of a sweep change.
+/// Sets some coordinates, chosen at random, to 0 or to tiny numbers. If the case is illegal then, undoes all changes.
+/// Tiny numbers are at least 2⁻⁶⁰ (10⁻¹⁸), because double-double numbers cannot hold 1 plus the product of two smaller
+/// coordinates. Connectivity, radii, materials and rest data stay. In cases with a scene only the positions of a sweep
+/// change.
 void add_dust(Random& random, TestCase& test);
 
 /// Returns pointers to the coordinates of points, one array after another.

@@ -19,8 +19,7 @@ double squared_distance(const Vec3f& a, const Vec3f& b) {
   return x * x + y * y + z * z;
 }
 
-/// Checks whether two edges may be nearly parallel. The limit is a thousandth too large, so that rounding does not
-/// matter.
+/// Checks whether two edges may be nearly parallel. The limit is 0.1 % too large, so that rounding hides no such pair.
 bool might_be_parallel(const std::vector<Vec3f>& x, const Edge& e, const Edge& f) {
   const auto along = [&](const Edge& edge) {
     const Vec3f &a = x[at(edge[0])], &b = x[at(edge[1])];
@@ -38,7 +37,8 @@ class Asker {
   Asker(Random& random, const Topology& topology, const std::vector<Vec3f>& positions)
       : random_(random), topology_(topology), positions_(positions) {}
 
-  /// Appends a question, or none if the drawn faces do not make one.
+  /// Draws two faces and appends a question about them. Appends nothing if they do not make one, for example if one
+  /// face contains the other.
   void ask(std::vector<BlockQuestion>& questions) {
     const Index corner = random_.below(topology_.vertex_count), v = near(corner);
     const Face a = face_at(corner);
@@ -107,8 +107,7 @@ class Asker {
   const std::vector<Vec3f>& positions_;
 };
 
-/// Makes the mesh that the generator `family` of vertex–facet detection makes from these random numbers, and adds
-/// questions about its blocks.
+/// Makes the mesh of generator `family` of vertex–facet detection, and adds questions about its blocks.
 template <const auto& family, int count = questions_a_mesh>
 CaseData about(Random& random) {
   MeshCase mesh = case_of<MeshCase>(find_generator(Stage::detect_vertex_facet, family).make(random));

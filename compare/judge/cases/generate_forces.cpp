@@ -45,8 +45,8 @@ void set_material(Random& random, MembraneCase& question) {
   question.damping = random.one_in(2) ? 0 : single(random.magnitude(-3, 1));
 }
 
-/// Moves the corners of the rest shape by `deform`. In half of the cases the positions at the start of the step are
-/// near the deformed ones, otherwise at rest. The same rigid motion takes both out of the canonical frame.
+/// Moves the corners of the rest shape by `deform`. At the start of the step, the corners are near the deformed ones in
+/// half of the cases, and at rest in the others. One rigid motion takes both triangles out of the canonical frame.
 template <class Deform>
 CaseData membrane_case(Random& random, Deform deform, bool lattice = false) {
   MembraneCase question;

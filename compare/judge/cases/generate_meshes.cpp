@@ -11,7 +11,7 @@ namespace {
 
 using namespace placement;
 
-/// A run with at least this many cases takes nearly all of them from generators whose meshes have thousands of
+/// In a run with at least this many cases, nearly all cases come from generators whose meshes have thousands of
 /// vertices. In such meshes a device needs a hundredth of the time per case.
 constexpr std::uint64_t large_run = 1000000;
 
@@ -217,8 +217,8 @@ CaseData strands(Random& random) {
   return finish(random, builder, {jitter_rung(random), radius_at(random, gap)});
 }
 
-/// Makes rods with right angles, half turns and straight parts, exactly or up to a rung. Several segments lie within
-/// the radius. So closest points change from one segment to the next at common vertices.
+/// Makes rods with right angles, reversals and straight parts, exactly or up to a rung. Several segments lie within the
+/// radius, so closest points change from one segment to the next at common vertices.
 CaseData bends(Random& random) {
   MeshBuilder builder;
   const double gap = random.magnitude(-1.5, 0);
@@ -267,8 +267,8 @@ void hang(Random& random, MeshBuilder& builder, Index a, Index b) {
 }
 
 /// Returns edges one above the other, parallel or tilted by a rung. Their ends are aligned, a rung apart or at random
-/// places. `hang` adds neighbours to each edge. Blocks of neighbours may exclude one end, both ends or no end of the
-/// overlap of two edges.
+/// places. `hang` adds neighbours to each edge. The overlap of two edges has two ends; the blocks of neighbours may
+/// exclude both, one or none.
 MeshBuilder pile_of(Random& random, double gap) {
   MeshBuilder builder;
   for (int k = 0, count = 2 + random.below(3); k < count; ++k) {
@@ -307,8 +307,7 @@ CaseData groups(Random& random) {
 }
 
 /// Makes two or three sheets whose borders are stitched, vertex to vertex or vertex to edge. Seams may have holes.
-/// Excludes only the stitched pairs of vertices, so other pairs near the seam are not excluded, for example one row
-/// away.
+/// Excludes only the stitched pairs of vertices; pairs one row away from the seam, for example, are not excluded.
 CaseData seams(Random& random) {
   MeshBuilder builder;
   const double gap = random.magnitude(-2, 0);

@@ -1,8 +1,7 @@
 // Makes states for stage plane, in units of one edge length. General states come from the generators of the detections,
-// with pairs within r_q. Ladders approach
-// - gaps of a few ulp, collapsed triangles and far origins, for which pairs have no plane,
-// - vertices with more pairs than planes,
-// - pairs in which some or all vertices of a side are fixed.
+// with pairs within r_q. Ladders approach gaps of a few ulp, collapsed triangles and far origins, for which pairs have
+// no plane. Other states have vertices with more pairs than a vertex can have planes, or fixed vertices on one side or
+// both sides of a pair.
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -105,8 +104,8 @@ CaseData crowd(Random& random) {
   return finished(random, builder, apart * random.between(1.05, layers), random.one_in(3) ? 0 : 0.3 * apart);
 }
 
-/// Puts a sheet above another one. All, some or no vertices of the lower sheet are fixed, and some or none of the upper
-/// sheet.
+/// Puts a sheet above another one. In the lower sheet all, some or no vertices are fixed; in the upper sheet some or
+/// none.
 CaseData fixed(Random& random) {
   MeshBuilder builder;
   const double height = random.one_in(3) ? std::abs(random.rung()) : random.magnitude(-2, 0);
@@ -172,8 +171,8 @@ CaseData solid(Random& random) {
   return with_planes(random, mesh, static_cast<float>(random.magnitude(-2, 0)));
 }
 
-/// Adds a random displacement of each free vertex, from 10⁻⁴ to 10² r_q. Displacements set only the shares in which
-/// planes divide a gap, so they may exceed the gap.
+/// Adds a random displacement of each free vertex, from 10⁻⁴ to 10² r_q. Displacements decide only where in a gap its
+/// planes lie, so they may be larger than the gap.
 CaseData divided(Random& random, const CaseData& data) {
   auto test = case_of<PlaneCase>(data);
   const double size = test.query_radius * random.magnitude(-4, 2), common = random.one_in(3) ? size : 0;
@@ -199,9 +198,9 @@ CaseData close_approach(Random& random) {
   return divided(random, random.pick(std::span<CaseData (*const)(Random&)>(states))(random));
 }
 
-/// Puts two sheets one above the other, so that the normal n is a coordinate axis. Vertices of one sheet, both sheets
-/// or no sheet move along the line between the first vertices of the sheets, towards the other sheet or away. A random
-/// motion may be added; it may be far larger.
+/// Puts two sheets one above the other, so that the normal n is a coordinate axis. The vertices of each sheet stay, or
+/// move along the line between the first vertices of the sheets, towards the other sheet or away. Some vertices also
+/// get a random motion, which may be far larger.
 CaseData along_normal(Random& random) {
   MeshBuilder builder;
   builder.grid(1, 1, {}, {1, 0, 0}, {0, 1, 0});

@@ -1,6 +1,6 @@
 // Makes cases of rest_state: one to three bodies of random materials, or a few hinges. The meshes are those of the
-// detections' generators, without faces that `validate` refuses. The start is the rest shape at twice the size, which
-// reveals rest data computed from the start.
+// detections' generators, without faces that `validate` refuses. The start is the rest shape at twice the size, so that
+// rest data computed from the start are wrong.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,8 +24,8 @@ namespace {
 using namespace placement;
 
 /// Takes the legal part of a mesh. Enlarges a tiny mesh 2¹⁰ times and reduces a vast one to an eighth, so that edges
-/// are legal at twice the size, too (up to 2²⁰ m). Coordinates that are too small become 0. Faces that are too short,
-/// flat or repeated are left out; so are vertices that then have no face.
+/// are legal (up to 2²⁰ m) also at the start, where the mesh is twice as large. Coordinates that are too small become
+/// 0. Faces that are too short, flat or repeated are left out; so are vertices that then have no face.
 class Cleaner {
  public:
   explicit Cleaner(const MeshCase& mesh) : mesh_(mesh) {

@@ -42,8 +42,8 @@ struct StepBuilder {
     scene.gravity = {0, 0, random.one_in(3) ? 0 : -9.81};
   }
 
-  /// Returns a material up to a thousand times as stiff as inertia. Beyond that a solve in single precision is too
-  /// inaccurate to compare; stage sweep covers stiffer materials.
+  /// Returns a material whose stiffnesses are at most a thousand times the inertia m/h². For stiffer materials a solve
+  /// in single precision is too inaccurate to compare; stage sweep covers them.
   Material material() {
     Material m;
     m.membrane = MembraneModel::st_venant_kirchhoff;  // choose_models sets other models
@@ -59,7 +59,7 @@ struct StepBuilder {
     return m;
   }
 
-  /// Returns a material for a solid, with the ratios of stiffness to inertia that `material` gives a sheet.
+  /// Returns a material for a solid. Its stiffness relative to inertia has the same range as in `material`.
   Material solid_material() {
     Material m = material();
     m.solid_density = 1000 * random.magnitude(-0.5, 0.5);
@@ -88,9 +88,9 @@ struct StepBuilder {
     add(mesh, velocity, fixed);
   }
 
-  /// Adds a block of tetrahedra that stands on the plane of a sheet at `origin`, or hangs from it. A standing block has
-  /// an interior vertex. One block in five is mirrored upside down in place, so that it starts inside out. Volumes are
-  /// never mirrored, because nothing could be inside of them.
+  /// Adds a block of tetrahedra above the plane of a sheet at `origin`, or below it if `hangs`. A block above the plane
+  /// has an interior vertex. One block in five is mirrored upside down in place, so that it starts inside out. Volumes
+  /// are never mirrored, because a volume that is inside out has no inside.
   void block(const Vec3& origin, const Vec3& velocity, bool hangs, BodyContact contact = BodyContact::surface) {
     const double height = random.between(0.5, 1.5);
     Mesh mesh = hangs ? jittered_block(random, spacing, height) : jittered_cube(random, spacing, height);
@@ -273,8 +273,8 @@ CaseData handle(Random& random) {
   return builder.finish();
 }
 
-/// Throws vertices of a sheet at rest out of their bounds. Their number is the re-detection count, one more or one
-/// less. γ_e K is one rung from a whole number.
+/// Gives some vertices of a sheet at rest velocities that lead out of their bounds. The number of these vertices is the
+/// re-detection count, one more or one less. γ_e K is one rung from a whole number.
 CaseData count_at_threshold(Random& random) {
   StepBuilder builder(random);
   const int nx = side(random), ny = side(random), count = nx * ny;

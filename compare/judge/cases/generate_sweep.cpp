@@ -472,8 +472,8 @@ CaseData volume_at_radius(Random& random) {
   return with_volume(random, std::move(test), mesh);
 }
 
-/// Puts one or two free volumes about a vertex of the sheets: blocks of tetrahedra, which may overlap. They have the
-/// same ratio of stiffness to inertia as the sheets.
+/// Puts one or two free volumes about a vertex of the sheets. The volumes are blocks of tetrahedra and may overlap.
+/// Their ratio of stiffness to inertia is that of the sheets.
 CaseData free_volume(Random& random) {
   SweepCase test = case_of<SweepCase>(sheets(random));
   Scene scene = *test.scene;

@@ -19,13 +19,14 @@ struct Generator {
   double share;           ///< weight of the row among a stage's cases
   bool generic;  ///< true if cases are random, not near a degeneracy: few decisions may be grey (grey_share_limit)
   CaseData (*make)(Random&);
-  /// The row is used only in runs with at least this many cases; in a smaller run one mesh would be too large a share.
+  /// The row is used only in runs with at least this many cases. In a smaller run, one mesh of the row would have too
+  /// large a share of the cases.
   std::uint64_t least = 0;
   /// Another stage that the contestant must have: `tetrahedron` for solids, `plane` for half-spaces, `volume_depth` for
   /// volumes, `orientation` for rods.
   std::optional<Stage> also_needs = std::nullopt;
   bool has_cavities = false;  ///< makes volumes with cavities, for contestants that support them
-  bool divides = false;       ///< has displacements by which planes divide gaps (dat), for contestants that support it
+  bool divides = false;       ///< has displacements, for contestants whose planes divide gaps by them (dat)
 };
 
 /// Returns the generators of a stage, except the two that need real states: `states` and `mutated`

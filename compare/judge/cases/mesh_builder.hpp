@@ -19,8 +19,8 @@ struct MeshBuilder {
   Index add(const Vec3& point);  ///< Returns the index of the new vertex.
   /// Adds (nx + 1) × (ny + 1) vertices at origin + i u + j v, with two triangles per cell.
   void grid(int nx, int ny, const Vec3& origin, const Vec3& u, const Vec3& v);
-  /// Adds `count` triangles about a vertex at `centre`, closed to a disk or open. The rim is at distance 1, lowered by
-  /// `rise` (a cone).
+  /// Adds `count` triangles about a vertex at `centre`: a whole disk if `closed`, otherwise an open fan. The outer
+  /// vertices are at distance 1 from the axis and lower than `centre` by `rise` (a cone).
   void fan(int count, const Vec3& centre, bool closed, double rise);
   /// Adds a polyline of `count` loose edges that begins at `start`.
   void strand(int count, const Vec3& start, const Vec3& step);

@@ -10,9 +10,10 @@
 namespace ogc::compare {
 
 /// Changes a few points, one to four times. One change
-/// - moves a point by a rung times the distance of two points, or puts it this far from another point or a midpoint,
+/// - moves a point by a rung times the distance of two points, or puts a point at this distance from another point or
+///   from a midpoint,
 /// - copies a point or a coordinate, or rounds all points to few binary digits.
-/// In a step the velocities change, in a sweep xᵗ and the targets, in rest_state the rest shape as long as it stays
+/// In a step the velocities change; in a sweep xᵗ and the targets; in rest_state the rest shape, as long as it stays
 /// legal. In activation the distance changes by a rung, or becomes about r or r/2.
 void mutate(Random& random, TestCase& test);
 
@@ -21,7 +22,7 @@ void mutate_points(Random& random, std::span<Vec3f> points);
 /// Returns the vectors, changed as `mutate` does and rounded to single precision.
 std::vector<Vec3> mutated(Random& random, const std::vector<Vec3>& vectors);
 
-/// Moves the points of several arrays together, so that a point may take the place of a point of another array.
+/// Changes the points of several arrays as one list, so that a point of one array may be copied into another array.
 template <class... Points>
 void mutate_together(Random& random, Points&&... arrays) {
   std::vector<Vec3f> points;

@@ -20,8 +20,8 @@
 
 namespace ogc::compare {
 
-/// Holds frames spread evenly over the run, first and last included, with the scene's topology, groups, r and cap of
-/// r_q. It holds up to 100 frames, and fewer for large meshes (16 for 262,144 vertices or more).
+/// Holds frames of a run, spread evenly, with the first and the last one. Also holds the scene's topology, groups, r
+/// and the cap of r_q. There are up to 100 frames, and fewer for large meshes (16 for 262,144 vertices or more).
 class States {
  public:
   /// Gets rest data from the authority. Throws InputError if the folder is no run or holds no frame.
@@ -93,7 +93,8 @@ class States {
   std::vector<Quaternion> orientations_of(const State& state) const;
   /// Returns the frame's contacts, which the authority computes once.
   const Contacts& contacts(std::size_t frame) const;
-  /// Returns the first frame with a contact, cyclically from this one on; none if the run has no contacts.
+  /// Returns `frame` if it has a contact, otherwise the next frame, cyclically, that has one; none if the run has no
+  /// contacts.
   std::optional<std::size_t> frame_with_contact(std::size_t frame) const;
   std::uint64_t cell(const Vec3f& position) const;
   /// Returns another vertex in the cell of v or in an adjacent cell; v itself if there is none.

@@ -21,8 +21,8 @@ std::array<Index, 3> vertices_of(const Topology& topology, const Face& face) {
   return {};
 }
 
-/// Two sides in contact, with vertices in the order of ContactForceCase. `edge` holds the indices of two edges whose
-/// interiors are in contact, otherwise −1.
+/// Two sides in contact, with vertices in the order of ContactForceCase. If the interiors of two edges are in contact,
+/// `edge` holds their indices, otherwise −1.
 struct Stencil {
   ContactSides sides = ContactSides::point_point;
   std::array<Index, 4> vertex{-1, -1, -1, -1};

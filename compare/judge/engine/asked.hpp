@@ -6,7 +6,8 @@
 
 namespace ogc::compare {
 
-/// Checks whether the contestant has all that the generator's cases need in addition to the judged stage.
+/// Checks whether the contestant has the other stages and the features (volumes, rods, cavities, dat) that the
+/// generator's cases need besides the judged stage.
 bool is_asked(const Contestant& contestant, Stage stage, const Generator& generator);
 
 }  // namespace ogc::compare

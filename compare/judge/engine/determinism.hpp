@@ -14,8 +14,8 @@
 namespace ogc::compare {
 
 /// Returns the bits of the contestant's answers, one string for each case. Strings are equal if and only if all numbers
-/// are equal, including signs of zeros and payloads of NaNs. The authority answers if a question needs it, as for the
-/// contacts of a sweep. All cases must be of one stage.
+/// are equal, including signs of zeros and payloads of NaNs. The authority computes what a question contains, for
+/// example the contacts of a sweep. All cases must be of one stage.
 std::vector<std::string> answer_bits(Stage stage, std::span<const TestCase> cases, const Contestant& contestant,
                                      const Authority& authority);
 
@@ -36,9 +36,9 @@ struct DeterminismReport {
   bool skipped = false;  ///< the contestant does not have the stage
 };
 
-/// Asks about `cases` cases of all generators (a mesh counts once) repeatedly: shuffled, one by one, in batches of 2,
-/// 3, 5, 10 and 50, and in each surrounding. Generic cases of stages with StageTraits::is_same_renumbered are also
-/// asked with renumbered vertices and triangles.
+/// Asks the contestant about `cases` cases of all generators (a mesh counts once) several times: shuffled, one by one,
+/// in batches of 2, 3, 5, 10 and 50, and under each of `surroundings`. Generic cases of stages with
+/// StageTraits::is_same_renumbered are also asked with renumbered vertices and triangles.
 DeterminismReport check_determinism(Stage stage, std::uint64_t cases, std::uint64_t seed, const Contestant& contestant,
                                     const Authority& authority, std::span<const Surrounding> surroundings);
 

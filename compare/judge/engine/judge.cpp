@@ -103,9 +103,8 @@ class GeneratorRun {
 
   bool is_over() const { return stopped_ || next_ == batches_; }
 
-  /// Returns how many batches may be begun beyond the merged ones: four per thread, except in mesh stages. A mesh stage
-  /// begins at most one per thread, and at most as many as it still needs. This number is estimated from the cases of
-  /// the merged batches.
+  /// Returns how many batches beyond the merged ones may be begun: four per thread, except in mesh stages. A mesh stage
+  /// begins as many as it still needs, estimated from the cases of the merged batches, but at most one per thread.
   std::uint64_t ahead() const {
     if (!is_mesh_stage(stage_)) return 4 * options_.threads;
     if (merged_count_ == 0) return options_.threads;

@@ -31,7 +31,7 @@ class Renumbering {
   std::vector<T> by_triangle(const std::vector<T>& old) const {
     return renumbered(old, triangle_);
   }
-  /// `vertex` returns the new number of a vertex, `face` returns a face with its new number.
+  /// `vertex` returns the new index of a vertex; `face` returns a face with its new index.
   Index vertex(Index v) const { return vertex_[static_cast<std::size_t>(v)]; }
   Face face(const Face& f) const {
     const std::vector<Index>& to = f.kind == FaceKind::vertex ? vertex_ : f.kind == FaceKind::edge ? edge_ : triangle_;

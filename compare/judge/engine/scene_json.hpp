@@ -14,8 +14,7 @@ Json scene_to_json(const Scene& scene);
 Scene to_scene(const Json& json);
 
 Json sweep_case_to_json(const SweepCase& c);  ///< writes the whole scene, too
-/// Reads a sweep case. Throws what to_scene throws, and InputError where an array does not have one entry for each
-/// vertex.
+/// Reads a sweep case. Throws what to_scene throws, and InputError if an array does not have one entry for each vertex.
 SweepCase to_sweep_case(const Json& json);
 
 }  // namespace ogc::compare

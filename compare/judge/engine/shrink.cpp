@@ -54,8 +54,8 @@ class Shrinker {
     return true;
   }
 
-  /// Drops primitives in one pass, in chunks from half of the list to single primitives. Returns whether any was
-  /// dropped and budget is left.
+  /// Drops chunks of primitives: first halves of the list, then ever smaller chunks, at last single primitives. Returns
+  /// whether any primitive was dropped and budget is left.
   bool drop_primitives() {
     const Topology* mesh = traits_.mesh(best_.data);
     if (mesh == nullptr) return false;

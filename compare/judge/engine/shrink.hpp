@@ -38,7 +38,8 @@ struct MeshPart {
   std::vector<std::size_t> triangles;        ///< their indices in the larger mesh; empty if all are dropped
 
   MeshPart(const Topology& whole, const Primitives& kept);
-  /// Picks the entries of the part's vertices, edges or triangles (`numbers`) from an array of the larger mesh.
+  /// Returns the entries of `items`, an array of the larger mesh, that belong to the part. `numbers` is `vertices`,
+  /// `edges` or `triangles` of the part.
   template <class T, class Numbers>
   static std::vector<T> picked(const std::vector<T>& items, const Numbers& numbers) {
     std::vector<T> chosen;

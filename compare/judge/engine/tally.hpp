@@ -21,7 +21,7 @@ class Histogram {
   void add(const Histogram& other);               ///< adds all counts of another histogram
   std::uint64_t count() const { return count_; }  ///< number of values
   double maximum() const { return maximum_; }     ///< exact; 0 if there are no values
-  /// Returns the smallest bin edge below which the share `q` of the values lies (within 1 %); 0 if there are no values.
+  /// Returns the `q`-quantile of the values, as a bin edge (within 1 %); 0 if there are no values.
   double quantile(double q) const;
   /// The number of values in [2^exponent, 2^(exponent+1)). Octaves ascend without gaps. The lowest octave also counts
   /// all smaller values, including 0.
@@ -100,8 +100,8 @@ class Tally {
   GeneratorTally total() const;  ///< sum over all generators
   /// Returns the sum over the generic generators.
   GeneratorTally generic_total() const;
-  /// Returns the generators of all mismatches, worst first, if they are few and other generators have at least
-  /// `least_passing` cases that pass. Otherwise returns an empty list.
+  /// Returns the generators with mismatches, the one with the most mismatches first. Returns an empty list if they are
+  /// more than `most_confined` or more than the other generators, or if these have fewer than `least_passing` cases.
   std::vector<std::string> confined_to() const;
   static constexpr std::size_t most_confined = 3;      ///< largest number of generators in the list
   static constexpr std::uint64_t least_passing = 100;  ///< fewest passing cases of other generators
@@ -109,8 +109,9 @@ class Tally {
   double grey_share() const;
   /// Returns the share of cases within 2¹⁰ ulp of a decision boundary.
   double near_share() const;
-  /// Checks whether grey_share() is compatible with grey_share_limit. Of n decisions m = n · limit may be grey; chance
-  /// may add 3 √m + 3. A Poisson count of mean m exceeds this in less than one run of a hundred.
+  /// Checks whether grey_share() is compatible with grey_share_limit. On average m = n · limit of n decisions may be
+  /// grey. 3 √m + 3 more are allowed, because a Poisson count of mean m exceeds this number in less than one run of a
+  /// hundred.
   bool grey_within_limit() const;
 
  private:

@@ -1,5 +1,5 @@
-// Makes the question of stage volume_depth for a detection of a step. It is made from the volumes of a scene and the
-// vertices that the volumes may push. Also converts answers between the indices of the scene and of the question.
+// Makes the question of stage volume_depth for a detection of a step, from the volumes of a scene and the vertices that
+// the volumes may push. Also converts answers between the indices of the scene and of the question.
 #pragma once
 
 #include <optional>

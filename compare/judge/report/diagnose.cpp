@@ -163,8 +163,8 @@ class Diagnosing {
     return false;
   }
 
-  /// Returns the form that fits most of the remaining cases. A vague form is returned only if no other form fits
-  /// `wanted` of them.
+  /// Returns the form that fits most of the remaining cases `rest`. Returns a vague form only if no other form fits
+  /// `wanted` cases.
   Part best_part(const std::vector<WrongForm>& forms, const WrongForm* first, const std::vector<const Evidence*>& rest,
                  const std::vector<const Evidence*>& right, std::size_t wanted) const {
     Part best;
@@ -220,7 +220,7 @@ class Diagnosing {
       result.seconds.push_back({parts[i].form->name, parts[i].form->meaning, parts[i].cases.size(), parts[i].together});
   }
 
-  /// Returns each input with one entry as a word: the name of a choice, or for a number whether it is 0.
+  /// Returns a word for each input that has one entry: the name of a choice, or whether a number is 0.
   static std::map<std::string, std::string> words_of(const TestCase& test) {
     std::map<std::string, std::string> words;
     for (const Quantity& quantity : inputs_of(test)) {
@@ -233,8 +233,8 @@ class Diagnosing {
     return words;
   }
 
-  /// Finds the input whose words in failing cases are missing from most right cases. Of equally good inputs, takes the
-  /// one with the fewest words.
+  /// Finds the input for which the most right cases have a word that no failing case has. Of equally good inputs, takes
+  /// the one with the fewest words in failing cases.
   void find_where(Diagnosis& result) const {
     if (is_mesh_stage(stage_) || result.failing < least_fits) return;
     std::map<std::string, std::set<std::string>> of_failing;

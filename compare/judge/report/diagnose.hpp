@@ -9,9 +9,9 @@
 
 namespace ogc::compare {
 
-/// A form is named if it fits at least `least_fits` failing cases and the share `least_share` of all failing cases that
-/// were tried. A single case may fit by chance. A few in a hundred may not fit, because of a second mistake, or because
-/// the form changes an input and rounds it.
+/// A form is named if it fits at least `least_fits` of the failing cases that were tried, and at least the share
+/// `least_share` of them. One case may fit by chance. A few cases in a hundred may not fit the right form, because of a
+/// second mistake, or because the form changes an input and rounds it.
 inline constexpr std::uint64_t least_fits = 3;
 inline constexpr double least_share = 0.9;
 /// A kernel may have two mistakes. So further forms are fitted to the failing cases that the named form does not fit,

@@ -43,7 +43,7 @@ WrongForm told(std::string name, std::string meaning, Ask<Truth, In> Authority::
   });
 }
 
-/// An activation and its wrong form.
+/// An activation, and the wrong form that uses it.
 struct NamedActivation {
   ContactActivation kind;
   const char *name, *meaning;  ///< of the form

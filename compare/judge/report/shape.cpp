@@ -27,8 +27,8 @@ std::size_t slot(Index i) { return static_cast<std::size_t>(i); }
 
 double distance(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
-/// Turns a shape into a mesh that validate accepts. `points[v]` is the index of the shape's point at vertex v of the
-/// mesh, or −1.
+/// Turns a shape into a mesh that validate accepts. Vertex v of the mesh is the point with index `points[v]` of the
+/// shape; −1 means that the shape has no such point.
 class LegalMesh {
  public:
   explicit LegalMesh(const Shape& shape) : positions_(to_double(shape.points)) {

@@ -29,11 +29,13 @@ struct Shape {
 /// Returns the shape; empty if a case has no coordinates (activation, bound).
 Shape shape_of(const TestCase& test);
 
-/// Returns the shape as a legal mesh: OBJ text that `ogc audit` reads. Illegal triangles and lines are omitted: those
-/// without length or area, out of range, or present twice. A flat triangle is replaced by its longest side. A point
-/// without triangles and lines gets a line that leads away from all other points, so that distances to the point do not
-/// change. Comments name the points that the question concerns, and the index of a vertex in the case if the OBJ index
-/// differs. The text is empty if nothing is left.
+/// Returns the shape as a legal mesh: OBJ text that `ogc audit` reads.
+/// - Triangles and lines without area or length, out of range, or present twice are left out.
+/// - A flat triangle is replaced by its longest side.
+/// - A point without triangles and lines gets a line away from all other points, so that distances to it stay.
+/// - Comments name the points that the question concerns. They also name the index of a vertex in the case if it
+///   differs from the OBJ index.
+/// The text is empty if nothing is left.
 std::string print_shape_obj(const Shape& shape);
 
 /// Returns a static SVG picture, to scale: a parallel projection along the direction of the shape's smallest extent.

@@ -28,7 +28,7 @@ struct WrongForm {
   std::string meaning;  ///< one line: what is computed instead of what
   /// checks whether the answer equals the form, within the stage's tolerances
   std::function<bool(const Evidence&, const Authority&)> fits;
-  /// returns an authority that has the form as the truth; empty if the form depends on the answer
+  /// returns an authority whose truth is the form; empty if the form depends on the answer
   std::function<Authority(const Authority&)> wrong{};
   /// true if the form states what wrong answers have in common, not how they are computed; tried only if no other form
   /// fits

@@ -120,7 +120,7 @@ void say_point(const ClosestFaceIn& in, std::size_t i, const Weights& w, Closest
 
 struct NamedOrder {
   const char* name;
-  std::array<std::size_t, 3> of;  ///< place k gets the value of corner of[k]
+  std::array<std::size_t, 3> of;  ///< entry k is replaced by entry of[k]
 };
 constexpr std::array<NamedOrder, 5> orders{{{"swapped_01", {1, 0, 2}},
                                             {"swapped_12", {0, 2, 1}},
@@ -209,8 +209,8 @@ WrongForm chosen_outside(std::string name, std::string meaning, Choose choose) {
   });
 }
 
-/// Makes the form that takes the closest point of an edge: the first edge in this order that separates the foot from
-/// the triangle.
+/// Makes the form that takes the closest point of one edge. This edge is the first one, in the given order, that
+/// separates the foot from the triangle.
 WrongForm first_edge_of(const std::array<std::size_t, 3>& order) {
   constexpr std::array<const char*, 3> edges{"01", "12", "20"};
   const std::string which = std::string(edges[order[0]]) + "_" + edges[order[1]] + "_" + edges[order[2]];
@@ -295,9 +295,8 @@ constexpr unsigned inside_bit = 1u << static_cast<unsigned>(TriangleFeature::int
 /// Limit of the rounding error of a sum of three weights; each weight has ten roundings in double.
 constexpr double sum_rounding = 30 * 0x1p-53;
 
-/// Makes the form that decides by areas whether the foot is inside. Inside means that the triangles between foot and
-/// edges have areas without sign whose sum exceeds the triangle's area by at most `slack(area)`. All areas are doubled
-/// [m²].
+/// Makes the form that adds areas without sign. It counts the foot as inside if the areas of the three triangles
+/// between foot and edges sum to at most the triangle's area plus `slack(area)`. All areas are doubled [m²].
 template <class Slack>
 WrongForm areas_add_up(std::string name, const std::string& slack_text, Slack slack) {
   return face_told(std::move(name),

@@ -7,8 +7,8 @@
 
 namespace ogc::compare {
 
-/// Returns forms that exchange weights or corners, choose an edge or corner that is not the nearest, add areas, use
-/// absolute thresholds, round decisions, or answer NaN for needles.
+/// Returns forms that exchange weights or corners, choose an edge or corner that is not the nearest, add areas without
+/// sign, use absolute thresholds, decide on rounded numbers, or answer NaN for needles.
 std::vector<WrongForm> closest_face_forms();
 
 }  // namespace ogc::compare

@@ -42,8 +42,8 @@ WrongForm without_weights(std::string name, std::string meaning, int of_force, i
       });
 }
 
-/// Makes the form whose block is 0 for d ≥ r. `force_scale`, the error scale of the force, is 0 only for d > r. If the
-/// force is within its error limit, d may be below r or not; then the right block and a block of 0 are both accepted.
+/// Makes the form whose block is 0 for d ≥ r. The error scale `force_scale` is 0 only for d > r. A force within its
+/// error limit does not show whether d < r. Then the form accepts the right block and a block of 0.
 WrongForm block_ends_at_radius() {
   return told("block_ends_at_radius", "no block from d = r on, where the curvature at r is asked for",
               &Authority::contact_force, [](const ContactForceIn&, ForceTruth& truth) {

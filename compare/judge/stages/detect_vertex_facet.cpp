@@ -13,8 +13,8 @@ bool is_part(const Topology& topology, const Face& a, const Face& b) {
   return a.kind == FaceKind::vertex ? has(topology.triangles[i]) : has(topology.triangle_edges[i]);
 }
 
-/// Checks whether two contacts of one vertex exclude each other: if a's face is part of b's, a boundary separates their
-/// blocks.
+/// Checks whether two contacts of one vertex exclude each other. They do if a's face is an end, a corner or an edge of
+/// b's face, because a boundary separates the blocks of such faces.
 bool excludes(const Topology& topology, const VertexFacetContact& a, const VertexFacetContact& b) {
   return a.vertex == b.vertex && is_part(topology, a.face, b.face);
 }

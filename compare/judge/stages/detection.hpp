@@ -44,8 +44,8 @@ bool lists(const GreyDecision<Contact>& decision, const Contact& contact) {
   return std::find(decision.contacts.begin(), decision.contacts.end(), contact) != decision.contacts.end();
 }
 
-/// Compares two sets of contacts. `excludes(topology, a, b)` returns whether a boundary of b's block separates it from
-/// a's block, so that only one of both contacts may be answered.
+/// Compares two sets of contacts. `excludes(topology, a, b)` returns whether a boundary of b's block separates the
+/// blocks of the contacts a and b. If it does, an answer may have only one of these two contacts.
 template <class Contact>
 class SetVerdict {
  public:
@@ -125,10 +125,12 @@ inline double length(const Vec3f& a, const Vec3f& b) {
   return std::hypot(double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z);
 }
 
-/// Returns an upper limit of the error scale of a smallest distance. The scale is max(d, Σ|δ|) of the nearest pair, but
-/// the judge does not know this pair. δ is the position of a vertex of the pair relative to its first vertex. Its
-/// length is at most d + `sides`, where `sides` adds the longest sides, so the sum |δ| of its moduli is at most √3 (d +
-/// `sides`). A pair of four vertices has three δ.
+/// Returns an upper limit of the error scale of a smallest distance d. The scale is max(d, Σ|δ|) of the nearest pair,
+/// which the judge does not know:
+/// - δ is the position of a vertex of the pair relative to the pair's first vertex; ‖δ‖ ≤ d + `sides`, where `sides` is
+///   the sum of the longest sides,
+/// - |δ| is the sum of the moduli of δ's coordinates, at most √3 ‖δ‖,
+/// - a pair of four vertices has three δ.
 inline double pair_scale(double d, double sides) { return 3 * std::sqrt(3.0) * (d + sides); }
 
 /// A stage whose answer is the contacts of a state. `S::kept(out)` returns the contacts as a set; `S::moved(out, to)`
@@ -258,8 +260,8 @@ std::vector<WrongForm> question_forms(Detection<Truth> stage) {
           })};
 }
 
-/// Returns the index of the vertex, triangle or edge whose list holds a contact; the same for all contacts if there is
-/// one list.
+/// Returns the index of the vertex, triangle or edge whose list holds a contact. If all contacts are in one list,
+/// returns the same index for all.
 template <class Contact>
 using Owner = Index (*)(const Contact&);
 

@@ -82,7 +82,7 @@ std::vector<WrongForm> common_forms(ForceMember<In> stage) {
                     })};
 }
 
-/// Adds forms with wrong damping: none, a wrong amount, a part of it, or the other DampingForm.
+/// Adds forms with wrong damping: none, twice as much, the other DampingForm, or damping in the force alone.
 template <class In>
 void add_damping(std::vector<WrongForm>& forms, ForceMember<In> stage) {
   using Case = std::decay_t<decltype(In{}.cases[0])>;

@@ -65,7 +65,7 @@ struct ForceStage : BatchStage<S, contestant, authority>, TakenWhole, Parameters
   using typename Base::Truth;
   using Case = StencilCase;
 
-  /// Accept any stencil that was read; write and read its members.
+  /// `checked` accepts any stencil that was read. `write` and `read` convert a case to JSON and back.
   static Case checked(Case c) { return c; }
   static Json write(const Case& c) { return write_stencil(c); }
   static Case read(const Json& data) { return S::checked(read_stencil<Case>(data)); }

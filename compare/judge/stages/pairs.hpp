@@ -47,7 +47,7 @@ inline bool judge_below(float below, float exact, double distance, double scale,
 inline bool is_grey(std::uint32_t accepted) { return (accepted & (accepted - 1)) != 0; }
 
 /// Absolute thresholds that are common in programs. Forms that compare a length use the first `length_thresholds`;
-/// forms that compare a square or a product use all. A length below 1e-9 m is below every tolerance here.
+/// forms that compare a square or a product use all. Shorter lengths are smaller than every tolerance of these stages.
 inline constexpr std::size_t length_thresholds = 7;
 inline constexpr std::array<std::pair<const char*, double>, 10> thresholds{{{"1e-3", 1e-3},
                                                                             {"1e-4", 1e-4},

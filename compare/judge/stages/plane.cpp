@@ -1,6 +1,6 @@
 // Makes the traits of stage plane. An answer may choose the pairs for which it stores planes, so the truth is about one
-// answer: which pairs the answer's planes and balls do not separate, and where they restrict vertices more than
-// necessary.
+// answer. The truth lists pairs that the answer's planes and balls do not separate, and vertices that they restrict
+// more than necessary.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -123,8 +123,8 @@ WrongForm plane_asked(std::string name, std::string meaning, Change change) {
   });
 }
 
-/// Makes a form that accepts certain deviations of planes: `accept(out, freedom)` sets their counts or sizes in
-/// `freedom` to 0.
+/// Makes a form that accepts certain deviations of planes. `accept(out, freedom)` sets the counts or sizes of these
+/// deviations in `freedom` to 0.
 WrongForm plane_accepted(std::string name, std::string meaning, void (*accept)(const PlaneOut&, PlaneFreedom&)) {
   return {std::move(name), std::move(meaning), [accept](const Evidence& evidence, const Authority& authority) {
             Authority wrong = authority;
@@ -306,8 +306,9 @@ struct Plane : Numbered, InEveryRun {
   }
   static std::int64_t in_vertices(const TestCase& test) { return case_of<Case>(test.data).topology->vertex_count; }
 
-  /// Lists the contestant's bounds and planes as both answers, because the truth has none. Only counts of mistakes
-  /// differ: the exact answer shows the contestant's mistakes, the contestant's answer shows 0.
+  /// Lists the contestant's bounds and planes as the contestant's answer and as the exact one, because the truth has
+  /// none. Only counts of mistakes differ: they are 0 in the contestant's answer; the exact answer has the contestant's
+  /// mistakes.
   static Answers answers(const TestCase& test, const Contestant& c, const Authority& a) {
     const In in = question_of(test);
     std::string note;

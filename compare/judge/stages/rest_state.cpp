@@ -49,8 +49,8 @@ double apart(const Quaternion& stored, const std::array<double, 4>& exact) {
   return std::sqrt(std::min(same, other));
 }
 
-/// Holds what the judge needs of a kind of element: metrics, a visit to each number (to compare and to round), printed
-/// quantities, and wrong forms.
+/// Holds what the judge needs of a kind of element: metrics, a function that visits each number (to compare and to
+/// round it), printed quantities, and wrong forms.
 template <class Kind>
 struct RestJudge;
 
@@ -249,7 +249,8 @@ void each_number(auto& elements, const RestStateTruth& truth, const Visit& visit
   for (std::size_t i = 0; i < elements.size(); ++i) RestJudge<Kind>::each_number(elements[i], truth, i, visit);
 }
 
-/// Notes the errors of an answer. Metrics are numbered from the first one of the kind.
+/// Notes the errors of one kind of element in an answer. `metric` counts from `first`, the index of the kind's first
+/// metric.
 class RestErrors {
  public:
   RestErrors(Tally& tally, std::size_t first) : tally_(tally), first_(first) {}
@@ -305,7 +306,8 @@ struct Rounding {
   }
 };
 
-/// Indices of the metrics that belong to no kind; of_kinds is the index of the first metric of the kinds.
+/// Indices of the metrics that belong to no kind of element. of_kinds is the index of the first metric that belongs to
+/// a kind.
 enum Metric : std::size_t { of_mass, of_edge_length_squared, of_meeting, of_kinds };
 
 constexpr std::array common_metrics{MetricInfo{"mass", "u cond", rest_state_tolerance},
@@ -507,8 +509,7 @@ struct RestState : MeshStage<RestState, &Contestant::rest_state, &Authority::res
     return {std::make_shared<Scene>(scene), std::make_shared<Topology>(build_topology(scene))};
   }
 
-  /// Writes the parts of the scene that the stage reads. Also writes the start positions, which the stage must not
-  /// read.
+  /// Writes what the stage reads of the scene, and the start positions, which must not affect the answer.
   static Json write(const Case& c) {
     const Scene& scene = *c.scene;
     Json bodies = Json::array(), held = Json::array();

@@ -23,7 +23,7 @@ CaseData with_material(Random& random, SpringCase question, double rest_length) 
   return question;
 }
 
-/// Returns a spring of this length along x, whose length at the start is `before`.
+/// Returns a spring along x. Its length is `length` now, and was `before` at the start of the step.
 CaseData spring_case(Random& random, double length, double before, double rest_length, bool turned = true) {
   std::array<Vec3, 4> points{Vec3{}, Vec3{length, 0, 0}, Vec3{}, Vec3{before, 0, 0}};
   if (random.one_in(2)) points[3] = sum(points[3], scaled(in_box(random, -1, 1), 0.1 * before));
@@ -39,7 +39,8 @@ CaseData spring_case(Random& random, double length, double before, double rest_l
   return with_material(random, question, rest_length);
 }
 
-/// Returns a seam: an edge along y whose point at `ratio` is the origin, and a vertex at distance `length` from it.
+/// Returns a seam: an edge along y whose point at `ratio` is the origin, and a vertex at the distance `length` from
+/// this point. At the start of the step this distance was `before`.
 CaseData seam_case(Random& random, double edge, double ratio, double length, double before, double rest_length,
                    bool turned) {
   std::array<Vec3, 6> points{Vec3{length, 0, 0}, Vec3{0, -ratio * edge, 0}, Vec3{0, (1 - ratio) * edge, 0}, {}, {}, {}};

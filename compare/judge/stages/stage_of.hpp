@@ -73,7 +73,8 @@ constexpr StageTraits make_traits() {
 
 /// A case that cannot be made smaller.
 struct TakenWhole {
-  /// Implement the functions of StageTraits that shrink cases: there is no mesh, and no number to shorten.
+  /// Implement the functions of StageTraits for shrinking: there is neither a mesh nor a number that could be
+  /// shortened.
   template <class Case>
   static const Topology* mesh(const Case&) {
     return nullptr;
@@ -129,7 +130,7 @@ struct InEveryRun {
 
 /// A stage that has cases only in runs with a contact.
 struct OfContacts {
-  /// Returns why a run without contacts has no cases.
+  /// Returns why the run has no cases for the stage; empty if one of its frames has a contact.
   static std::string missing_in(const States& states) {
     return states.has_contact() ? "" : "none of its frames has a contact";
   }
@@ -163,8 +164,8 @@ std::optional<Out> answer_or_note(const std::function<Out(const In&)>& contestan
   }
 }
 
-/// A stage that asks contestant and authority the same question. `S::outputs(in, answer)` lists an Out or a Truth by
-/// name.
+/// A stage that asks contestant and authority the same question. `S::outputs(in, answer)` returns the members of an Out
+/// or of a Truth as named quantities.
 template <class S, auto contestant, auto authority>
 struct SameQuestion {
   using In = typename SideTypes<decltype(contestant)>::In;

@@ -107,8 +107,8 @@ class StepVerdict {
     if (const std::string wrong = wrong_segment_colour(*in_.scene, out_); !wrong.empty()) tally_.mismatch(wrong);
   }
 
-  /// Judges the turned frames of segments as cases of stage initial_guess (InitialGuessIn::turns). `wrong` says what is
-  /// wrong with the other frames, or is empty.
+  /// Judges the frames that rotated, as cases of stage initial_guess (InitialGuessIn::turns). `wrong` says what is
+  /// wrong with the other frames; empty if nothing is.
   void judge_frames(const std::string& when, const TurnedFrames& frames, const std::string& wrong) {
     if (!wrong.empty()) tally_.mismatch(when + ": " + wrong);
     if (frames.in.turns.empty()) return;
@@ -238,7 +238,7 @@ class StepVerdict {
 
   BoundsTraits policy() const { return traits_of(in_.scene->settings.bounds); }
 
-  /// Replaces smallest distances by those of the truth, because a contestant with planes need not give them.
+  /// Returns the answer with the truth's smallest distances, because a contestant with planes need not give any.
   static DetectVertexFacetOut with_distances(DetectVertexFacetOut out, const DetectVertexFacetTruth& truth) {
     out.d_min_vertex = truth.exact.d_min_vertex;
     out.d_min_triangle = truth.exact.d_min_triangle;
@@ -274,9 +274,9 @@ class StepVerdict {
     Index certain = 0, doubtful = 0;
   };
 
-  /// Judges a guess. A vertex with contacts must be where truncation stops the move that its contacts allow. Any other
-  /// vertex must be at the truncated y. It counts as cut if it is not at y, because truncation changes only positions
-  /// beyond the bound.
+  /// Judges the positions after a round of the guess loop. A vertex with contacts must be where its contacts let it
+  /// move, truncated. Any other vertex must be at y, truncated. This vertex counts as cut if it is not exactly at y,
+  /// because truncation changes only positions beyond the bound.
   void judge_guess(std::size_t i) {
     const StepEvent& event = out_.events[i];
     const std::span<const HeldMove> moves = i < truth_.moves.size() ? std::span<const HeldMove>(truth_.moves[i])
@@ -342,9 +342,10 @@ class StepVerdict {
     return std::hypot(d.x - s * m.x, d.y - s * m.y, d.z - s * m.z);
   }
 
-  /// Judges a free vertex with contacts, which must be at X_prev + m, truncated. Truncation to a ball increases no
-  /// distance, so the error limit of m also holds for the truncated move. With half-spaces a cut vertex may slide to
-  /// any point of its region; without sliding it stops on the segment from X_prev to X_prev + m.
+  /// Judges a free vertex with contacts, which must be at the truncated X_prev + m. Truncation to a ball increases no
+  /// distance, so the error limit of m also holds for the truncated move. If a region has half-spaces and vertices
+  /// slide, a cut vertex may be at any point of the region. If they do not slide, a cut vertex is on the segment from
+  /// X_prev to X_prev + m.
   void judge_held(std::size_t i, std::size_t v, const HeldMove& held, Cuts& cuts) {
     const Vec3f &x = out_.events[i].position[v], &p = at_[v];
     ++decisions_;

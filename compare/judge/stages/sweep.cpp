@@ -1,5 +1,5 @@
-// Makes the traits of stage sweep. The judge checks bounds by its own exact arithmetic, and compares all else with the
-// authority's truth about the answer.
+// Makes the traits of stage sweep. The judge checks bounds by its own exact arithmetic. It compares all else with the
+// truth, which the authority computes from the question and the contestant's answer.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -54,8 +54,8 @@ bool judge_bounds(const SweepIn& in, const SweepOut& out, const std::vector<Inde
   return true;
 }
 
-/// Returns the number of decisions: one per vertex (cut or not), and one per segment and per vertex of each element and
-/// contact (which value at a jump).
+/// Returns the number of decisions. Each vertex has one: whether it is cut. Each segment, each contact with a volume,
+/// and each vertex of an element or of another contact has one: which value it takes at a jump.
 std::uint64_t decisions(const SweepIn& in) {
   constexpr std::array<std::uint64_t, 3> corners{1, 2, 3};
   std::uint64_t count = in.old.size();

@@ -23,8 +23,8 @@ Vec3 outer(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Returns a tetrahedron like the unit one, scaled by `size`, and by `height` along z. Its corners have jitter unless
-/// they are on a lattice.
+/// Returns the tetrahedron with the corners 0, e₁, e₂ and e₃, scaled by `size`, and along z also by `height`. Its
+/// corners have jitter unless they are on a lattice.
 Corners rest_corners(Random& random, double size, double height, bool lattice) {
   Corners x{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   for (Vec3& p : x) {
@@ -75,7 +75,8 @@ CaseData placed(Random& random, TetrahedronCase question, const Corners& rest, c
   return question;
 }
 
-/// Moves each corner of a rest shape by `deform(p)`. The size is 10⁻³ m … 1 m, on a lattice 2⁻⁸ m … 1 m.
+/// Moves each corner of a rest shape by `deform(p)`. The size of the rest shape is 10⁻³ m … 1 m; on a lattice it is a
+/// power of two, 2⁻⁸ m … 1 m.
 template <class Deform>
 CaseData deformed(Random& random, Deform deform, bool lattice = false) {
   const double size = lattice ? std::ldexp(1.0, random.below(9) - 8) : random.magnitude(-3, 0);

@@ -125,8 +125,8 @@ bool lies_there(const Vec3f& stored, const Vec3& exact, const Vec3f& previous, d
   return in_units(error, size + bound) <= truncate_position_tolerance;
 }
 
-/// Makes a form in which `stored(X_prev, x, b_v, truth)` returns the stored position of a cut vertex; the truth decides
-/// which vertices are cut.
+/// Makes a form that stores a cut vertex at `stored(X_prev, x, b_v, exact)`, where `exact` is the right position. A
+/// vertex is cut in this form if it is cut in the truth.
 template <class Stored>
 WrongForm stored_at(std::string name, std::string meaning, Stored stored) {
   return {std::move(name), std::move(meaning), [stored](const Evidence& evidence, const Authority& authority) {

@@ -157,8 +157,8 @@ CaseData regions_lattice(Random& random) {
   return region.finish(on_lattice(random, 4));
 }
 
-/// Puts X_prev on the plane of a half-space, or inside of it by a rung of the bound. The proposed position differs from
-/// X_prev by a rung along the normal and, in half of the cases, by a move along the plane.
+/// Puts X_prev on the plane of a half-space, or a rung times the bound inside of the half-space. The proposed position
+/// is a rung times the bound from X_prev along the normal. In half of the cases it is also shifted along the plane.
 CaseData on_plane(Random& random) {
   const double bound = random.magnitude(-3, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);
@@ -217,8 +217,8 @@ CaseData sub_ulp(Random& random) {
   return region.finish(scaled(direction(random), bound * random.magnitude(-1, 3)));
 }
 
-/// Makes blocks whose eigenvalues differ by up to 10⁶. In their metric the nearest point of a half-space is far from
-/// the foot of the perpendicular.
+/// Makes blocks H whose eigenvalues differ by up to 10⁶. In the metric of H, the nearest point of a half-space is far
+/// from the foot of the perpendicular.
 CaseData stiff(Random& random) {
   const double bound = random.magnitude(-3, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);
@@ -240,8 +240,9 @@ CaseData crowded(Random& random) {
   return region.finish(scaled(direction(random), bound * random.magnitude(-1, 1)));
 }
 
-/// Makes vertices that start at X_prev and do not slide, as with bounds=dat. X_prev is near half-spaces or on them.
-/// Steps to the proposed position lead nearly along the half-spaces, along them, or away.
+/// Makes vertices that start at X_prev and do not slide, as with bounds=dat. X_prev is near half-spaces or on them. The
+/// step to the proposed position is parallel to half-spaces, nearly parallel, or has a random direction relative to
+/// them.
 CaseData from_previous(Random& random) {
   const double bound = random.magnitude(-4, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);

@@ -77,8 +77,8 @@ bool can_judge_step(const TestCase& test, const StepIn& in, const StepOut& out, 
 bool can_judge_plane(const TestCase& test, const PlaneIn& in, const PlaneOut& out, Tally& tally);
 /// Checks that every pair is separated, and that no vertex is restricted more than the separation requires.
 void judge_plane(const TestCase& test, const PlaneIn& in, const PlaneTruth& truth, const PlaneOut& out, Tally& tally);
-/// Judges each part separately. A point inside a part of triangles must have one contact, which is accepted. A point
-/// outside must have all certain contacts, and may have possible ones. In a part of tetrahedra each sheet that
+/// Judges each part separately. A point inside a part of triangles must have exactly one contact, an accepted one. A
+/// point outside must have all certain contacts, and may have possible ones. In a part of tetrahedra each sheet that
 /// certainly exists and has a path to the boundary must have a contact. Numbers must be within their tolerances.
 void judge_volume_depth(const TestCase& test, const VolumeDepthTruth& truth, const VolumeDepthOut& out, Tally& tally);
 /// Checks that bounds are never above γ_p · min(…).

@@ -71,8 +71,10 @@ class PartVerdict {
     return find(sheet.accepted, c) != nullptr;
   }
 
-  /// Checks that each contact belongs to a sheet, that each sheet that certainly exists and has a way has a contact,
-  /// and that there are not more contacts than sheets.
+  /// Checks that
+  /// - each contact belongs to a sheet,
+  /// - each sheet that certainly exists and has a way has a contact,
+  /// - there are not more contacts than sheets.
   void judge_solid() {
     const bool inside = std::ranges::any_of(mine_, [](const VolumeContact& c) { return c.inside != 0; });
     if (inside != truth_.inside) tally_.answered_not_exactly();

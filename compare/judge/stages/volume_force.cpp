@@ -3,7 +3,7 @@
 // approach
 // - φ = r, a slip of 0, a slip of ε_v h, and motion along n,
 // - weights of 0 (edges and corners of the volume),
-// - depths of many radii, and small and large units.
+// - depths of many radii, and very small and very large cases.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,7 +31,7 @@ struct Pressed {
   bool turned = true;                     ///< true if it may be rotated
 };
 
-/// Returns all three weights, which sum to 1 up to rounding, from the second and the third one.
+/// Returns three weights, whose sum is 1 up to rounding. `second` and `third` are two of them.
 std::array<float, 3> weights_of(double second, double third) {
   const auto b = static_cast<float>(second), c = static_cast<float>(third);
   const float a = std::max(0.0f, 1.0f - b - c);
@@ -298,8 +298,9 @@ std::vector<WrongForm> volume_force_forms() {
   return forms;
 }
 
-/// Makes a case from a contact of a frame. The contact's first vertex touches the triangle of its other vertices, at
-/// random weights. If there are fewer than three others, the last one is repeated.
+/// Makes a case from a contact of a frame. x₀ is the contact's first vertex, and the triangle's corners are its other
+/// vertices. If there are fewer than three others, the last one is repeated. The weights of the triangle's point are
+/// random.
 VolumeForceCase of_contact(const FrictionForceCase& f, Random& random) {
   VolumeForceCase c;
   const auto count = static_cast<std::size_t>(vertex_count(f.contact.sides));

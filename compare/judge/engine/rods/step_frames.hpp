@@ -22,15 +22,15 @@ std::string wrong_segment_colour(const Scene& scene, const StepOut& out);
 /// if nothing is.
 std::string wrong_orientation_count(const Scene& scene, const StepOut& out);
 
-/// Returns the segments whose frame must turn at the start, because the scene has no orientations and the segment
-/// differs from rest. Their frames turn from the rest direction to the direction at the start. All other segments must
-/// start with the frame of the scene or, without one, of the answer's rest state; `wrong` names a segment that does
-/// not.
+/// Returns the segments whose frames must rotate at the start, from the rest direction to the direction at the start. A
+/// frame rotates if the scene has no orientations and these directions differ. Any other segment must start with the
+/// scene's frame or, if the scene has none, with the frame of the answer's rest state. `wrong` names a segment that
+/// does not.
 TurnedFrames start_frames(const StepIn& in, const StepOut& out, std::string& wrong);
 
-/// Returns the rotations of segments in the guess loop, which ended at x. Free segments have one if the setting
-/// rod_start is `turned`. Prescribed segments have one if their motion does not define a rotation. If another segment
-/// has a wrong frame, `wrong` names it.
+/// Returns the segments whose frames must rotate with their directions in the guess loop, which ended at x. These are
+/// free segments if the setting rod_start is `turned`, and prescribed segments if their motion does not define a
+/// rotation. If another segment has a wrong frame, `wrong` names it.
 TurnedFrames turned_frames(const StepIn& in, const StepOut& out, const std::vector<Vec3f>& x, std::string& wrong);
 
 }  // namespace ogc::compare

@@ -221,7 +221,7 @@ CaseData scales(Random& random) {
   return question;
 }
 
-/// Approaches t·q = 0: the target of a neighbour is a half turn away from the old q.
+/// Approaches t·q = 0: the target t of a neighbour is nearly the old q rotated by π.
 CaseData sign(Random& random) {
   if (random.one_in(2)) random.be_fine();
   const Draft draft = near_rest(random);
@@ -280,8 +280,8 @@ CaseData balance(Random& random) {
   return question;
 }
 
-/// Approaches b = 0 (compare/rods.md), where the pulls of both neighbours cancel. The targets are nearly the old q
-/// rotated by +π and by −π about one axis.
+/// Approaches b = 0 (compare/rods.md), where the pulls of both neighbours cancel. One target is nearly the old q
+/// rotated by +π about an axis, the other target is nearly the old q rotated by −π about this axis.
 CaseData opposed(Random& random) {
   if (random.one_in(2)) random.be_fine();
   const Draft draft = near_rest(random);

@@ -110,8 +110,8 @@ CaseData short_one(Random& random) {
                 false);
 }
 
-/// Approaches a director R(q) e₃ = −D/‖D‖. In half of the cases q nears a half turn about the x axis, whose real part
-/// is 0.
+/// Approaches a director R(q) e₃ = −D/‖D‖. In half of the cases q approaches the rotation by π about the x axis, whose
+/// real part is 0.
 CaseData reversed(Random& random) {
   const Vec3 axis = rod_cases::some_direction(random);
   Four q = rod_cases::product(rod_cases::rotation({1, 0, 0}, std::numbers::pi),

@@ -65,7 +65,8 @@ void centre(VolumeBody& body) {
   for (Vec3& p : body.x) p = scaled(minus(p, scaled(sum(low, high), 0.5)), scale);
 }
 
-/// Returns a bar bent by this many full turns, with a pitch. With more than one turn its ends overlap.
+/// Returns a bar bent into a helix of `turns` rotations, which rises by `pitch`. With more than one rotation its ends
+/// overlap.
 VolumeBody coil(Random& random, double turns, double pitch) {
   const int length = 6 + random.below(5);
   VolumeBody body = block({1, 1, length});
@@ -122,8 +123,8 @@ CaseData solid(Random& random) {
   return placed(random, std::move(body), std::move(points), radius, true, some_scale(random));
 }
 
-/// Puts cells and points at small integers and halves. Then points are on vertices, edges and triangles, and ways lead
-/// through these.
+/// Puts cells at integers, and points at multiples of 1/2. So points lie on vertices, edges and triangles of the cells,
+/// and their ways lead through such faces.
 CaseData grid(Random& random) {
   VolumeBody body = some_block(random, 3);
   if (random.one_in(3)) body.append(some_block(random, 2), 1, on_lattice(random, 1));
@@ -137,8 +138,8 @@ CaseData grid(Random& random) {
                 std::ldexp(1.0, random.below(21) - 10));
 }
 
-/// Makes points whose ways (straight paths to the boundary) lead along lines of the cells or through their vertices, or
-/// one rung beside them. The body is low along z, so that the shortest ways are parallel to z.
+/// Makes points whose ways (straight paths to the boundary) lead along lines of cells or through vertices of cells, or
+/// pass these at the distance of a rung. The body is low along z, so that the shortest ways are parallel to z.
 CaseData ray(Random& random) {
   const int height = 2 + random.below(3);
   VolumeBody body = block({3, 3, height});
@@ -179,8 +180,9 @@ CaseData sheets(Random& random) {
   return placed(random, std::move(body), std::move(points), some_radius(random), true, some_scale(random));
 }
 
-/// Moves vertices through the opposite triangles of tetrahedra, or into their planes, so that some volumes are not
-/// positive. If the interior vertices of a large block move far, some sheets have no way.
+/// Moves vertices of tetrahedra through the opposite triangles, or into the planes of these, so that some tetrahedra
+/// are not positive. In one of three cases moves only the interior vertices of a large block, so far that some sheets
+/// may have no way.
 VolumeBody crushed(Random& random) {
   if (random.one_in(3)) {
     VolumeBody body = block({3, 3, 3});
@@ -291,7 +293,7 @@ CaseData medial(Random& random) {
   return placed(random, std::move(body), std::move(points), some_radius(random), true, some_scale(random));
 }
 
-/// Makes a solid near or in parts of triangles and other solids.
+/// Makes a solid near other parts, or overlapping them. These parts are made of triangles or of tetrahedra.
 CaseData mixed(Random& random) {
   VolumeBody body = some_solid(random);
   VolumeBody shell = block({1, 1, 1});

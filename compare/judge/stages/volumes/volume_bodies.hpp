@@ -34,7 +34,7 @@ struct VolumeBody {
   Index across(Index t, std::size_t k) const;
 };
 
-/// Where points are put: a foot on the surface, and the outward direction there.
+/// A place for points: a foot on the surface, and the outward direction at the foot.
 struct Place {
   Vec3 foot, outward;
   double edge = 1;  ///< about the length of an edge at the foot

@@ -65,7 +65,7 @@ VolumeBody star(Random& random, int cells, double roughness) {
   return body;
 }
 
-/// Returns a torus of m × n quads, with saddles at its inner side.
+/// Returns a torus of m × n quads; the surface near its hole has saddles.
 VolumeBody torus(int m, int n) {
   VolumeBody body;
   constexpr double turn = 6.283185307179586;
@@ -124,7 +124,7 @@ CaseData uniform(Random& random) {
   return placed(random, std::move(body), std::move(points), radius, true, some_scale(random));
 }
 
-/// Returns a bipyramid about the z axis. Three vertices give a triangle, fewer give a body without an inside.
+/// Returns a bipyramid of `count` vertices about the z axis. Three vertices give one triangle, fewer give no triangle.
 VolumeBody of_vertices(int count) {
   VolumeBody body;
   const int ring = count < 5 ? count : count - 2;
@@ -258,8 +258,8 @@ CaseData parts(Random& random) {
   return beside(random, std::move(body), any_place, any_height);
 }
 /// Makes a body with a void of the same shape, behind a wall that may be very thin. The void may contain another body,
-/// with or without a void; another part may overlap all of them. Points are in the void, at all faces, and where both
-/// sides of the wall are equally near.
+/// with or without a void of its own. Another part may overlap all of these. Points are in the void, near all faces,
+/// and near the middle of the wall, where both surfaces of the wall are equally near.
 CaseData cavity(Random& random) {
   const auto hollow = [&](const VolumeBody& solid, double share) {
     VolumeBody body = solid;
