@@ -11,9 +11,9 @@ namespace ogc::compare {
 /// Returns the temporary name: `path` followed by ".partial".
 std::filesystem::path partial_name(const std::filesystem::path& path);
 
-/// Writes `bytes` under the partial name and commits the file. Throws ResourceError with the path if the disk fails;
-/// then neither name remains. All functions here throw InputError if another path or other rights would solve an error
-/// (compare/files/bytes.hpp).
+/// Writes `bytes` under the partial name and commits the file. If the disk fails, leaves no file under either name and
+/// throws ResourceError with the path. All functions here throw InputError if another path or other rights would solve
+/// an error (compare/files/bytes.hpp).
 void write_durably(const std::filesystem::path& path, std::string_view bytes);
 
 /// Writes `bytes` to a new file and reserves `size` bytes of disk for it, so that later writes cannot find the disk
@@ -24,13 +24,13 @@ void write_and_reserve(const std::filesystem::path& path, std::string_view bytes
 /// ResourceError.
 void reserve(const std::filesystem::path& path, std::size_t from, std::size_t to);
 
-/// Writes `bytes` under the partial name. After return a killed program does not lose them; a power cut may lose them
-/// until commit_group. Throws ResourceError with the path if the disk fails; then the partial name does not remain.
+/// Writes `bytes` under the partial name. After return the bytes survive if the program is killed. They survive a power
+/// cut only after commit_group. If the disk fails, leaves no partial file and throws ResourceError with the path.
 void write_partial(const std::filesystem::path& path, std::string_view bytes);
 
 /// Syncs the file system of `folder` once, including all that other programs wrote there. Then renames `files` of that
-/// folder from their partial to their final names, and syncs the folder. A hundred files cost as much as one. Throws
-/// ResourceError.
+/// folder from their partial to their final names, and syncs the folder. The cost does not depend on the number of
+/// files. Throws ResourceError.
 void commit_group(const std::filesystem::path& folder, std::span<const std::filesystem::path> files);
 
 /// Syncs `from`, renames it to `to` in the same folder, and syncs the folder. Throws ResourceError.
@@ -57,8 +57,8 @@ class LineAppender {
   ~LineAppender();
   LineAppender(const LineAppender&) = delete;
   LineAppender& operator=(const LineAppender&) = delete;
-  /// Appends lines, each with its line end. After return a killed program does not lose them; a power cut may lose them
-  /// until a sync. If the disk fails, the file keeps its former length, and ResourceError is thrown.
+  /// Appends lines, each with its line end. After return the lines survive if the program is killed. They survive a
+  /// power cut only after a sync. If the disk fails, cuts the file to its former length and throws ResourceError.
   void append(std::string_view lines);
 
  private:

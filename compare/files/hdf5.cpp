@@ -32,7 +32,7 @@ void silence() {
 
 using Lock = std::lock_guard<std::recursive_mutex>;
 
-/// Deflate packs at most 1,032 bytes into one; shuffling keeps the size.
+/// Deflate compresses at most 1,032 bytes into one byte. The shuffle filter keeps the size.
 constexpr std::size_t most_unpacked = 1032;
 
 std::vector<hsize_t> shape_of(hid_t dataset) {
@@ -43,8 +43,8 @@ std::vector<hsize_t> shape_of(hid_t dataset) {
   return shape;
 }
 
-/// Returns the number of rows in a chunk of a dataset that is written `part` rows at a time. A chunk holds several
-/// whole parts if they are small, otherwise an even share of one part.
+/// Returns the number of rows in a chunk of a dataset that is written `part` rows at a time. If parts are small, a
+/// chunk holds several whole parts. Otherwise each part is cut into chunks of nearly equal size.
 std::size_t rows_in_chunk(std::size_t part) {
   return part < smallest_chunk_rows ? part * divide_up(smallest_chunk_rows, part) : even_chunk_rows(part);
 }

@@ -12,7 +12,7 @@ namespace {
 using Lock = std::lock_guard<std::recursive_mutex>;
 using Extents = std::array<hsize_t, 2>;  // rows, columns; a one-dimensional dataset uses only the first
 
-/// Masks with one bit for each filter that was not applied to a chunk: shuffle, deflate.
+/// Masks of the filters (bits: shuffle, deflate) that were not applied to a chunk.
 constexpr std::uint32_t no_filter = 0, every_filter = 3;
 
 int rank_of(const PackedArray& array) { return array.columns > 0 ? 2 : 1; }

@@ -48,8 +48,8 @@ class TextLines {
   /// Converts the word `found`, which was already read, to a whole number. For another word throws InputError that
   /// names `what`.
   std::int64_t integer(std::string_view found, const std::string& what) const;
-  /// Returns the number of entries that the word `found` announces. Fails if the file has fewer than `least` bytes left
-  /// for each.
+  /// Returns the number of entries that the word `found` announces. Fails if the rest of the file has fewer than
+  /// `least` bytes per entry.
   std::size_t count(std::string_view found, const std::string& what, std::size_t least = 1) const;
 
   /// Goes to the next line that has a word. If the file ends before it, throws InputError that names `what`.

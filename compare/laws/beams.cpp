@@ -42,8 +42,8 @@
 // in the metrics of a step, breaks the law.
 //
 // A solved step has f = 0, and its energy does not rise. With few sweeps a force f remains, and the energy may rise up
-// to the limit. N sweeps need no limit, and neither does Newton. Let D = 1 + h² q, where q is a third of the trace of a
-// vertex's stiffness over its mass. N = D ln(101)/2 sweeps leave a hundredth of a stretch (method.md §7.7), so f is a
+// to the limit. Newton's method needs no limit. Neither do N = D ln(101)/2 sweeps, where D = 1 + h² q, and q is a third
+// of the trace of a vertex's stiffness over its mass. They leave a hundredth of a stretch (method.md §7.7), so f is a
 // hundredth of the elastic force. The work of f during the motion is then below a hundredth of U, and U stays below the
 // largest kinetic energy. The trace of a vertex's stiffness is a sum, on a lattice of spacing a:
 //
@@ -267,8 +267,8 @@ double solving_sweeps(double time_step) {
   return (1 + time_step * time_step * trace / (3 * mass)) * std::log(101) / 2;
 }
 
-/// Returns a sheet that is curved at rest: 11 × 11 vertices of a cylinder of 0.2 m, held at one corner, without
-/// contacts.
+/// Returns a sheet that is curved at rest, without contacts: 11 × 11 vertices on a cylinder of radius 0.2 m. One corner
+/// is held.
 Scene pinned_arc(double time_step, std::int64_t steps, std::int64_t iterations) {
   Scene scene = empty_scene("pinned_sheet", time_step, steps, iterations);
   scene.gravity = down;

@@ -72,8 +72,8 @@ std::vector<Reading> read_conveyor(std::span<const Trajectory> runs) {
     relative = slid(relative, 0, mu * standard_gravity, run.scene.settings.friction_velocity, h);
     way += h * (relative + belt);
   }
-  // Both terms of `share` are derived in slopes.cpp: friction lags, and sweeps leave an error of its normal force λ.
-  // The share applies to the distance `ahead` by which the belt leads the body.
+  // Both terms of `share` are derived in slopes.cpp: the lag of friction's normal force λ, and the error of λ after
+  // sweeps. The share applies to the distance `ahead` by which the belt leads the body.
   const double ahead = belt * h * static_cast<double>(run.rows.size()) - way;
   const double dragged = belt / (mu * standard_gravity), share = 2 * lagged_steps(run) * h / dragged + force_left(run);
   return {{.what = "way",

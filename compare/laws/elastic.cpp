@@ -45,7 +45,7 @@ MovingVec normal(const MovingVec& a, const MovingVec& b) {
   return {cross(a.value, b.value), plus(cross(a.rate, b.value), cross(a.value, b.rate))};
 }
 
-/// Positions by vertex. Their rate of change along the displacement d is d itself (`along`).
+/// By vertex: the position and its rate of change along the displacement d, which is d itself (`along`).
 struct Points {
   const std::vector<Vec3>&x, &along;
   MovingVec operator[](Index v) const { return {x[static_cast<std::size_t>(v)], along[static_cast<std::size_t>(v)]}; }

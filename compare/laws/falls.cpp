@@ -33,8 +33,8 @@ Vec3 discrete_flight(const Scene& scene, const Vec3& start, const Vec3& velocity
   return plus(plus(start, velocity, t), scene.gravity, (t * t + t * h) / 2);
 }
 
-/// Returns the largest distance of a vertex from the discrete law at any step, in units of the rounding error up to
-/// then.
+/// Returns the largest distance of a vertex from the discrete law at any step, divided by the rounding error that
+/// positions may have at that step.
 double largest_miss(const Trajectory& run) {
   const double largest = largest_coordinate(run);
   double most = 0;
@@ -67,7 +67,7 @@ std::vector<Scene> order_scenes(LawSize) {
   return {thrown_sheet(10, 0.2), thrown_sheet(20, 0.2), thrown_sheet(40, 0.2)};
 }
 
-/// Returns how far the end is below the parabola [m].
+/// Returns how far below Galileo's parabola the sheet's centre ends [m].
 double error_of_fall(const Trajectory& run) {
   const double t = run.scene.settings.time_step * static_cast<double>(run.scene.settings.steps);
   const double start = centre(run.scene, 0, run.states.front()).y, v = run.scene.velocities[0].y;

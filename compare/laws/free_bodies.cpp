@@ -30,8 +30,8 @@ using namespace law_shapes;
 
 double left_over(const Trajectory& run) { return run.by.is_solved ? 1e-4 : 1e-2; }
 
-/// Impulses and angular impulses that inner forces exchange: sums of ‖m (vᵗ⁺¹ − vᵗ)‖ and of ‖m x × (vᵗ⁺¹ − vᵗ)‖ over
-/// steps and vertices.
+/// Sums over steps and vertices of what inner forces exchange: impulses ‖m (vᵗ⁺¹ − vᵗ)‖ and angular impulses ‖m x ×
+/// (vᵗ⁺¹ − vᵗ)‖.
 struct Exchange {
   double impulse = 0, turn = 0;
 };
@@ -68,7 +68,7 @@ std::vector<Scene> tumbling_scenes(LawSize size) {
   return {scene};
 }
 
-/// Returns the change of L over the run by (1): the sum of h Σ m vᵗ⁺¹ × vᵗ over the steps.
+/// Returns by how much L changes over the run according to (1): the sum of h Σ m vᵗ⁺¹ × vᵗ over the steps.
 Vec3 lost_turn(const Trajectory& run) {
   const std::vector<double> m = masses(run.scene);
   Vec3 sum{};

@@ -18,7 +18,7 @@ struct LawState {
   std::vector<Vec3> positions, velocities;  ///< by vertex [m], [m/s]
 };
 
-/// Properties of a solver on which answers or tolerances depend.
+/// Properties of a solver that change the answers or tolerances of laws.
 struct Answerer {
   bool is_solved = false;           ///< steps are solved to a tolerance, in double; otherwise `iterations` sweeps
   bool has_contact_energy = false;  ///< contacts are springs within r (method.md §4.2); otherwise they are barriers
@@ -77,7 +77,7 @@ struct Law {
   bool needs_springs = false;
   /// Returns the scenes to run; settings.steps gives the length.
   std::vector<Scene> (*scenes)(LawSize size) = nullptr;
-  /// Reads the whole trajectories of these scenes, in their order.
+  /// Returns the readings; runs[i] is the trajectory of the i-th scene.
   std::vector<Reading> (*read)(std::span<const Trajectory> runs) = nullptr;
 };
 

@@ -29,7 +29,7 @@ Vec3 mean(const Scene& scene, std::size_t body, const std::vector<Vec3>& values)
   return {sum.x / all, sum.y / all, sum.z / all};
 }
 
-/// Returns f₁ of friction (method.md §4.4) as a function of v/ε_v, odd.
+/// Returns f₁(|share|) of friction (method.md §4.4) with the sign of `share`, which is v/ε_v.
 double smoothed_sign(double share) {
   const double y = std::min(std::abs(share), 1.);
   return std::copysign(y * (2 - y), share);

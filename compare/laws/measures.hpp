@@ -16,16 +16,17 @@ double dot(const Vec3& a, const Vec3& b);
 Vec3 cross(const Vec3& a, const Vec3& b);
 double length(const Vec3& a);
 
-/// Returns the share of a body's weight that a step may leave unbalanced. Newton ends at 10⁻⁴ (newton_tolerance) of the
-/// force after the guess loop, which is the weight of a body at rest. The sweeps of a scene must reach 1/40.
+/// Returns the force that a step may leave unbalanced, as a share of a body's weight. Newton's method ends at 10⁻⁴
+/// (newton_tolerance) of the force after the guess loop, which for a body at rest is its weight. Sweeps must reach
+/// 1/40.
 double force_left(const Trajectory& run);
 
-/// Returns the number of steps by which friction's normal force may lag: 1, because a solve uses the force of the
-/// previous solve; 2 with barriers, because their force is 0 at the start.
+/// Returns the number of steps by which friction's normal force may lag. It is 1, because a solve uses the force of the
+/// previous solve. With barriers it is 2, because their force is 0 at the start of a motion.
 double lagged_steps(const Trajectory& run);
 
-/// Returns m_v [kg]: a third of each triangle's, a quarter of each tetrahedron's, half of each segment's mass at rest
-/// (method.md §4.10, §8.4); 0 on fixed bodies.
+/// Returns the mass m_v of each vertex [kg], 0 on fixed bodies. A vertex has a third of the rest mass of each triangle
+/// around it, a quarter of each tetrahedron and half of each segment (method.md §4.10, §8.4).
 std::vector<double> masses(const Scene& scene);
 
 /// Return the total mass of a body [kg]; its centre of mass and the velocity of that centre; Σ m v of everything that
@@ -47,12 +48,13 @@ double largest_coordinate(const Trajectory& run);
 double flight_rounding(std::int64_t n, double largest_coordinate);
 
 /// Returns the velocity v' of a body that slides with velocity v against friction (method.md §4.4), after one step of
-/// implicit Euler: v' = v + h (drive − brake f₁(|v'|/ε_v) sign v'). The right side falls as v' rises, so v' is unique.
+/// implicit Euler: v' = v + h (drive − brake f₁(|v'|/ε_v) sign v'). `drive` is the acceleration without friction,
+/// `brake` the largest deceleration by friction [m/s²]. The right side falls as v' rises, so v' is unique.
 double slid(double velocity, double drive, double brake, double friction_velocity, double time_step);
 
-/// `bounced` returns height and velocity of a mass after a step of implicit Euler from height x. A plane at 0 repels
-/// the mass below r with k_c (r − x); x must be at least r/2. x' minimises ‖x' − y‖²/(2h²) + (k_c/m)/2 max(0, r − x')²,
-/// where y = x + h v + h² a.
+/// Height and velocity of a mass. `bounced` returns them after a step of implicit Euler from height x. A plane at
+/// height 0 repels the mass below r with the force k_c (r − x); x must be at least r/2. x' minimises ‖x' − y‖²/(2h²) +
+/// (k_c/m)/2 max(0, r − x')², where y = x + h v + h² a.
 struct Height {
   double x = 0, v = 0;  ///< [m], [m/s]
 };

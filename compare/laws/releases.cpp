@@ -11,8 +11,9 @@
 // With a convex potential U implicit Euler loses at least m (v' − v)²/2 in each step, so m v²/2 + m g x + U never
 // rises. That requires that a contact is listed in the step in which its distance falls below r. But a detection lists
 // only contacts whose distance is below r when the step starts. So in the step of the impact the triangle moves up to h
-// v below r, and the contact does not yet do the work k_c (h v)²/2. The bounce gains up to that energy. With v² = 2 g H
-// after a fall of H the gain is a share κ of the fall's energy. This limit is derived, and `contact_margin` changes it.
+// v below r, and the contact does not yet do the work k_c (h v)²/2. The bounce gains up to that energy. After a fall of
+// height H, v² is 2 g H, so the gain is at most κ times the energy of the fall. This limit is derived, and
+// `contact_margin` changes it.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -95,8 +96,8 @@ std::vector<Scene> beyond_scenes(LawSize) {
   return {with, without};
 }
 
-/// Reads the largest difference between the two runs. Unfinished steps may leave a share force_left of the forces that
-/// move the sheet away from free flight.
+/// Reads the largest difference between the two runs. Unfinished steps may change the sheet's deviation from free
+/// flight by the share force_left.
 std::vector<Reading> read_beyond(std::span<const Trajectory> runs) {
   const Trajectory &with = runs[0], &without = runs[1];
   double most = 0, elastic = 0;
@@ -138,9 +139,9 @@ std::vector<Height> heights_by_law(const Trajectory& run) {
   return heights;
 }
 
-/// Returns the largest distance of the centre's height from (1). Each step in contact leaves up to 10⁻⁴ of its force;
-/// forty sweeps leave no more, because each vertex has one spring. Fewer than ten steps are in contact, so the
-/// tolerance is 10⁻³ of the path of the height.
+/// Returns the largest distance of the centre's height from (1). Each step in contact leaves up to 10⁻⁴ of its force.
+/// Forty sweeps leave no more, because each vertex has one spring. Fewer than ten steps are in contact, so the
+/// tolerance is 10⁻³ of the distance that the height travels.
 Reading distance_of_height(const Trajectory& run) {
   const std::vector<Height> law = heights_by_law(run);
   double most = 0, way = 0;

@@ -35,7 +35,7 @@ Mesh chain(std::vector<Vec3> points);
 /// step.
 Scene empty_scene(const char* name, double time_step, std::int64_t steps, std::int64_t iterations);
 
-/// Returns the cloth of all laws that do not define their own: 1 kg/m², 1000 N/m, no bending, k_c = 1000 N/m.
+/// Returns the material of cloth that most laws use: 1 kg/m², μ = λ = 1000 N/m, no bending, k_c = 1000 N/m.
 Material cloth(double friction);
 
 /// Returns sheets of 5 × 5 vertices, 0.2 m wide with hinges and μ = 0.2, on a floor of one triangle under gravity. Each

@@ -14,9 +14,8 @@
 // motion, so their λ lags by another step (law_measures::lagged_steps). If λ lags by n steps of a slide of duration T,
 // friction's impulse misses up to n h μ m g cos α. That is a share n h/T of the velocity that friction changes, and a
 // share 2 n h/T of the distance that it changes. Sweeps end with an error of λ; they are required to reach force_left
-// of the weight. An error e of λ changes the acceleration by the share e μ cos α over (sin α − μ cos α). Without
-// friction nothing acts along the floor but truncation: the guess loop may end with up to γ_e = 1 % of the vertices
-// cut.
+// of the weight. A relative error e of λ changes the acceleration by the share e μ cos α/(sin α − μ cos α). Without
+// friction only truncation acts along the floor: the guess loop may end with up to γ_e = 1 % of the vertices cut.
 #include <cmath>
 
 #include "compare/laws/groups.hpp"
@@ -77,7 +76,7 @@ Scene block_on(const char* name, const Slope& slope, std::int64_t steps) {
   return scene;
 }
 
-/// Distance [m] and velocity [m/s] by the discrete law, computed from the scene's own numbers.
+/// Distance [m] and velocity [m/s] of a slide by the discrete law, with the numbers of the run's scene.
 struct Slid {
   double way = 0, velocity = 0;
 };
@@ -92,8 +91,8 @@ Slid slid_down(const Trajectory& run, std::size_t steps) {
   return now;
 }
 
-/// Relative errors of a distance and of a velocity that friction alone changes, caused by the lag of friction's normal
-/// force and by unfinished sweeps. The lag counts twice for a distance.
+/// Relative errors that come from the lag of friction's normal force and from unfinished sweeps: of a distance, and of
+/// a velocity, that only friction changes. The lag counts twice for a distance.
 struct Share {
   double way = 0, velocity = 0;
 };
@@ -139,8 +138,8 @@ std::vector<Reading> read_stick(std::span<const Trajectory> runs) {
   const double way = centre(run.scene, 0, run.states[last]).x - centre(run.scene, 0, run.states[half]).x;
   const double share = run.scene.gravity.x / (-run.scene.gravity.y * run.scene.bodies[0].material.friction);
   const double creep = run.scene.settings.friction_velocity * (1 - std::sqrt(1 - share));
-  // Let y be the creep over ε_v. A relative error e of the normal force λ changes f₁(y) by e f₁, so it changes y by e
-  // f₁/(2 (1 − y)). Rounding changes x by at most one rounding error per step.
+  // Let y be the creep divided by ε_v. A relative error e of the normal force λ changes f₁(y) by e f₁, so it changes y
+  // by e f₁/(2 (1 − y)). Rounding changes x by at most one rounding error per step.
   const double error = (lagged_steps(run) / static_cast<double>(run.rows.size()) + force_left(run)) * share /
                        (2 * std::sqrt(1 - share)) * run.scene.settings.friction_velocity;
   return {{.what = "creep",

@@ -12,9 +12,9 @@
 // alternate. With n rows this changes the extension by a share of less than (1/n)².
 //
 // Sweeps. Let the strip be z too low at the start of a step. The sweeps start from y, which is z + h² g too low. The
-// step's solution is too low by a·z, where a = (m/h²)/(m/h² + k₁). N sweeps leave a share ρᴺ of the way from y to the
-// solution. So the strip comes to rest where z = a z + ρᴺ (z + h² g − a z). For the longest wave, which is the part 4/π
-// of a uniform load, this is
+// step's solution is too low by a·z, where a = (m/h²)/(m/h² + k₁). N sweeps leave a share ρᴺ of the distance from y to
+// the solution. So the strip comes to rest where z = a z + ρᴺ (z + h² g − a z). A uniform load excites the longest wave
+// with 4/π of its size, which gives
 //
 //     z = (4/π) h² g ρᴺ/((1 − ρᴺ)(1 − a)),    ρ = (2 k cos q/(m/h² + 2 k))²,   q = π/(2 n + 1),   k₁ = 2 k (1 − cos q).
 //
@@ -54,7 +54,7 @@ double mass_below(const std::vector<double>& m, std::size_t first, std::size_t w
   return sum;
 }
 
-/// Hangs the scene's first body along x: row i moves to its position in the closed answer, row 0 stays.
+/// Hangs the scene's first body along x: moves each row to its position in the closed-form answer, and holds row 0.
 template <class Stretch>
 void hang(Scene& scene, std::size_t width, Stretch stretch_under) {
   const std::vector<double> m = masses(scene);

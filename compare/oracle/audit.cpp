@@ -109,8 +109,8 @@ class Auditor {
 
   std::array<Vec3, 2> segment(const Edge& e) const { return {positions_[at(e[0])], positions_[at(e[1])]}; }
 
-  /// Tests an edge that shares one vertex with a triangle. `side` is the triangle's edge opposite to that vertex. If
-  /// both edges cross in a common plane, no vertex lies on a triangle, so no other test finds this intersection.
+  /// Tests whether an edge that shares a vertex with a triangle meets `side`, the triangle's edge opposite to that
+  /// vertex. If the edges cross, no vertex lies on a triangle, so no other test finds this intersection.
   void test_opposite(Index edge, const Box& box, const Edge& side, Findings& found) const {
     const std::array<Vec3, 2> others = segment(side);
     if (!box.meets(box_of({others[0], others[1]}))) return;

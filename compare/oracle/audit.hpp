@@ -18,7 +18,8 @@ enum class IntersectionKind : std::uint8_t { edge_triangle, vertex_triangle, edg
 ///
 /// - Edge `first` meets triangle `second` without sharing a vertex; touching counts.
 /// - Vertex `first` lies on triangle `second`, of which it is no corner.
-/// - Edges `first` < `second` meet, and neither meets a triangle of the other in the first way. There are two cases:
+/// - Edges `first` < `second` meet, and neither edge meets a triangle of the other edge as in the first kind. There are
+///   two cases:
 ///   - Both edges belong to no triangle. If they share a vertex, the other end of one edge lies on the other edge.
 ///   - One edge shares a vertex with a triangle, and the other is this triangle's edge opposite to that vertex.
 struct Intersection {
@@ -49,9 +50,10 @@ struct AuditResult {
 AuditResult audit(const Topology& topology, std::span<const Vec3> positions, const ExclusionView& exclusions = {},
                   const AuditOptions& options = {});
 
-/// Returns, for each listed intersection, all pairs of a vertex of one face and a vertex of the other face, the smaller
-/// vertex first, in ascending order. If a scene excludes these pairs (Scene::excluded_pairs), audits skip two faces if
-/// one contains the first vertex of a pair and the other contains the second vertex.
+/// Returns pairs of vertices of different faces: for each listed intersection, all pairs of one vertex of each face.
+/// Pairs are in ascending order, each with the smaller vertex first. If a scene has these pairs in
+/// Scene::excluded_pairs, audits skip two faces if one contains the first vertex of a pair and the other contains the
+/// second vertex.
 std::vector<Edge> vertex_pairs(const AuditResult& result, const Topology& topology);
 
 /// Returns "edge of body 'cloth' (vertices 3, 7) meets face 40 of body 'floor' (…)".

@@ -62,7 +62,7 @@ class BoxTree {
     Box box;
     Index right = -1, item = -1;
   };
-  /// The data of an item that a split needs, stored together.
+  /// The centre and index of a box, from which a node is split.
   struct Item {
     std::array<double, 3> centre{};
     Index box = 0;

@@ -15,7 +15,7 @@
 namespace ogc::compare {
 namespace {
 
-/// The exact sum a + b = high + low.
+/// An exact sum a + b of doubles, as the sum high + low.
 struct TwoParts {
   double high, low;
 };

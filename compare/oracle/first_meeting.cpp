@@ -64,8 +64,8 @@ class Paths {
     return beyond(i) * beyond(j) <= 0;
   }
 
-  /// Returns whether k, seen along an axis, lies in the box around i and j. If the points are collinear, this is the
-  /// closed segment.
+  /// Returns whether point k lies in the box around points i and j, all projected along `axis`. For collinear points
+  /// this box is the closed segment from i to j.
   bool within(Moment& time, std::size_t i, std::size_t j, std::size_t k, std::size_t axis) const {
     return between(time, i, j, k, (axis + 1) % 3) && between(time, i, j, k, (axis + 2) % 3);
   }

@@ -19,8 +19,8 @@ struct MovingPair {
   std::array<Vec3, 4> from{}, to{};                 ///< at time 0 and 1 [m]
 };
 
-/// The first time at which the closed faces share a point; 0 if they touch at the start. low ≤ time ≤ high are doubles,
-/// equal or adjacent.
+/// The first time t at which the closed faces share a point; 0 if they touch at the start. low ≤ t ≤ high are equal or
+/// adjacent doubles.
 struct MeetingTime {
   double low = 0, high = 0;  ///< fractions of the motion
 };

@@ -92,7 +92,8 @@ class Filter {
     return {dot(d, w), std::abs(d.x * w.x) + std::abs(d.y * w.y) + std::abs(d.z * w.z)};
   }
 
-  /// Returns whether along d every vertex of the first face is above every vertex of the second, from `begin` to `end`.
+  /// Returns whether at all times from `begin` to `end` every vertex of the first face is higher along d than every
+  /// vertex of the second face.
   bool above(const Vector& d, double begin, double end) const {
     for (std::size_t i = 0; i < split_; ++i)
       for (std::size_t j = split_; j < 4; ++j) {

@@ -29,11 +29,12 @@ struct MeetingsResult {
   std::size_t pairs_in_doubt = 0;
 };
 
-/// Finds the meetings of a motion, also of loose edges. Each vertex v moves straight from from[v] at time 0 to to[v] at
-/// time 1 [m]. The answer is exact on any number of threads. Touching counts, also at times 0 and 1; so a pair that
-/// touches in a state counts in the motion before it and in the motion after it. As in `audit`, pairs with a common
-/// vertex, pairs of `exclusions`, isolated vertices and everything off the surface are left out. At most `limit`
-/// meetings are listed. Throws InputError if a position is not finite or sizes do not match.
+/// Finds all pairs of faces that share a point during a motion; also tests loose edges. Each vertex v moves straight
+/// from from[v] at time 0 to to[v] at time 1 [m]. The answer is exact and does not depend on the number of threads.
+/// Touching counts, also at times 0 and 1. So a pair that touches in a state counts in the motion before it and in the
+/// motion after it. Pairs with a common vertex, pairs of `exclusions`, isolated vertices and everything off the surface
+/// are left out, as in `audit`. At most `limit` meetings are listed. Throws InputError if a position is not finite or
+/// sizes do not match.
 MeetingsResult meetings(const Topology& topology, std::span<const Vec3> from, std::span<const Vec3> to,
                         const ExclusionView& exclusions = {}, std::size_t limit = 1000);
 

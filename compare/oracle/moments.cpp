@@ -23,7 +23,7 @@ Polynomial derivative(const Polynomial& p) {
   return Polynomial(std::move(c));
 }
 
-/// Returns the largest double ≤ x, for x ≥ 0. CGAL's interval may begin at the next double below.
+/// Returns the largest double ≤ x, for x ≥ 0. CGAL's interval may begin one double lower.
 double double_below(const Exact& x) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   double below = x.to_interval().first;

@@ -61,8 +61,8 @@ struct Nearest {
   }
 };
 
-/// Searches for the nearest pair on all threads. They share `limit_`: a pair farther apart than √limit_ is not the
-/// nearest.
+/// Searches for the nearest pair on all threads. The threads share `limit_`: a pair farther apart than √limit_ is not
+/// the nearest.
 class Search {
  public:
   template <std::size_t A, std::size_t B>

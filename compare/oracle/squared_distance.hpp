@@ -1,8 +1,8 @@
-// Computes squared distances of points, triangles and segments as quotients, so that no division is needed. Every
-// feature (corner, edge or interior) that may contain the closest point offers the squared distance to its point, line
-// or plane. With exact numbers these are the right features; with intervals there may be more. The distance to a line
-// or plane is at most the distance to a feature in it. So the least offer is the distance or, with intervals, a lower
-// bound of it. Only .cpp files of compare/oracle include this header, since it exposes CGAL's number types.
+// Computes squared distances of points, triangles and segments as quotients, so that no division is needed. If a
+// feature (corner, edge or interior) may contain the closest point, its point, line or plane offers a squared distance.
+// With exact numbers only the right features make offers; with intervals others may, too. The distance to a line or
+// plane is at most the distance to a feature in it. So the least offer is the distance or, with intervals, a lower
+// bound of the distance. Only .cpp files of compare/oracle include this header, since it exposes CGAL's number types.
 #pragma once
 
 #include <CGAL/Interval_nt.h>
@@ -41,12 +41,13 @@ struct LeastSquare {
 
 /// Keeps a lower bound of the least quotient.
 struct SquareBelow {
-  double value = std::numeric_limits<double>::infinity();  ///< the lower bound
+  /// Lowers `value` to a lower bound of n/d, if `value` exceeds that bound. If d may be 0, the bound is 0.
+  double value = std::numeric_limits<double>::infinity();
   /// Lowers the bound to a lower bound of n/d if the latter is less. The lower bound of n/d is 0 if d may be 0.
   void offer(const Interval& n, const Interval& d) { value = std::min(value, d.inf() > 0 ? (n / d).inf() : 0.0); }
 };
 
-/// A vector over a number type.
+/// A vector with coordinates of type N.
 template <class N>
 struct DistanceVector {
   N x, y, z;  ///< coordinates

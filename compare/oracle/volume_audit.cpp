@@ -23,7 +23,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Corners = std::array<Vec3, 3>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Returns the sign of the area of the triangle (a, b, x + (0, ε, ε²)), seen along the x axis.
+/// Returns the sign of the area of the triangle (a, b, x + (0, ε, ε²)), projected along the x axis; ε is infinitesimal.
 int side_seen(const Vec3& a, const Vec3& b, const Vec3& x) {
   const int exact = CGAL::orientation(Kernel::Point_2(a.y, a.z), Kernel::Point_2(b.y, b.z), Kernel::Point_2(x.y, x.z));
   if (exact != 0) return exact;
@@ -67,8 +67,8 @@ double to_triangle(const Vec3& x, const Corners& t) {
   return std::min({to_segment(x, t[0], t[1]), to_segment(x, t[1], t[2]), to_segment(x, t[2], t[0])});
 }
 
-/// Sorts the edges that have one triangle into closed rims. Reverses each edge, so that a triangle added at the edge
-/// has the orientation of the part.
+/// Groups edges that have one triangle into closed rims. Reverses each edge, so that a triangle added at the edge has
+/// the orientation of the part.
 std::vector<std::vector<Edge>> closed_rims(const std::vector<Edge>& rims) {
   std::map<Index, Index> root;
   const auto find = [&](Index v) {
@@ -83,7 +83,7 @@ std::vector<std::vector<Edge>> closed_rims(const std::vector<Edge>& rims) {
   return closed;
 }
 
-/// Holds the triangles of a part and of the fans that close its rims, and its tetrahedra, at the given positions.
+/// A part at given positions: its triangles, the triangles of the fans that close its rims, and its tetrahedra.
 class PlacedPart {
  public:
   PlacedPart(std::span<const Triangle> triangles, std::span<const std::vector<Edge>> rims,

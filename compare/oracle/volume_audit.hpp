@@ -1,6 +1,6 @@
-// Measures what is inside volumes (§3.9): vertices, by winding number, and edges that meet the volumes' triangles. It
-// shares no code with solvers, whose stage volume_depth (compare/stages/volume_depth.hpp) uses the nearest face. Both
-// agree on closed parts that do not pass through themselves, and may differ elsewhere.
+// Measures what is inside volumes (§3.9): vertices, by winding number, and edges that meet the volumes' triangles. This
+// code shares nothing with solvers, whose stage volume_depth (compare/stages/volume_depth.hpp) uses the nearest face.
+// The audit and the stage agree on closed parts that do not pass through themselves. Elsewhere they may differ.
 #pragma once
 
 #include <array>
@@ -20,9 +20,9 @@ struct VolumePenetration {
   std::size_t vertices_inside = 0;  ///< vertices of surfaces and of free volumes that lie inside a part
   Index deepest_vertex = -1;        ///< the vertex inside a part that is farthest from the part's triangles
   double deepest = 0;               ///< its distance from them, rounded [m]
-  /// number of edges of surfaces that meet a triangle of a volume, and of edges of volumes that meet a triangle of a
-  /// surface; also of edges of volumes that meet a triangle of a volume, if the edge or the triangle is of a free
-  /// volume
+  /// number of edges that meet a triangle, of these pairs:
+  /// - an edge of a surface and a triangle of a volume, or an edge of a volume and a triangle of a surface
+  /// - an edge of a volume and a triangle of a volume, at least one of them of a free volume
   std::size_t edges_meeting = 0;
 };
 

@@ -33,9 +33,10 @@ double tie_sum(std::span<const double> before, std::span<const double> after) {
   return sum;
 }
 
-/// Returns the share of all orders of n + m values for which U ≤ `u`. The counts obey f(n, m, u) = f(n − 1, m, u − m) +
-/// f(n, m − 1, u). In the first term the largest value belongs to the first set and exceeds all m values of the second
-/// set; in the second term it belongs to the second set. Shares replace counts so that nothing overflows.
+/// Returns the share of all orders of n + m values for which U ≤ `u`. Let f(n, m, u) be the number of orders with U =
+/// u. It obeys f(n, m, u) = f(n − 1, m, u − m) + f(n, m − 1, u). In the first term the largest value belongs to the
+/// first set and exceeds all m values of the second set. In the second term it belongs to the second set. The code
+/// computes shares, not numbers, so that nothing overflows.
 double share_up_to(std::size_t n, std::size_t m, std::size_t u) {
   const std::size_t most = n * m;
   // by_second[j][u]: share of the orders that give exactly u, for i values in the first set and j in the second

@@ -9,8 +9,9 @@
 namespace ogc::experiments {
 
 /// Returns the probability that U is at least as far from its mean as measured, if both sets come from one
-/// distribution; 1 if a set is empty. The result is exact, by counting orders, if no two values are equal and each set
-/// has at most 50 values. Otherwise it is the normal approximation with corrections for ties and continuity.
+/// distribution; 1 if a set is empty. U is the number of pairs whose value in `after` exceeds that in `before`. The
+/// result is exact, by counting orders, if no two values are equal and each set has at most 50 values. Otherwise it is
+/// the normal approximation with corrections for ties and continuity.
 double mann_whitney(std::span<const double> before, std::span<const double> after);
 
 /// Returns the smallest probability that mann_whitney can return for sets of these sizes: 2 / (n + m choose n), at most

@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 4> verdict_names{"faster", "slower", "no 
 
 std::string verdict_name(Verdict verdict) { return std::string(verdict_names[static_cast<std::size_t>(verdict)]); }
 
-/// Removes the parts of a benchmark's name that describe how it was measured.
+/// Returns a benchmark's name without the components that describe how it was measured.
 std::string plain_name(const std::string& name) {
   std::string plain;
   for (std::size_t begin = 0; begin < name.size();) {

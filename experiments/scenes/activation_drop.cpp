@@ -1,5 +1,5 @@
-// Numbers are the paper's Table 1, with the radius of cloth_on_sphere. The number of iterations is only a limit,
-// because each step ends at its tolerance.
+// Numbers are the paper's Table 1, with the contact radius of cloth_on_sphere. The number of iterations is only a
+// limit, because each step ends at its tolerance.
 #include "experiments/scenes/activation_drop.hpp"
 
 #include "experiments/scenes/cloth_on_sphere.hpp"

@@ -5,7 +5,8 @@
 
 namespace ogc::experiments {
 
-/// Holds the sizes; defaults: the paper's. The contact radius is proportional to the spacing: 5 mm on 70 × 70.
+/// Holds the sizes; the defaults are the paper's. The contact radius is proportional to the spacing: 5 mm for a cloth
+/// of 70 × 70 vertices.
 struct ActivationDropSizes {
   compare::Index vertices_a_side = 70;  ///< along each side of the cloth
   int sphere_subdivisions = 3;          ///< divisions of an icosahedron's triangles into four
@@ -14,7 +15,8 @@ struct ActivationDropSizes {
 };
 
 /// Returns cloth_on_sphere with a ground. The ground is a fixed mesh of 4 m × 4 m at y = −0.272 m; its triangles are at
-/// most a hundred times as large as the cloth's. Steps are solved to convergence: one cut vertex triggers a detection.
+/// most a hundred times as large as the cloth's. Steps are solved to convergence, so one cut vertex triggers a
+/// detection.
 compare::Scene activation_drop(const ActivationDropSizes& sizes = {});
 
 }  // namespace ogc::experiments

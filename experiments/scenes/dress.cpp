@@ -1,6 +1,6 @@
 // Panels are cut from developable surfaces, so that rest shapes are exact. If vertices of several panels have the same
-// position, each of them is stitched to all others. All pairs of faces that touch at the start then lie between
-// stitched vertices.
+// position, each of them is stitched to all others. So if two faces touch at the start, a vertex of one face is
+// stitched to a vertex of the other face.
 #include "experiments/scenes/dress.hpp"
 
 #include <algorithm>
@@ -49,7 +49,8 @@ void set_up(Scene& scene, double contact_radius, std::int64_t steps) {
   scene.settings.contact_radius = contact_radius;
 }
 
-/// Appends a panel with its positions on the body's surface (start) and on the table (rest). Returns its first vertex.
+/// Appends a panel with start positions `worn` (on the body) and rest positions `flat` (on a table). Returns its first
+/// vertex.
 Index append_panel(Scene& scene, const std::string& name, const Mesh& worn, const std::vector<Vec3>& flat) {
   const std::size_t body = append_body(scene, {.name = name, .material = wool()}, worn);
   const Index first = scene.bodies[body].first_vertex;
@@ -61,8 +62,9 @@ void stitch(Scene& scene, Index first, Index second, Index third = -1, double ra
   add_stitch(scene, first, second, third, ratio, stitch_stiffness);
 }
 
-/// Returns a point of a flattened piece of a cone or cylinder. The point is `down` [m] below the edge of radius
-/// `upper`, and `turn` [rad] around the axis. `slant`: length of the piece from edge to edge.
+/// Returns a point of a cone or cylinder that is unrolled into a plane. The point is `down` [m] below the edge of
+/// radius `upper`, at the angle `turn` [rad] around the axis. `slant` is the distance between both edges along the
+/// surface.
 Vec3 laid_flat(double upper, double lower, double slant, double down, double turn) {
   const double widening = (lower - upper) / slant;
   if (widening == 0) return {upper * turn, down, 0};
@@ -70,8 +72,8 @@ Vec3 laid_flat(double upper, double lower, double slant, double down, double tur
   return {from_apex * std::sin(angle), from_apex * std::cos(angle), 0};
 }
 
-/// Holds the point of the upper band to which a vertex of the lower band's upper edge is stitched. The point divides
-/// the line from position `second` to `second` + 1 around the body (see Band) at `ratio`.
+/// Holds the point of the upper band to which a vertex of the lower band is stitched. It lies on the straight line from
+/// slot `second` (see Band) to the next slot; `ratio` is the fraction of the line before the point.
 struct StitchPoint {
   Index second;
   double ratio;
@@ -161,8 +163,8 @@ class Band {
 };
 
 /// Appends a strap: half a cone about an axis along x. The strap leads over the shoulder from the front of the bodice's
-/// upper edge to its back. Each column of the strap's vertices begins and ends at a vertex of the bodice. `side`: −1 or
-/// 1.
+/// upper edge to its back. Each column of the strap's vertices begins and ends at a vertex of the bodice. `side` is 1
+/// for the shoulder at +x, −1 for the shoulder at −x.
 void append_strap(Scene& scene, const Band& bodice, Index cells, int side) {
   const Index around = bodice.slots();
   const auto slot_at = [&](double radians) {
@@ -202,8 +204,8 @@ Vec3 without_dust(const Vec3& v) {
   return {swept(v.x), swept(v.y), swept(v.z)};
 }
 
-/// Appends the triangles and vertices of panel `number` in their order. Stores the vertices' indices in the scene in
-/// `renumbered`.
+/// Appends the triangles and vertices of panel `number` in their order. Stores in renumbered[v] the index of vertex v
+/// in the scene.
 void append_panel(Scene& scene, const DressData& data, Index number, std::vector<Index>& renumbered) {
   const auto first = static_cast<Index>(scene.mesh.positions.size());
   std::vector<bool> is_in(data.pattern.size());
@@ -299,8 +301,8 @@ Scene dress(const DressData& data, std::int64_t steps) {
   for (const Stitch& s : data.stitches) {
     const Index first = renumbered[at(s.first)], second = renumbered[at(s.second)], third = renumbered[at(s.third)];
     stitch(scene, first, second, third, s.ratio);
-    // A stitch to an end of an edge also excludes the other end, because in the published start the vertex meets the
-    // edge.
+    // Excludes both ends of the edge also if the stitch leads to only one of them, because in the published start the
+    // vertex touches the edge.
     scene.excluded_pairs.push_back({first, s.ratio < 0.5 ? third : second});
   }
   exclude_junctions(scene, scene.settings.contact_radius);

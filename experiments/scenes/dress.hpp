@@ -7,9 +7,9 @@
 
 namespace ogc::experiments {
 
-/// Holds the sizes of the generated stand-in for the data set's dress: numbers of cells of its panels, [along the body,
-/// around a panel]. The defaults give about as many cells as the data set has. The contact radius is proportional to
-/// the spacing.
+/// Holds the sizes of the generated stand-in for the data set's dress. Each pair holds the numbers of cells of a panel
+/// along the body and around it. The defaults give about as many cells as the data set has. The contact radius is
+/// proportional to the spacing.
 struct DressSizes {
   std::array<compare::Index, 2> bodice{40, 30}, hips{28, 37}, hem{26, 48};  ///< cells of each panel
   compare::Index strap = 50;                                                ///< cells along a strap

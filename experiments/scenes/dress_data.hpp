@@ -33,9 +33,10 @@ struct DressData {
 };
 
 /// Reads the data set from `folder` or its subfolders dress_knife and Rumba_Dancing. stage.obj has the pattern (`vt`),
-/// the panels and the stitches; drape.obj has the garment and the body at the start; shell0.obj … have the body every
-/// 0.04 s. Throws compare::InputError that names the file if it is missing or unreadable, has other counts, stitches a
-/// vertex that does not exist, or if the first frame's body differs in shape from the body at the start.
+/// the panels and the stitches. drape.obj has the garment and the body at the start. The files shell0.obj, shell1.obj,
+/// … have the body every 0.04 s. Throws compare::InputError that names a file that is missing or unreadable, differs
+/// from `counts`, or stitches a vertex that does not exist. Also throws if the body of the first frame differs in shape
+/// from the body at the start.
 DressData read_dress_data(const std::filesystem::path& folder, const DressCounts& counts = {});
 
 }  // namespace ogc::experiments

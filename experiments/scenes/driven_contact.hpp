@@ -10,8 +10,8 @@ namespace ogc::experiments {
 std::vector<std::size_t> driven_bodies(const compare::Scene& scene);
 
 /// Sets the kind of contact of driven bodies and of bodies with tetrahedra. If there are driven bodies, also sets γ_e.
-/// For volumes γ_e is the paper's 0.01. For surfaces it is 0: a driven surface obeys bounds, and so few vertices lie
-/// between the surface and a garment that each of them must trigger a detection (experiments/scenes/dress.hpp). Throws
+/// For volumes γ_e is the paper's 0.01. For surfaces γ_e is 0, so that one cut vertex triggers a detection: a driven
+/// surface obeys bounds, and only few vertices lie between it and a garment (experiments/scenes/dress.hpp). Throws
 /// compare::InputError if the scene has no driven body and no body with tetrahedra.
 void set_body_contact(compare::Scene& scene, compare::BodyContact contact);
 

@@ -6,8 +6,8 @@
 
 namespace ogc::experiments {
 
-/// Holds the sizes; defaults: the paper's with 246,000 vertices. Heights are multiples of the contact radius; the
-/// ground's triangles are proportional to the cloth's.
+/// Holds the sizes; the defaults are the paper's with 246,000 vertices. Heights are multiples of the contact radius.
+/// The edges of the ground's triangles are proportional to those of the cloths.
 struct FiftyLayersSizes {
   std::string name = "fifty_layers";    ///< name of the scene
   compare::Index layers = 50;           ///< number of cloths

@@ -51,8 +51,8 @@ std::vector<Vec3> control_points() {
   return points;
 }
 
-/// A centripetal Catmull–Rom curve: consecutive knots differ by the square root of the chord. One more point is added
-/// at each end of the curve: its neighbour, reflected in the end point.
+/// A centripetal Catmull–Rom curve: the parameters of successive points differ by the square root of the points'
+/// distance. At each end one more point is added: the neighbour of the end point, reflected in the end point.
 class Curve {
  public:
   explicit Curve(const std::vector<Vec3>& through) {

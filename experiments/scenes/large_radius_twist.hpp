@@ -5,8 +5,8 @@
 
 namespace ogc::experiments {
 
-/// Holds the sizes; defaults: the paper's. The contact radius is proportional to the spacing (0.995 edges), so that the
-/// regime is always that of r = 5 mm on 200 × 200.
+/// Holds the sizes; the defaults are the paper's. The contact radius is 0.995 times the spacing: 5 mm for a cloth of
+/// 200 × 200 vertices.
 struct LargeRadiusTwistSizes {
   compare::Index vertices_a_side = 200;  ///< along each side of the cloth
   std::int64_t steps = 1200;             ///< 4 s, in which one end rotates by 180° relative to the other

@@ -5,8 +5,8 @@
 
 namespace ogc::experiments {
 
-/// Holds the sizes; defaults: the paper's. A frame is 10 steps. The contact radius is proportional to the spacing: 5 mm
-/// on 70 × 70.
+/// Holds the sizes; the defaults are the paper's. A frame is 10 steps. The contact radius is proportional to the
+/// spacing: 5 mm for a cloth of 70 × 70 vertices.
 struct OneIterationDropSizes {
   compare::Index vertices_a_side = 70;  ///< along each side of the cloth
   int sphere_subdivisions = 3;          ///< divisions of an icosahedron's triangles into four

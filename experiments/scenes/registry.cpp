@@ -32,8 +32,8 @@ compare::Scene cloth_on_sphere_at(Scale scale) {
   return cloth_on_sphere();
 }
 
-/// Returns the paper's scene with fewer and coarser layers and a coarser cylinder. Radius and shift are proportional to
-/// the spacing.
+/// Returns the scene of `sizes` with fewer and coarser layers and a coarser cylinder. The contact radius and the shift
+/// are proportional to the spacing.
 compare::Scene fewer_layers(FiftyLayersSizes sizes, compare::Index layers, compare::Index vertices_a_side,
                             CylinderCells cylinder, std::int64_t steps) {
   const double coarser = static_cast<double>(sizes.vertices_a_side - 1) / (vertices_a_side - 1);

@@ -6,8 +6,8 @@
 
 namespace ogc::experiments {
 
-/// Holds the sizes in cells of the shirt's grid; the defaults give the paper's number of vertices and triangles.
-/// `across` cells are 0.45 m wide; the contact radius is proportional to the spacing.
+/// Holds the sizes in cells of the shirt's grid; the defaults give the paper's number of vertices and triangles. The
+/// width of `across` cells is 0.45 m. The contact radius is proportional to the spacing.
 struct RobotShirtSizes {
   compare::Index across = 56, length = 105;              ///< cells of front and back; `across` is even
   compare::Index sleeve_rows = 20, sleeve_columns = 26;  ///< width of a flat sleeve, and its length

@@ -25,8 +25,8 @@ compare::Mesh ground(compare::Index vertices_a_side, double height);
 /// `subdivisions`) lie on the sphere. Normals point outward.
 compare::Mesh icosphere(int subdivisions, double radius, const compare::Vec3& centre);
 
-/// Holds the resolution of a closed cylinder: `around` vertices in each ring, `along` rings from end to end, `cap`
-/// rings inside each end besides the centre.
+/// Holds the resolution of a closed cylinder: `around` vertices in each ring, and `along` rings from end to end. Each
+/// end is a disc of `cap` more rings around a centre.
 struct CylinderCells {
   compare::Index around = 47, along = 16, cap = 5;  ///< number of vertices: around (along + 2 cap) + 2, here 1,224
 };

@@ -5,7 +5,8 @@
 
 namespace ogc::experiments {
 
-/// Holds the sizes; defaults: the paper's. The contact radius is proportional to the spacing: 2 mm on 70 × 70.
+/// Holds the sizes; the defaults are the paper's. The contact radius is proportional to the spacing: 2 mm for cloths of
+/// 70 × 70 vertices.
 struct ThreeClothsSizes {
   compare::Index vertices_a_side = 70;  ///< along each side of each cloth
   int sphere_subdivisions = 3;          ///< divisions of an icosahedron's triangles into four

@@ -22,7 +22,7 @@ constexpr double loop_width = 0.4 / 33, row_height = 0.01, bow = 0.24 * loop_wid
 constexpr Index segments_a_loop = 49, segments_a_join = 15;
 constexpr double held_width = 0.01;  // width of each held edge [m]
 
-/// Returns a point of the first loop of row 0, which begins at t = −π.
+/// Returns the point with parameter t on the curve of row 0, whose first loop begins at t = −π.
 Vec3 on_loop(double t) {
   return {loop_width * t / (2 * pi) + bow * std::sin(2 * t), half_height * std::cos(t), depth * std::cos(2 * t)};
 }

@@ -65,8 +65,8 @@ class FrameArray : public MeshSequence {
     source_(bytes_, frame);
   }
 
-  /// Sets `begin_` to the position in `bytes_` at which the current frame begins, in C order. Reads the array again
-  /// unless the last pass gathered this frame.
+  /// Sets `begin_` to the position of the current frame in `bytes_`, where gathered frames are in C order. Reads the
+  /// array again unless the last pass gathered this frame.
   void gather(const std::string& frame) {
     if (next_ >= gathered_end_) {
       gathered_ = next_;

@@ -20,8 +20,8 @@ namespace {
 
 constexpr auto most_vertices = static_cast<std::uint64_t>(std::numeric_limits<Index>::max());
 
-/// Limits [bytes] of the memory for the frames that one pass over an array in Fortran order gathers. Within them, the
-/// memory is as large as the array's file.
+/// Smallest and largest memory [bytes] for the frames that one pass over an array in Fortran order gathers. Between
+/// these limits the memory is as large as the array's file.
 constexpr std::uint64_t least_room = 1 << 26, most_room = 1 << 30;
 
 std::uint64_t room_of(const std::filesystem::path& file) {
@@ -76,7 +76,7 @@ bool is_numbered(std::string_view member, std::string_view stem) {
   return !member.empty() && std::ranges::all_of(member, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// Returns the numbered members of the first stem that has any, in natural order.
+/// Returns the members whose names are a stem and a number, in natural order, for the first stem that has such members.
 std::vector<std::string> numbered_members(const ZipFile& zip) {
   std::vector<std::string> found;
   const auto look = [&](std::span<const std::string_view> stems) {

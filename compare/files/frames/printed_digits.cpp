@@ -20,9 +20,9 @@ constexpr std::size_t all_digits = 16;
 /// Numbers with fewer digits than these do not count as rounded: people type such numbers, or they are exact. A rounded
 /// number mostly has all digits of its format.
 constexpr std::size_t least_significant = 6, least_decimals = 4;
-/// Shares of the numbers that must have all decimals, or all significant digits, of a format. In a rounded file all
-/// numbers have all decimals. Nine of ten have all significant digits; the others end in 0, which is left out. But two
-/// coordinates of three may be exact, so the second share is small.
+/// A format is accepted if these shares of all numbers have all of its decimals, or all of its significant digits. In a
+/// rounded file all numbers have all decimals. Only nine of ten have all significant digits, since zeros at the end are
+/// left out. Two coordinates of three may be exact and shorter, so the second share is small.
 constexpr double share_of_decimals = 0.9, share_of_significant = 0.25;
 
 std::vector<std::string_view> words_of(std::string_view line, std::size_t most) {
@@ -196,7 +196,8 @@ void of_msh(std::string_view text, Digits& digits) {
   }
 }
 
-/// Reads the number after `keyword`, then that many vertices of `each` words. The first three words are coordinates.
+/// Reads a count, the word after `keyword`. Then reads that many vertices, each of `each` words; the first three words
+/// are the coordinates.
 void of_counted(std::string_view text, std::string_view keyword, std::size_t each, Digits& digits) {
   std::size_t count = 0;
   for (std::string_view word = next_word(text); !word.empty() && word != keyword;) word = next_word(text);

@@ -1,5 +1,5 @@
-// Finds the precision to which a text file prints its coordinates. Vertices that are nearer to each other than that may
-// be copies of one point.
+// Finds the precision to which a text file prints its coordinates. Vertices that are nearer to each other than this
+// precision may be copies of one point.
 #pragma once
 
 #include <filesystem>

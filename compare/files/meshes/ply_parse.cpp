@@ -141,7 +141,7 @@ class Scalars {
  public:
   Scalars(std::string_view data, const Header& header) : data_(data), format_(header.format), line_(header.lines + 1) {}
 
-  // Returns false if the data end or, in ascii, the word is no number.
+  // Reads the next scalar. Returns false if the data end or, in ascii, the word is no number.
   bool read(Scalar type, double& value) {
     if (format_ == Format::ascii) return parse_number(last_word_ = word(), value);
     switch (type) {

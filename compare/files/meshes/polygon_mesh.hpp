@@ -58,8 +58,8 @@ struct LoadedMesh {
   Vec3 origin{};                   ///< point that positions are relative to, in the file's coordinates [m]
 };
 
-/// Leaves out faces and loose edges, with a note, if the mesh has tetrahedra, because these determine the solid's
-/// surface.
+/// Leaves out faces and loose edges, with a note, if the mesh has tetrahedra, because the tetrahedra determine the
+/// solid's surface.
 void keep_solid(PolygonMesh& mesh);
 
 /// Makes a mesh of triangles. Leaves out, with a note, faces that name fewer than three different vertices or have no

@@ -49,7 +49,7 @@ class TextParser {
   }
 
  private:
-  /// Reads a solid from its name, which may be any words of the line, to its end.
+  /// Reads a solid to its end. The solid's name is the rest of the first line.
   void solid() {
     const std::size_t begin = lines_.number();
     if (!lines_.next_filled()) cut("the solid of line " + std::to_string(begin));

@@ -13,11 +13,11 @@ namespace ogc::compare {
 /// inside is decided as seen along the face's area vector Σ xᵢ × xᵢ₊₁ / 2 (Newell). The shape of a triangle is its
 /// signed area over its squared longest side.
 ///
-/// A quad is cut from its first corner to its third, unless the other cut is much better: its worse triangle has more
-/// than twice the shape of this cut's worse triangle. So concave quads are cut rightly, and all nearly square quads
-/// alike. From larger faces the ear with the best shape is cut off first (of equal ears the first), which avoids
-/// slivers where the face allows it. Returns nothing if the face has no area or crosses itself in that view. `corners`:
-/// vertices; positions [m] by vertex.
+/// A quad is cut from its first corner to its third. The other cut is taken only if it is much better: its worse
+/// triangle has more than twice the shape of the first cut's worse triangle. So concave quads are cut correctly, and
+/// all nearly square quads in the same way. From larger faces the ear with the best shape is cut off first (of equal
+/// ears the first), which avoids slivers where the face allows it. Returns nothing if the face has no area or, seen
+/// along the area vector, crosses itself. `corners` are vertices; `positions` are by vertex [m].
 std::vector<Triangle> triangulate(std::span<const Index> corners, std::span<const Vec3> positions);
 
 }  // namespace ogc::compare

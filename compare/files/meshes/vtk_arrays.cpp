@@ -1,6 +1,6 @@
-// Base64 comes in groups of four characters, and padding ends an encoded text. VTK encodes the header of compressed
-// data separately; other writers also encode the header of stored data separately. Decoding continues after padding, so
-// it reads both cases in the same way.
+// Base64 comes in groups of four characters, and padding ends an encoded text. A header and its data may be encoded
+// together, or separately with padding between them. VTK encodes them separately only for compressed data; other
+// writers always do. Decoding continues after padding, so it reads both cases in the same way.
 #include "compare/files/meshes/vtk_arrays.hpp"
 
 #include <algorithm>

@@ -13,7 +13,8 @@ namespace ogc::compare {
 /// Converts the cells of a file to tetrahedra, faces and loose edges of a mesh. VTK's numbers give the cells' kinds.
 class VtkCells {
  public:
-  /// Adds to `mesh`. `name` is the file's name, for errors and notes. Both must outlive this object.
+  /// Makes an object that adds cells to `mesh`. `name` is the file's name, for errors and notes. Both must outlive this
+  /// object.
   VtkCells(PolygonMesh& mesh, const std::string& name) : mesh_(mesh), name_(name) {}
 
   /// Adds a cell, whose corners are vertices of the mesh. Throws InputError that names the cell if this kind of cell
@@ -35,7 +36,7 @@ class VtkCells {
 /// VTK's numbers for kinds of cells that PolyData lists.
 inline constexpr int vtk_poly_line = 4, vtk_strip = 6, vtk_polygon = 7;
 
-/// Converts a number of an array to a kind of cell; returns −1 if no kind can have this number.
+/// Converts `value`, a number of an array, to a kind of cell; returns −1 if it is no whole number from 0 to 255.
 int vtk_kind(double value);
 
 /// Holds the corners of all cells of a piece in one list, cell after cell. Corners count from 0 in the piece, whose

@@ -196,7 +196,8 @@ class VtkLegacyParser {
                    " cells: the counts of " + std::string(list.keyword) + " are wrong");
   }
 
-  /// Reads cells of version 5: first the offsets, which begin with 0 and are one more than the cells, then the corners.
+  /// Reads cells of version 5: first the offsets, then the corners. The first offset is 0, and there is one offset more
+  /// than cells.
   void new_cells(List& list) {
     const std::size_t offsets = blocks_.count("number of offsets"), corners = blocks_.count("number of corners");
     list.cells.ends = array("OFFSETS", offsets);

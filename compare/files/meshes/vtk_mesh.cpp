@@ -38,7 +38,7 @@ class PieceReader {
  private:
   std::vector<double> values(const VtkArray& array) const { return read_vtk_array(document_, array, name_); }
 
-  /// Throws InputError unless the number of elements that the piece announces is the number in its arrays.
+  /// Throws InputError if the piece announces another number of elements than `count`, the number in its arrays.
   void expect_count(const std::string& attribute, std::size_t count, const char* what) const {
     const auto found = piece_.attributes.find(attribute);
     std::size_t announced = 0;

@@ -15,10 +15,11 @@
 
 namespace ogc::compare {
 
-/// Newest version of the format that is read; an error names the version of a newer file. Since format 2 bodies may
-/// have tetrahedra, materials may have `solid_…`, `body_contact` may make a body a volume, and a material's `rod` makes
-/// the body's loose edges a rod, with `orientations` in a file of their own. The scene's `body_pairs` is reserved and
-/// must be empty: the reader refuses what this program does not simulate.
+/// Newest version of the format that is read. For a newer file the error names the file's version. Since version 2:
+/// - bodies may have tetrahedra, and materials may have `solid_…`
+/// - `body_contact` may make a body a volume
+/// - a material's `rod` makes the body's loose edges a rod, whose `orientations` are in a file of their own
+/// The scene's `body_pairs` is reserved and must be empty: the reader refuses what this program does not simulate.
 inline constexpr int scene_format_version = 2;
 
 /// Reads and validates a scene file; dust of its meshes becomes 0 (compare/problem/dust.hpp). Throws InputError that
@@ -36,12 +37,12 @@ struct SceneFile {
 /// Reads and validates a scene file as read_scene does, but also returns sources, notes and origin.
 SceneFile load_scene_file(const std::filesystem::path& file);
 
-/// Writes `folder`/NAME.json and for each body one PLY, or one MSH for a solid (positions and, if they differ, rest
-/// positions). Returns the path of the JSON file.
+/// Writes `folder`/NAME.json and the meshes of each body: a PLY or, for a solid, an MSH. Rest positions and velocities
+/// have further files if needed. Returns the path of the JSON file.
 std::filesystem::path write_scene(const std::filesystem::path& folder, const Scene& scene);
 
-/// Returns the `excluded_pairs` of a scene file: one entry for each sequence of pairs between the same two bodies, in
-/// the order of `pairs`. Vertices are numbered within each body.
+/// Returns the `excluded_pairs` of a scene file. Successive pairs between the same two bodies share one entry; entries
+/// keep the order of `pairs`. Vertices are numbered within each body.
 nlohmann::ordered_json excluded_pairs_json(std::span<const Body> bodies, std::span<const std::array<Index, 2>> pairs);
 
 /// Returns the JSON Schema of scene files.

@@ -127,7 +127,7 @@ void refuse_reserved(const JsonNode& node, const std::string& what) {
   node.fail("asks for " + what + ", which this ogc does not simulate yet", "leave it out, or use a newer ogc");
 }
 
-/// Returns the file's own name with '_' for characters that names may not have.
+/// Returns the file's name without folder and extension, with '_' for characters that names may not have.
 std::string name_of_file(const std::filesystem::path& file) {
   std::string name = file.stem().string();
   std::replace_if(

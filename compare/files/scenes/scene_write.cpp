@@ -113,7 +113,8 @@ Json body_json(const std::filesystem::path& folder, const Scene& scene, const Bo
   return json;
 }
 
-// Returns the selections of a motion: one for each sequence of vertices of the same body, in the order of `vertices`.
+// Returns the selections of a motion. Successive vertices of the same body share one selection; selections keep the
+// order of `vertices`.
 Json selections_json(const Scene& scene, const std::vector<Index>& vertices) {
   const std::vector<Index> owner = body_of_vertex(scene);
   Json selections = Json::array();
