@@ -61,7 +61,8 @@ struct StepLedger {
   double energy_commit = 0;  ///< change from the last x to the start of the next step
   Vec3 momentum_start, momentum_guess, momentum_sweep, momentum_truncation;  ///< Σ m v at the start, and its changes
   double motion_proposed = 0, motion_taken = 0;  ///< motion that sweeps propose, and the part that truncation takes
-  /// parts of motion_taken across, and against, the normal towards the nearest pair's other side
+  /// parts of motion_taken: across the normal n of the nearest pair, and against n where the vertex moved away (n
+  /// points to the pair's other side)
   double motion_taken_tangential = 0, motion_taken_leaving = 0;
   double motion_taken_unpaired = 0;  ///< part of motion_taken at vertices without a pair within r_q
   /// number of free vertices whose final position is xᵗ bit for bit; number of these that the last iteration cut
@@ -76,10 +77,10 @@ struct StepMetrics {
   std::int64_t vertex_facet_contacts = 0, edge_edge_contacts = 0;  ///< at the last detection
   /// number of passes that built or refitted the trees and searched them once for all pairs
   std::int64_t broad_phases = 0;
-  /// number of times that contacts or distances of all pairs were found at one state; checks of a line search for
+  /// number of searches for the contacts or distances of all pairs at one state; checks of a line search for
   /// intersections are not counted
   std::int64_t discrete_detections = 0;
-  /// number of times that the first contact of all pairs, or of the active pairs, was found along one motion
+  /// number of searches for the first contact of all pairs, or of the active pairs, along one motion
   std::int64_t continuous_detections = 0;
   std::int64_t guess_rounds = 0, iterations = 0;
   std::int64_t vertices_cut = 0;                          ///< vertices cut in the last iteration

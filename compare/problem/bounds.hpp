@@ -11,9 +11,9 @@ namespace ogc::compare {
 /// choices.
 enum class Bounds : std::int64_t { ball, planes, off, dat };
 
-/// The traits of a policy that code reads.
+/// The properties of a policy, which code reads in place of its name.
 struct BoundsTraits {
-  bool certifies = true;    ///< whether vertices within their bounds meet nothing until the next detection
+  bool certifies = true;    ///< whether the bounds prove that no faces touch until the next detection
   bool has_planes = false;  ///< whether near pairs have planes
   bool divides = false;  ///< whether displacements decide how a plane divides its gap; otherwise the halves are equal
   bool slides = true;    ///< whether a cut vertex slides into its region; otherwise it stops on its path from X_prev

@@ -12,8 +12,8 @@
 namespace ogc::compare {
 namespace {
 
-/// Returns the sign of the area of the triangle (a, b, p) in a view along the x axis, where p is moved infinitesimally
-/// by (ε, ε²) in y and z.
+/// Returns the sign of the area of the triangle (a, b, p), seen along the x axis. First p is moved by (ε, ε²) in y and
+/// z, with an infinitesimal ε > 0.
 int side_seen(const Vec3& a, const Vec3& b, const Vec3& p) {
   const int side = orientation({0, a.y, a.z}, {0, b.y, b.z}, {0, p.y, p.z}, {1, p.y, p.z});
   if (side != 0) return side;

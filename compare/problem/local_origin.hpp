@@ -9,11 +9,11 @@
 
 namespace ogc::compare {
 
-/// Returns an origin near the centre of the positions' bounding box. Let the box's length be its longest side. A
-/// coordinate of the origin is 0 if the centre's coordinate is below 16 lengths in modulus. Otherwise it is a multiple
-/// of the largest power of two that is not above the length, so that differences from it are exact in double. Single
-/// precision then resolves the length with 23 bits relative to the origin, or with at least 20 bits along an axis whose
-/// coordinate is 0. The origin is 0 for positions that are not finite.
+/// Returns an origin near the centre of the positions' bounding box. Let L be the box's longest side. A coordinate of
+/// the origin is 0 if the centre's coordinate is below 16 L in modulus. Otherwise it is a multiple of the largest power
+/// of two that is not above L, so that differences from it are exact in double. Relative to this origin single
+/// precision resolves L with 23 bits, or with at least 20 bits along an axis on which the origin is 0. The origin is 0
+/// for positions that are not finite.
 Vec3 local_origin(const std::vector<Vec3>& positions);
 
 /// Returns the positions minus `origin` [m].

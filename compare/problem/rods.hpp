@@ -40,10 +40,10 @@ bool has_rods(const Scene& scene);
 /// prescribed motion.
 std::vector<Index> segment_groups(const Scene& scene, std::span<const Index> segments);
 
-/// Returns whether a motion determines the rotation of its segments. Every rigid motion does, even if it is given as
-/// keyframes.
+/// Returns whether a motion determines the rotation of its segments: it is rigid. Keyframes, too, may be those of a
+/// rigid motion (Keyframes::is_rigid).
 bool says_turn(const PrescribedMotion& motion);
-/// Returns the rotation of a motion from one time to another [s], computed in double and rounded once.
+/// Returns the rotation of a rigid motion between the times `from` and `to` [s], computed in double and rounded once.
 Quaternion prescribed_turn(const PrescribedMotion& motion, double from, double to);
 
 /// Adds the problems of the scene's rods. Indices must be valid, and bodies must cover the scene. Problems are:

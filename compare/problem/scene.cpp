@@ -25,8 +25,8 @@ Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// Evaluates x(t) as x + (R − I)(x − c) + u τ with R − I = sin θ K + 2 sin²(θ/2) K². So x(t) is exactly the start
-// position before the motion starts.
+// Evaluates x(t) as x + (R − I)(x − c) + u τ, τ s after the motion's start. R − I is sin θ K + 2 sin²(θ/2) K². So x(t)
+// is exactly the start position before the motion starts.
 struct RigidMotion {
   Vec3 centre, axis, shift;
   double sine, versine;
@@ -50,8 +50,8 @@ struct RigidMotion {
 
 Vec3 widened(const Vec3f& v) { return {v.x, v.y, v.z}; }
 
-/// Returns the positions of `count` vertices at time `t`, interpolated between two keyframes in double; exactly those
-/// of a keyframe at its time.
+/// Returns the positions of `count` vertices at time `t`, interpolated between two keyframes in double. At a keyframe's
+/// time they are exactly the keyframe's positions.
 std::vector<Vec3f> between(const Keyframes& frames, std::size_t count, double t) {
   const std::vector<double>& times = frames.times;
   const auto after = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), t) - times.begin());

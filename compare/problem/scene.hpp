@@ -146,7 +146,7 @@ concept HasVolume = requires {
 template <class List>
 using ElementOf = std::remove_cvref_t<decltype((std::declval<Mesh>().*List::list)[0])>;
 
-/// Calls `visit` with each type of a list and its number as a constant: visit.operator()<Kind, number>().
+/// Calls visit.operator()<Type, number>() for each type of the tuple `All`; `number` is the type's index.
 template <class All, class Visit>
 constexpr void for_each_of(Visit visit) {
   [&]<std::size_t... number>(std::index_sequence<number...>) {

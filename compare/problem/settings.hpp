@@ -84,7 +84,7 @@ struct Settings {
 /// The kind of a setting's value.
 enum class SettingKind : std::uint8_t { real, whole, choice };
 
-/// Takes the place of a field for a setting that a contestant declares.
+/// A setting that a contestant declares, and that thus has no field.
 struct DeclaredSetting {
   SettingKind kind = SettingKind::real;  ///< kind of its value
   double standard = 0;                   ///< default; for a choice the index of its name

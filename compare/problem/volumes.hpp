@@ -17,7 +17,7 @@ namespace ogc::compare {
 struct VolumePart {
   std::size_t body = 0;          ///< number of its body
   std::vector<Index> triangles;  ///< numbers in the scene, ascending
-  std::vector<Edge> rims;        ///< edges of one triangle each, in the triangle's direction, by triangle, then corner
+  std::vector<Edge> rims;        ///< edges of one triangle each, directed as in this triangle, by triangle, then corner
 };
 
 /// Returns the parts of all volumes of a scene, by body, then by first triangle. Indices must be valid, and bodies must

@@ -27,7 +27,8 @@ struct LabelledMesh {
 /// cell data `number`, `intersections`.
 std::string vtp_bytes(const LabelledMesh& part);
 
-/// Returns the text of a .pvd index of (time [s], file relative to the index).
+/// Returns the text of a .pvd file, which lists each file with its time. `files` has times [s] and paths relative to
+/// the .pvd file.
 std::string pvd_text(const std::vector<std::pair<double, std::string>>& files);
 
 }  // namespace ogc::compare

@@ -27,8 +27,7 @@ struct ActivationOut {
 };
 
 /// Values computed with multiprecision and rounded to double, and their error scales. A scale is the sum of the moduli
-/// of the terms of the value. It is at least 2⁻¹⁰² for d < r, so that an underflow near r (2⁻¹²⁶) counts as one
-/// rounding.
+/// of the terms of the value. It is at least 2⁻¹⁰² for d < r, so that u · scale covers an underflow near r (2⁻¹²⁶).
 struct ActivationTruth {
   std::vector<double> energy, slope, curvature;                    ///< by case: g [J], g' [N], g'' [N/m]
   std::vector<double> energy_scale, slope_scale, curvature_scale;  ///< error scales

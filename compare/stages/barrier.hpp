@@ -29,15 +29,15 @@ struct BarrierOut {
   std::vector<float> energy, slope, curvature;  ///< by case [m⁴], [m²], [1]
 };
 
-/// Values in double precision, and the units of their errors. A unit is the sum of |∂/∂D| D, |∂/∂ξ²| ξ², |∂/∂H| H and
-/// the moduli of the value's terms. It is at least 2⁻¹⁰² for g < H, as in stage activation.
+/// Values f in double precision and their error scales. A scale is the sum of |∂f/∂D| D, |∂f/∂ξ²| ξ², |∂f/∂H| H and the
+/// moduli of the terms of f. It is at least 2⁻¹⁰² for g < H, as in stage activation.
 struct BarrierTruth {
   std::vector<double> energy, slope, curvature;                    ///< by case
   std::vector<double> energy_scale, slope_scale, curvature_scale;  ///< error scales
 };
 
-/// Largest error in units of u · scale, u = 2⁻²⁴. The scale is a sum over inputs, so the largest of their counts of
-/// rounding errors decides (9), plus 1 for second order:
+/// Largest error in units of u · scale, u = 2⁻²⁴. Each term of the scale has its own count of rounding errors. The
+/// tolerance is the largest count (9), plus 1 for second order:
 ///
 /// - D and ξ²: square and difference (2), the quotient g/H (1).
 /// - H: sum and product (2), the difference H − g (1).

@@ -40,7 +40,7 @@ struct BendingIn {
 ///
 /// - ∇θ, 20: a difference of vertices (1), the normal and its square (6), the edge's length (4), a closest point on
 ///   the edge (4), a quotient (2), two products of these and their sum (3)
-/// - θ, 12: a relative error of 4 u, and |θ| ≤ π, while the scale is at least 1
+/// - θ, 12: 4 u of |θ| ≤ π, while the scale is at least 1
 /// - the moment and the force, 4
 inline constexpr double bending_force_tolerance = 36;
 /// Largest error of the gradient ∇θ in units of u · scale; bending_force_tolerance counts its rounding errors.

@@ -9,20 +9,20 @@
 
 namespace ogc::compare {
 
-/// One case: does the point x lie in the block U_a of face a, at whatever distance from a? Whether x is near enough, d
-/// < r (Alg. 1 line 7), is not part of this stage.
+/// One case: whether the point x lies in the block U_a of face a, however far from a. The test whether x is near
+/// enough, d < r (Alg. 1 line 7), is not part of this stage.
 struct BlockQuestion {
   /// What x is, and the manifold that is divided into blocks.
   enum class Kind : std::uint8_t {
-    /// x is vertex `of`. U_a is the block of Eq. 8 for a vertex, of Eq. 9 for an edge, including its end planes, and of
-    /// Eq. 10 for a triangle.
+    /// x is the vertex with index `of`. U_a is the block of Eq. 8 if a is a vertex, of Eq. 9 with its end planes if a
+    /// is an edge, of Eq. 10 if a is a triangle.
     vertex_in_surface,
-    /// x is the point of edge `of` closest to a. U_a is the block of Eq. 14 or 15 for an edge or vertex of the
-    /// edge-only manifold. x is unique unless a and `of` are parallel edges, so nearly parallel edges (‖e×e'‖² <
+    /// x is the point closest to a on the edge with index `of`. a is an edge or vertex of the edge-only manifold, and
+    /// U_a is its block of Eq. 14 or 15. x is unique unless a is a parallel edge. So nearly parallel edges (‖e×e'‖² <
     /// 10⁻⁶‖e‖²‖e'‖²) are illegal here; compare/stages/detect_edge_edge.hpp defines their contacts.
     edge_in_edges,
   };
-  Kind kind = Kind::vertex_in_surface;  ///< whether `of` numbers a vertex or an edge
+  Kind kind = Kind::vertex_in_surface;  ///< whether `of` is the index of a vertex or of an edge
   Index of = -1;                        ///< a vertex or an edge that shares no vertex with a
   Face face;                            ///< a; never a triangle if kind is edge_in_edges
   friend bool operator==(const BlockQuestion&, const BlockQuestion&) = default;
@@ -41,8 +41,8 @@ struct BlockOut {
   std::vector<std::uint8_t> inside;  ///< by question; boundaries are open or closed as the paper prints them
 };
 
-/// The exact answers. An answer is grey, and either value accepted, if a margin that decides it lies in its grey zone.
-/// For edge_in_edges the margins that decide which point of edge `of` is closest count as well.
+/// The exact answers. An answer is grey if a margin that decides it lies in its grey zone; then 0 and 1 are accepted.
+/// For edge_in_edges, margins that decide which point of edge `of` is closest to a count as well.
 struct BlockTruth {
   std::vector<std::uint8_t> inside, grey;  ///< exact; 1 where either answer is accepted
   std::vector<std::uint8_t> near;          ///< 1 where a margin lies within near_factor

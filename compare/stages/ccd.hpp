@@ -44,10 +44,11 @@ struct CcdTruth {
 
 /// Largest (`early` − t)/`early` of a right answer t; no answer may be above `impact`. The published additive CCD (Li
 /// et al. 2021, Algorithm 1) satisfies this. Let d₀ be the distance at the start, e ≤ ccd_resolution u S/4 the rounding
-/// error of a distance, and ℓ a bound on the rate of change of distances. The algorithm's first step is 0.9 (d₀ − e)/ℓ,
-/// where d₀ − e ≥ 0.72 d₀ unless `early` is 0. The algorithm returns a time t from which another step of 0.9 d(t)/ℓ
-/// ends beyond `early`. Since d(t) ≤ d₀ + ℓ t and d₀/ℓ ≤ t/0.65, early ≤ t + 0.9 (t + t/0.65) < 3.3 t, so (early −
-/// t)/early < 0.7.
+/// error of a distance, and ℓ a bound on the rate of change of distances.
+///
+/// - The algorithm's first step is 0.9 (d₀ − e)/ℓ, where d₀ − e ≥ 0.72 d₀ unless `early` is 0. So d₀/ℓ ≤ t/0.65.
+/// - At the returned time t another step of 0.9 d(t)/ℓ would end beyond `early`, and d(t) ≤ d₀ + ℓ t.
+/// - So early ≤ t + 0.9 (t + t/0.65) < 3.3 t, and (early − t)/early < 0.7.
 inline constexpr double ccd_early_share = 0.75;
 /// Share of the distance at the start below which a contestant may stop its advancement.
 inline constexpr double ccd_gap_left = 0.1;

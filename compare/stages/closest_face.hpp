@@ -38,7 +38,7 @@ struct ClosestFaceTruth {
   std::vector<std::uint8_t> near;              ///< 1 where a margin between features lies within near_factor
   std::vector<double> distance;                ///< [m], within 2⁻⁴⁰ max(distance, Σ|δ|)
   std::vector<std::array<double, 3>> weights;  ///< within 2⁻⁴⁰ weight_condition
-  /// sum of the moduli of ∂(weights)/∂(relative coordinates) times the coordinates; ≥ 1, infinite for zero area
+  /// Σ |∂w/∂δ| |δ| over the weights w and the coordinates δ relative to the first corner; ≥ 1, infinite for zero area
   std::vector<double> weight_condition;
 };
 

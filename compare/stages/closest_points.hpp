@@ -44,12 +44,15 @@ struct ClosestPointsTruth {
 /// determinant of the solution for two interior points has two more products.
 inline constexpr double closest_points_distance_tolerance = 16;
 inline constexpr double closest_points_parameter_tolerance = 16;
-/// Largest amount by which `distance_below` may be too small, in units of u · max(distance, Σ|δ|), u = 2⁻²⁴. The
-/// derivation is that of closest_face_below_tolerance, with ρ the relative rounding error and S ≤ 2 Σ|δ| a sum of
-/// lengths. For nearly parallel edges at an angle θ the normal's error changes the distance by ρ S/θ. A kernel that
-/// uses distances from ends of edges instead errs by θ ‖e‖. If it does so for θ < √ρ, both errors together are at most
-/// 2 √ρ S. With 2⁸ rounding errors in double √ρ = 2.83 u, so 2 √ρ S < 12 u Σ|δ|. The tolerance is twice that, 24, and a
-/// third more for the two products of the determinant.
+/// Largest amount by which `distance_below` may be too small, in units of u · max(distance, Σ|δ|), u = 2⁻²⁴. As for
+/// closest_face_below_tolerance, let ρ be the relative rounding error and S ≤ 2 Σ|δ| a sum of lengths.
+///
+/// - For nearly parallel edges at an angle θ the normal's error changes the distance by ρ S/θ.
+/// - A kernel that computes distances from the ends of edges instead errs by θ ‖e‖.
+/// - If the kernel does so for θ < √ρ, both errors together are at most 2 √ρ S.
+///
+/// With 2⁸ rounding errors in double √ρ = 2.83 u, so 2 √ρ S < 12 u Σ|δ|. The tolerance is twice that (24), plus a third
+/// of it for the two products of the determinant.
 inline constexpr double closest_points_below_tolerance = 32;
 
 }  // namespace ogc::compare

@@ -32,14 +32,14 @@ constexpr std::int32_t vertex_count(ContactSides sides) {
 /// block are 0.
 ///
 /// e_k = q(2 − q), q = c/ε for c < ε, else 1, with c = ‖e × e'‖² at the last detection and ε = 10⁻³ ‖ē‖²‖ē'‖². e_k = 1
-/// for contacts other than edge–edge, and if one rest length is 0. If both rest lengths are 0 and the edges were nearly
-/// parallel at the last detection (closest_points: decided exactly), e_k is the length of their overlap along the first
-/// edge over the length of the shorter edge.
+/// for contacts other than edge–edge, and if a rest length is 0. Exception: if both rest lengths are 0 and the edges
+/// were nearly parallel at the last detection (closest_points: decided exactly), e_k is the length of their overlap
+/// along the first edge over the length of the shorter edge.
 ///
 /// All shapes are legal. A *needle* has a height below 2⁻⁹ of its longest side, or an edge below 2⁻⁹ of the other edge;
 /// its closest point is not known to first order. For a needle the judge also accepts any force of at most −e_k g' and
-/// any block of at most e_k g'' at the exact distance, the largest values of any point of the needle. The limit of the
-/// block is 2 e_k g'' if other vertices are updated with the vertex. d is 0 or at least 2⁻⁶³ m, whose square is a
+/// any block of at most e_k g'' at the exact distance; no point of the needle has a larger force or block. The limit of
+/// the block is 2 e_k g'' if other vertices are updated with the vertex. d is 0 or at least 2⁻⁶³ m, whose square is a
 /// normal number.
 struct ContactForceCase {
   ContactSides sides = ContactSides::point_point;  ///< the faces that meet
@@ -75,8 +75,8 @@ inline constexpr double contact_block_tolerance = 51;
 /// Largest error of a distance in units of u · scale. Rounding errors: a difference (1), a product and two sums (3),
 /// squares (3), a root (1): 8. The limit is 16, since rounded weights differ slightly from those of the closest points.
 /// A contact is grey if this error could change the closest feature, make d = 0 or, with ogc_as_printed, move d across
-/// the jump at τ. If d may be 0, n is unknown as well. Then any force and block of at most their size at d = 2⁻²³ r are
-/// accepted.
+/// the jump at τ. If d may be 0, n is unknown. Then any force and block are accepted that are not larger than the right
+/// ones at d = 2⁻²³ r.
 inline constexpr double contact_grey = 16;
 
 }  // namespace ogc::compare

@@ -9,8 +9,8 @@
 namespace ogc::compare {
 
 /// Nearly parallel edges that overlap (compare/stages/closest_points.hpp) are a contact of their interiors if they are
-/// nearer than r and their closest points lie in each other's blocks. If they are exactly parallel, the closest points
-/// at one end of the overlap suffice, whichever end. Two edges without triangles are a contact if they are nearer than
+/// nearer than r and their closest points lie in each other's blocks. For exactly parallel edges it suffices that the
+/// closest points at one of the overlap's ends do so. Two edges without triangles are a contact if they are nearer than
 /// r, whatever the blocks.
 ///
 /// A contact is an unordered pair {p, q}, each a vertex or the interior of an edge, first < second as faces.

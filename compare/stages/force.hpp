@@ -36,9 +36,9 @@ struct ForceAnswer {
 /// vector (3) and a sum (1).
 inline constexpr double per_vertex_additions = 5;
 
-/// accepted[i][0] is the exact answer of case i. A grey case also accepts the answers that other outcomes of its grey
-/// decisions give. near[i] is 1 if a decision of case i lies within near_factor; without contacts it is 0. The
-/// decisions are
+/// accepted[i][0] is the exact answer of case i. If decisions of the case are grey, the answers for their other
+/// outcomes are accepted, too. near[i] is 1 if a decision of case i lies within near_factor; without contacts it is 0.
+/// The decisions are
 ///
 /// - which features hold the closest points,
 /// - whether d < r,

@@ -6,9 +6,10 @@
 
 namespace ogc::compare {
 
-/// λ = −e_k g'(d), n and the weights are those of the contact at x and count as constants in the derivatives. u = (I −
-/// n nᵀ) Σ wᵢ (xᵢ − xᵢᵗ). The force is −μ λ f₁(‖u‖)/‖u‖ w u, the block μ λ f₁(‖u‖)/‖u‖ w² (I − n nᵀ); |w| Σ |w_u|
-/// replaces w² as in contact_force. f₁(y) = −y²/ε² + 2y/ε for y < ε = ε_v h, 1 above; f₁(y)/y = 2/ε at y = 0.
+/// λ = −e_k g'(d), n and the weights are those of the contact at x and count as constants in the derivatives. With u =
+/// (I − n nᵀ) Σ wᵢ (xᵢ − xᵢᵗ) the force is −μ λ f₁(‖u‖)/‖u‖ w u, and the block is μ λ f₁(‖u‖)/‖u‖ w² (I − n nᵀ). As in
+/// contact_force, |w| Σ |w_u| replaces w² if other vertices are updated together with the vertex. f₁(y) = −y²/ε² + 2y/ε
+/// for y < ε = ε_v h, 1 above; f₁(y)/y = 2/ε at y = 0.
 struct FrictionForceCase {
   ContactForceCase contact;    ///< the contact; its normal force is λ
   std::array<Vec3f, 4> start;  ///< xᵗ [m]

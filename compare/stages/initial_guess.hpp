@@ -42,8 +42,8 @@ struct InitialGuessOut {
   std::vector<Quaternion> orientation{};  ///< one for each element of `turns`
 };
 
-/// The exact y and frames, with their error scales. The judge checks `position` and `cut` by stage truncate, computed
-/// from the answer's y.
+/// The exact y and frames, with their error scales. The judge checks `position` and `cut` against the truth of stage
+/// truncate for the answer's y.
 struct InitialGuessTruth {
   std::vector<Vec3> target;                          ///< exact y [m]
   std::vector<double> target_scale;                  ///< largest |xᵗ| + h |vᵗ| + h² |a| of a coordinate [m]

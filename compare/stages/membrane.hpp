@@ -17,8 +17,8 @@ namespace ogc::compare {
 ///
 /// The block is the sum of the block of the damping and the block of the model:
 ///
-/// - Damping: A k times the second derivative of ϕ along the derivatives of G.
-/// - St. Venant–Kirchhoff: A times this second derivative, plus A max(0, ∇N₀ᵀ S ∇N₀) I with the elastic stress S.
+/// - Damping: A k times the second derivative of ϕ, without second derivatives of G.
+/// - St. Venant–Kirchhoff: A times the same, plus A max(0, ∇N₀ᵀ S ∇N₀) I with the elastic stress S.
 /// - Stable Neo-Hookean: the exact second derivative, A (μ b² I + (λ + μ) g gᵀ + ((λ + μ)(J − 1) − μ) b⊥² /J n nᵀ)
 ///   with b = ‖∇N₀‖, t = b₁ f₂ − b₂ f₁, b⊥ = ‖t‖, g = ∂J/∂x₀ = t × n, n = f₁ × f₂/J. Only the eigenvalue along n can
 ///   be negative; then it is replaced by 0.
@@ -58,11 +58,12 @@ inline constexpr double membrane_block_tolerance = 20;
 /// Largest error of the force of the stable Neo-Hookean model. (The judge applies membrane_force_tolerance, so this
 /// model's scales are multiplied by neo_hookean_force_tolerance/membrane_force_tolerance.) Rounding errors, 38 in all:
 ///
-/// - (λ + μ)(J − 1) − μ, 14: J (10), and four more operations. J is the length of the normal of two edges, times the
-///   density ∇N₁ × ∇N₂. The normal has 4 (two differences, a product, a difference), its length 7 (2 · 4 + 3 halved
-///   by the root, and the root), the density 2, the product 1.
+/// - (λ + μ)(J − 1) − μ, 14: J (10), and four more operations
 /// - g, 20: the third edge (2), n (4 + 8 + 1), a cross product (2), the density (3)
 /// - the product of (λ + μ)(J − 1) − μ and g (1), two sums (2), the area (1)
+///
+/// J is the length of the normal of two edges (7), times (1) the density ∇N₁ × ∇N₂ (2). The normal has 4 rounding
+/// errors: two differences, a product, a difference. Its length has 2 · 4 + 3, halved by the root, and the root.
 inline constexpr double neo_hookean_force_tolerance = 38;
 /// Largest error of the block of the stable Neo-Hookean model. Rounding errors: (λ + μ)(J − 1) − μ (14), ‖g‖² (2 · 20 +
 /// 3), its quotient by J and the sum (13), n twice (26), an outer product (2), area and sums (3): 101.

@@ -1,4 +1,4 @@
-// Defines the unit of all tolerances, and the widths of grey and near zones.
+// Defines the unit roundoff u, in which tolerances are given, and the widths of grey and near zones.
 #pragma once
 
 namespace ogc::compare {
@@ -12,8 +12,8 @@ inline constexpr double unit_roundoff = 0x1p-24;
 /// the input; a kernel with a larger error is at fault.
 inline constexpr double grey_factor = 16 * unit_roundoff;
 
-/// A case is *near* a decision boundary if its margin m has |m| ≤ 2¹¹ u Σ|∂m/∂δᵢ||δᵢ|, 2¹⁰ ulp in place of the grey
-/// zone's 16 u. Reports count near cases; verdicts do not depend on them.
+/// A case is *near* a decision boundary if its margin m has |m| ≤ 2¹¹ u Σ|∂m/∂δᵢ||δᵢ|, that is, 2¹⁰ ulp; the grey zone
+/// has 16 u there. Reports count near cases; verdicts do not depend on them.
 inline constexpr double near_factor = 0x1p11 * unit_roundoff;
 
 }  // namespace ogc::compare

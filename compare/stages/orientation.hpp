@@ -57,14 +57,16 @@ struct OrientationAnswer {
   std::array<std::array<double, 4>, 4> matrix{};  ///< M [N m]
   std::array<double, 4> vector{};                 ///< b [N m]
   double energy = 0;                              ///< of q* [N m]
-  /// ‖∂q/∂D‖ ‖D‖ + ‖∂q/∂c‖ (1 + k ‖Dᵗ‖/l) + ‖∂q/∂k_s‖ k_s + ‖∂q/∂b‖ Σ w (1 + k), at least 1. Infinite if errors within
-  /// the tolerance can change one minimiser into any other; then only energy and residual are judged
+  /// Error scale of q*: ‖∂q/∂D‖ ‖D‖ + ‖∂q/∂c‖ (1 + k ‖Dᵗ‖/l) + ‖∂q/∂k_s‖ k_s + ‖∂q/∂b‖ Σ w (1 + k), at least 1. It is
+  /// infinite if errors within the tolerance can change one minimiser into any other; then only energy and residual are
+  /// judged
   double scale = 0;
   double energy_scale = 0;  ///< 2 k_s ‖D‖ (1 + k ‖Dᵗ‖/l) + Σ w (1 + k), error scale of energy and residual [N m]
 };
 
-/// accepted[i][0] has the exact signs. Case i has more answers if a scalar product t·q is within orientation_sign_grey
-/// of 0. near[i] is 1 if a sign, or the uniqueness of the minimiser, is within near_factor.
+/// accepted[i][0] is the answer of case i for the exact signs. Other signs are accepted as well if t·q or tᵗ·q is
+/// within orientation_sign_grey of 0. near[i] is 1 if a sign, or the uniqueness of the minimiser, is within
+/// near_factor.
 struct OrientationTruth {
   std::vector<std::vector<OrientationAnswer>> accepted;  ///< by case, the exact one first
   std::vector<std::uint8_t> near;                        ///< by case
@@ -87,8 +89,8 @@ inline constexpr double orientation_tolerance = 45;
 /// Largest residual ‖(I − q qᵀ)(M q + b)‖ in units of u · energy_scale: the larger of two counts of rounding errors.
 ///
 /// - b: 45, see orientation_tolerance.
-/// - M q, 74: D (5), c (30) and k_s (25) as in orientation_tolerance; the answer q (7), times the distance 2 σ of
-///   M's eigenvalues (14).
+/// - M q, 74: D (5), c (30) and k_s (25) as in orientation_tolerance; the error of the answer q (7) times 2 σ, the
+///   distance of M's eigenvalues (14).
 inline constexpr double orientation_residual_tolerance = 74;
 /// Largest energy above the least energy, in units of u · energy_scale. If q is well determined, the difference is of
 /// second order. If b is smaller than its own error, q may lie on the wrong half of the circle of minimisers. The

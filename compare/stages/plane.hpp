@@ -13,9 +13,9 @@
 
 namespace ogc::compare {
 
-/// Returns the input of stage truncate for a vertex with these planes, with the H of inertia alone; empty if `planes`
-/// is empty. `is_prescribed` means that the vertex does not slide. With bounds=dat (planes of *Divide and Truncate*) no
-/// vertex slides, and `current` is X_prev.
+/// Returns these planes of one vertex as input of stage truncate; empty if `planes` is empty. H is `inertia_block`. If
+/// `is_prescribed`, the vertex does not slide. With bounds=dat (planes of *Divide and Truncate*) no vertex slides, and
+/// `current` is X_prev.
 inline HalfSpacesIn half_spaces_of(std::span<const VertexPlane> planes, const Vec3f& current, bool is_prescribed) {
   if (planes.empty()) return {};
   HalfSpacesIn all{.offsets = {0, static_cast<Index>(planes.size())},
@@ -27,7 +27,7 @@ inline HalfSpacesIn half_spaces_of(std::span<const VertexPlane> planes, const Ve
   return all;
 }
 
-/// Input of the stage: a state, and the data that decide which pairs count.
+/// Input of the stage: a state, its excluded pairs, r_q and γ_p.
 struct PlaneIn {
   const Topology* topology = nullptr;      ///< of the whole scene
   ExclusionView exclusions;                ///< excluded pairs
@@ -74,10 +74,11 @@ struct PlaneOut {
 /// Number of planes that the method gives a vertex: those of its nearest pairs. An answer may contain more.
 inline constexpr std::size_t planes_of_vertex = 16;
 
-/// Counts where the answer fails to keep pairs apart, decided exactly. A pair is *separated* if one of its planes
-/// divides its sides. That means that each movable vertex of the pair has the plane and is on its side at X, and that
-/// the two offsets leave a gap. A fixed vertex has no offset; its height n·x counts instead. Every other pair within
-/// r_q must be *covered*: b_v ≤ γ_p d for each of its movable vertices. Normals and offsets are free otherwise.
+/// Counts exactly where the answer fails to keep pairs apart. A pair is *separated* if one of its planes lies between
+/// its sides. That means that each movable vertex of the pair has the plane and is on its own side of the plane at X,
+/// and that the two offsets leave a gap. A fixed vertex has no offset; its height n·x counts instead. Every other pair
+/// within r_q must be *covered*: b_v ≤ γ_p d for each of its movable vertices. Nothing else is required of normals and
+/// offsets.
 struct PlaneGuarantee {
   std::size_t separated = 0;  ///< separated pairs within r_q
   std::size_t uncovered = 0;  ///< pairs that are neither separated nor covered
@@ -89,7 +90,7 @@ struct PlaneGuarantee {
 };
 
 /// Measures how far the vertices may still move, since planes should leave vertices more freedom than balls do. A pair
-/// is *due* (it must have a plane) if both hold:
+/// must have a plane (it is *due*) if both conditions hold:
 ///
 /// - For each movable vertex of the pair, the pair is nearer than the 17th nearest pair of this vertex by more than
 ///   `detect_below_tolerance`, since rounding may decide which pair is the 17th.
@@ -103,23 +104,24 @@ struct PlaneFreedom {
   std::size_t due = 0;          ///< pairs that must have a plane
   std::size_t missing = 0;      ///< due pairs that no plane separates
   PrimitivePair first_missing;  ///< the first missing pair by kind, first and second
-  /// With balls the two sides of a pair may together approach by 2γ_p d. The half-spaces of a separated pair may allow
-  /// less; this is the largest difference, in units of u · max(d, Σ|δ|).
+  /// Balls allow the two sides of a pair to approach each other by 2γ_p d in all. The half-spaces of a separated pair
+  /// may allow less. `narrowing` is the largest difference, in units of u · max(d, Σ|δ|).
   double narrowing = 0;
   PrimitivePair narrowest;  ///< the pair of `narrowing`
-  /// Only with displacements. The room of one side of a separated pair is the offset of that side minus the height n·x
-  /// of its farthest vertex. The room should be 2γ_p s d, where s is the side's share. `division` is the largest
-  /// deviation from it, in units of u · (max(d, Σ|δ|) + d W/(a + b)). With the answer's n,
+  /// Only with displacements. The room of a side is the side's offset minus the height n·x of its farthest vertex. It
+  /// should be 2γ_p s d, where s is the side's share. `division` is the largest deviation for a separated pair, in
+  /// units of u · (max(d, Σ|δ|) + d W/(a + b)). With the answer's n,
   ///
   ///   a = max(0, largest n·w of the first side),  b = max(0, largest −n·w of the second),
   ///   s = a/(a + b) of the first side, b/(a + b) of the second, at least `least_division`; 1/2 if a = b = 0,
   ///
-  /// and W = max ‖w‖ of the pair. Two kinds of pairs are left out: pairs with an immovable side, and pairs for which
-  /// rounding may decide whether the sides approach.
+  /// and W is the largest ‖w‖ of the pair's vertices. Two kinds of pairs are not measured: pairs with an immovable
+  /// side, and pairs for which rounding may decide whether the sides approach.
   double division = 0;
   PrimitivePair worst_divided;  ///< the pair of `division`
-  /// By vertex: by how many u b_v is too small. This is the smallest (γ_p d − b_v)/(u γ_p max(d, Σ|δ|)) of the vertex's
-  /// unseparated pairs and of d = r_q, at least 0; 0 for immovable vertices and inside solids.
+  /// By vertex: how much b_v is too small, in units of u γ_p max(d, Σ|δ|). This is the smallest γ_p d − b_v, in its
+  /// units, of the vertex's unseparated pairs and of d = r_q; at least 0, and 0 for immovable vertices and inside
+  /// solids.
   std::vector<double> ball_shortfall;
   std::size_t needless = 0;        ///< half-spaces of pairs that are not within r_q
   std::size_t bounded_inside = 0;  ///< vertices inside solids whose ball is not the largest finite number

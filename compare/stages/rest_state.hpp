@@ -26,9 +26,9 @@ struct RestHinge {
   Index body = -1;                ///< gives the material
   float rest_angle = 0;           ///< θ₀ [rad], defined as θ of compare/stages/bending.hpp
   float stiffness = 0;            ///< c = k_b · 3 ‖e‖²/(A₀ + A₁) [J]
-  /// For the isometric quadratic model, otherwise 0: w of x1, o0, o1 [1/m]. With a = o0 − x0, b = o1 − x0: w(o0) =
-  /// −‖e‖/‖e × a‖, w(o1) = −‖e‖/‖e × b‖, w(x1) = (e·a/‖e × a‖ + e·b/‖e × b‖)/‖e‖; that is K/‖e‖ with the sums K of
-  /// cotangents.
+  /// Weights w of x1, o0, o1 in the isometric quadratic model [1/m]; 0 in other models. They are K/‖e‖ with the sums K
+  /// of cotangents. With a = o0 − x0 and b = o1 − x0:
+  ///   w(x1) = (e·a/‖e × a‖ + e·b/‖e × b‖)/‖e‖,  w(o0) = −‖e‖/‖e × a‖,  w(o1) = −‖e‖/‖e × b‖
   std::array<float, 3> weight{};
 };
 
@@ -65,8 +65,8 @@ struct RestSegment {
   float length = 0;                        ///< l [m]
   std::array<Index, 2> neighbour{-1, -1};  ///< segments behind and ahead; −1: none
   std::array<float, 2> weight{};           ///< w = 4 k_b/l̄ [N m], l̄ = (l + l_f)/2; 0 without a neighbour
-  /// p° = q̄°_f q° with the frame q°_f of the neighbour behind, q̄° q°_f with that of the neighbour ahead; 0 without a
-  /// neighbour
+  /// relative rotations p°: q̄°_f q° for the neighbour behind, q̄° q°_f for the neighbour ahead, where q°_f is the
+  /// neighbour's frame; 0 without a neighbour
   std::array<Quaternion, 2> relative{};
   Quaternion orientation{};  ///< q°; q° and p° may have either sign
 };
@@ -92,9 +92,9 @@ struct RestStateOut {
   std::vector<RestSegment> segments{};  ///< of all rods, in the order of rod_segments (compare/problem/rods.hpp)
 };
 
-/// Values in double precision, each with the unit of its error: Σ ‖∂f/∂q‖ ‖q‖ over the inputs q, where coordinates are
-/// vectors relative to one vertex. `gradient` has one unit for ∇N₁ and one for ∇N₂; `weight` has one unit for all
-/// three. The unit of a mass is the sum of the units of its elements; the unit of a meeting material is its value.
+/// Values f in double precision with their error scales Σ ‖∂f/∂q‖ ‖q‖ over the inputs q, where coordinates are vectors
+/// relative to one vertex. `gradient` has one scale for ∇N₁ and one for ∇N₂; `weight` has one scale for its three
+/// numbers. The scale of a mass is the sum of the scales of its elements. The scale of a meeting material is its value.
 struct RestStateTruth {
   RestStateOut exact;                    ///< correctly rounded
   std::vector<double> mass, mass_scale;  ///< by vertex [kg]
@@ -102,7 +102,7 @@ struct RestStateTruth {
   std::vector<double> area, area_scale, edge_length_squared, edge_length_squared_scale;
   std::vector<std::array<std::array<double, 2>, 2>> gradient;  ///< by triangle: ∇N₁, ∇N₂ [1/m]
   std::vector<std::array<double, 2>> gradient_scale;           ///< by triangle: error scales of ∇N₁ and ∇N₂
-  /// either sign is accepted where |θ₀| is within its error of π
+  /// either sign of θ₀ is accepted where |θ₀| differs from π by at most its error
   std::vector<double> rest_angle, rest_angle_scale, stiffness, stiffness_scale;
   std::vector<std::array<double, 3>> weight;
   std::vector<double> weight_scale;
@@ -116,14 +116,15 @@ struct RestStateTruth {
   std::vector<std::array<double, 2>> segment_weight, segment_weight_scale;  ///< behind, ahead [N m]
   std::vector<std::array<double, 4>> segment_orientation;                   ///< q°
   std::vector<std::array<std::array<double, 4>, 2>> segment_relative;       ///< p° behind, ahead; 0: none
-  /// error scale of q° and p°: 1 + Σ 1/cos(θ/2), where θ is the angle of each smallest rotation on the walk up to the
-  /// segment. The scale is infinite if this sum exceeds 2²⁰; any unit quaternion is then accepted
+  /// error scale of q° and p°: 1 + Σ 1/cos(θ/2) over the smallest rotations, by angles θ, from the first segment of the
+  /// walk (RestSegment) to this segment. The scale is infinite if the sum exceeds 2²⁰; any unit quaternion is then
+  /// accepted
   std::vector<double> segment_frame_scale;
 };
 
 /// Largest error in units of u · scale, u = 2⁻²⁴. Rounding to single precision errs by at most u times the value, and
-/// the value does not exceed its scale. The exception is θ₀: |θ₀| ≤ π, and its scale is at least 2, because each
-/// opposite vertex adds its distance from x0 over its height. So rounding θ₀ errs by up to π/2 in these units. Rest
+/// the value does not exceed its scale, except for θ₀. The scale of θ₀ is at least 2, because each of the two opposite
+/// vertices adds its distance from x0 over its height. |θ₀| ≤ π, so rounding θ₀ errs by up to π/2 in these units. Rest
 /// data are computed in double or better: some thirty roundings of 2⁻⁵³, relative to the size of an input, add about
 /// 2⁻²⁴.
 inline constexpr double rest_state_tolerance = 1 + 0x1p-20;

@@ -34,9 +34,9 @@ struct RodIn {
   std::vector<RodCase> cases;  ///< independent of each other
 };
 
-/// Largest error of the force in units of u · scale, u = 2⁻²⁴. With A = k_s (1 + k) ‖D‖/l, C = k_s ‖c‖ and Cᵗ = k_s k
-/// ‖Dᵗ‖/l the scale is at least A + 2 C + 3 Cᵗ, since R is quadratic in q. So the count of rounding errors of A is
-/// divided by 1, that of C by 2 and that of Cᵗ by 3. The largest quotient decides: 24/2 = 12.
+/// Largest error of the force in units of u · scale, u = 2⁻²⁴. Let A = k_s (1 + k) ‖D‖/l, C = k_s ‖c‖ and Cᵗ = k_s k
+/// ‖Dᵗ‖/l. The scale is at least A + 2 C + 3 Cᵗ, since R is quadratic in q. So the tolerance is the largest of three
+/// quotients: the rounding errors of A over 1, those of C over 2 and those of Cᵗ over 3. It is 24/2 = 12.
 ///
 /// - A: a difference, a quotient, 1 + k and its product (2), k_s, the last difference: 6.
 /// - C: the rotation by R(q) (14, see below), k_s, the last difference (1 + 1), and ‖q‖², which may differ from 1 by
@@ -52,8 +52,8 @@ struct RodIn {
 /// - 2 u × (u × v): 10 ‖u‖²
 /// - two sums: 2 + 2 ‖u‖ w
 ///
-/// Damping by vertex adds the term k B moved (see RodCase). Its size is added to the scale, and it errs by 7: a
-/// difference, a block of 3, two products and a sum.
+/// Damping by vertex adds the term k B moved (see RodCase), whose size is added to the scale. The term has 7 rounding
+/// errors: a difference (1), B (3), two products and a sum (3).
 inline constexpr double rod_force_tolerance = 12;
 /// Largest error of the block in units of u · scale. Rounding errors: 1 + k, a product, a quotient.
 inline constexpr double rod_block_tolerance = 3;

@@ -45,7 +45,7 @@ inline constexpr double spring_block_tolerance = 22;
 ///
 /// - The vector between the ends errs by 4 instead of 1 (two differences, the product with s, their difference): 3
 ///   more.
-/// - Each of two lengths errs by 7 instead of 3 (a square, 8 + 3, halved by the root, and the root): 8 more.
+/// - Each of two lengths errs by 7 instead of 3 (a square with 8 + 3 errors, halved by the root; the root): 8 more.
 /// - w and the product with w: 2 more.
 inline constexpr double stitch_force_tolerance = 25;
 /// Largest error of a stitch's block. Rounding errors: 1 − l₀/l (6 + 4), one minus it and the product with k_s (2),

@@ -56,7 +56,7 @@ struct StepOut {
 struct HeldMove {
   Vec3 move;            ///< m, the part of y − X_prev that contacts leave [m]
   double accepted = 0;  ///< largest error of m in a right answer [m]
-  /// 1: the vertex is free and has a contact, or is prescribed and stays where it is because of a contact (after round
+  /// 1: a free vertex with a contact, or a prescribed vertex that stays where it is because of a contact (after round
   /// 1); 0: the vertex goes to y
   std::uint8_t touches = 0;
   std::uint8_t grey = 0;  ///< 1: a decision of a contact may go either way; `accepted` covers both outcomes
@@ -67,11 +67,11 @@ struct StepTruth {
   /// min(r + max ‖y − xᵗ‖, cap), in double; the scale of its error is the radius itself [m]
   double query_radius = 0, query_radius_scale = 0;
   std::vector<Vec3f> prescribed_target;  ///< by vertex; 0 for vertices that are not prescribed
-  /// kinds of the events in the order of Algorithm 3, which depends on the answer's counts of cut vertices (0 for
+  /// kinds of the events that Algorithm 3 requires, in order. They depend on the answer's counts of cut vertices (0 for
   /// events that the answer lacks)
   std::vector<StepEventKind> events;
-  /// by event, then by vertex; empty for events other than guess rounds. An answer has only truncated positions, so the
-  /// part of the move that contacts removed in earlier rounds is computed exactly; `accepted` includes its error
+  /// by event, then by vertex; empty for events other than guess rounds. An answer does not show which part of the move
+  /// contacts removed in earlier rounds. The truth computes this part exactly; `accepted` includes its error
   std::vector<std::vector<HeldMove>> moves{};
   std::vector<Vec3> velocity;          ///< [m/s]
   std::vector<double> velocity_scale;  ///< ‖xᵗ⁺¹ − xᵗ‖/h [m/s]
@@ -83,7 +83,7 @@ struct StepTruth {
 ///   root (1); the addition of r (1)
 /// - cap · r: 1
 ///
-/// One more covers second order and a vertex whose length is the largest only after rounding.
+/// One more covers second order, and a vertex whose ‖y − xᵗ‖ is the largest only after rounding.
 inline constexpr double step_query_radius_tolerance = 5;
 /// Largest error of a velocity in units of u ‖xᵗ⁺¹ − xᵗ‖/h: difference (1), quotient (1), a quarter for second order.
 inline constexpr double step_velocity_tolerance = 2.25;

@@ -66,11 +66,11 @@ struct SweepOut {
 /// the errors of f and H (within the tolerances of their stages), transformed by H⁻¹, and those of the solve, of the
 /// truncation and of storing. It is 0 if the answer must be `position` bit for bit.
 ///
-/// A vertex is `grey` if a stencil has more than one accepted answer; `position` then comes from the combination
-/// nearest to the answer. A vertex is also grey if it is *ill-conditioned*: the errors of H alone could make H
-/// singular, ‖H⁻¹‖ ‖δH‖ ≥ 1/2. Then the error of a single-precision solve is unlimited, and a solver may take a step
-/// down the gradient instead. So `accepted` is infinite. Exception: `accepted` is 0 if the vertex was not cut and moved
-/// against its force by more than the errors of f and H allow.
+/// A vertex is `grey` if a stencil has more than one accepted answer. `position` then comes from the combination of
+/// accepted answers that is nearest to the contestant's answer. A vertex is also grey if it is *ill-conditioned*: the
+/// errors of H alone could make H singular, ‖H⁻¹‖ ‖δH‖ ≥ 1/2. Then the error of a single-precision solve is unlimited,
+/// and a solver may move the vertex along the force instead. So `accepted` is infinite. Exception: `accepted` is 0 if
+/// the vertex was not cut and moved against its force by more than the errors of f and H allow.
 ///
 /// `accepted` is also infinite if half-spaces cut a free vertex, or may cut it. The judge then only requires that the
 /// vertex lies in its region. Stage truncate judges how it slides.
@@ -84,8 +84,8 @@ struct SweepTruth {
   OrientationTruth orientation{};      ///< by free segment, computed from the answer's quaternions of the neighbours
 };
 
-/// Rounding errors that the sweep adds to the tolerances of the energies' stages, in units of u · scale of these
-/// stages, u = 2⁻²⁴. Answer and truth each round ∇N₀ of a triangle, w(x0) of a hinge, k_d/h and ε_v h once.
+/// Rounding errors that a sweep adds to those that the energies' stages count, in units of u · scale of each stage, u =
+/// 2⁻²⁴. Answer and truth each round ∇N₀ of a triangle, w(x0) of a hinge, k_d/h and ε_v h once.
 inline constexpr double sweep_input_tolerance = 2;
 /// Rounding errors of adding up the terms of a stencil's block; each is at most u times a partial sum of moduli. There
 /// are at most four terms (membrane), and the largest is at most √(3/2) times the whole block (friction: the identity,
@@ -94,9 +94,9 @@ inline constexpr double sweep_block_additions = 5;
 /// Error of the inertia's force in units of u w ‖y − x‖, w = m/h²: a difference (1), w (1), a product (1). The
 /// inertia's block errs by u w √3.
 inline constexpr double sweep_inertia_tolerance = 3;
-/// Backward error |E| ≤ γ |L||D||Lᵀ| of the 3×3 solve in units of u ‖H‖₂. γ = 12 u for the factors of Cholesky or LDLᵀ
-/// and both substitutions: 3n + 1 with n = 3, and 2 for the divisions of LDLᵀ. The norm of |L||D||Lᵀ| is at most n
-/// ‖H‖₂.
+/// Backward error |E| ≤ γ |L||D||Lᵀ| of the 3×3 solve in units of u ‖H‖₂. The factors of Cholesky or LDLᵀ and both
+/// substitutions give 3n + 1 rounding errors with n = 3, the divisions of LDLᵀ 2 more: γ = 12 u. The norm of |L||D||Lᵀ|
+/// is at most n ‖H‖₂.
 inline constexpr double sweep_solve_tolerance = 36;
 
 }  // namespace ogc::compare

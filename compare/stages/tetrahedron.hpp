@@ -17,8 +17,8 @@ namespace ogc::compare {
 /// The damping computes F from ∇N₁, ∇N₂, ∇N₃, with ∇N₀ = −∇N₁ − ∇N₂ − ∇N₃.
 ///
 /// Block of the elastic part: the exact second derivative V (μ ‖∇N₀‖² I + (λ + μ) g gᵀ) with g = ∂J/∂x₀. J is affine in
-/// one vertex, so no term is dropped or clamped. Block of the damping: V k times the second derivative of ϕ along the
-/// derivatives of G, V k ((λ + μ)(F∇N₀)(F∇N₀)ᵀ + μ ‖∇N₀‖² F Fᵀ).
+/// one vertex, so no term is dropped or clamped. Block of the damping: V k times the second derivative of ϕ, without
+/// second derivatives of G: V k ((λ + μ)(F∇N₀)(F∇N₀)ᵀ + μ ‖∇N₀‖² F Fᵀ).
 ///
 /// With `per_vertex` damping the energy is the elastic part alone. Let B be its block and moved = x₀ − xᵗ₀: k B moved
 /// is subtracted from the force, and the block is (1 + k) B.

@@ -53,10 +53,10 @@ struct TruncateIn {
 /// them is returned bit for bit.
 ///
 /// A vertex that violates two or more half-spaces may end anywhere in its region. A vertex that violates one half-space
-/// slides along it, x − H⁻¹n (n·x − o)/(nᵀH⁻¹n), and then moves towards X_prev into the ball; this is its position if
-/// no other half-space interferes. A prescribed vertex goes as far along the straight line from its current position to
-/// x as the region allows. If storing the end of this path may violate two or more half-spaces beside the path, any
-/// point of the path is right.
+/// slides along it to x − H⁻¹n (n·x − o)/(nᵀH⁻¹n), then moves towards X_prev into the ball. It ends there if no other
+/// half-space interferes. A prescribed vertex goes along the straight line from its current position to x, as far as
+/// the region allows. The end of this path is rounded when it is stored. If rounding may violate two or more
+/// half-spaces beside the path, any point of the path is right.
 struct TruncateOut {
   std::vector<Vec3f> position;    ///< x [m]
   std::vector<std::uint8_t> cut;  ///< 1 if x lay outside its region
@@ -64,9 +64,8 @@ struct TruncateOut {
 
 /// The exact answer.
 struct TruncateTruth {
-  /// `grey`: 1 if either flag is accepted, because no margin certainly cuts and at least one is too small to decide.
-  /// The ball's margin is then in the grey zone, or a half-space's margin is at most `half_space_slack` (Σ|n_k x_k| +
-  /// |o|)
+  /// `grey`: 1 if both values of `cut` are accepted. No margin then certainly requires a cut, but at least one may: the
+  /// ball's margin is in the grey zone, or a half-space's margin is at most `half_space_slack` (Σ|n_k x_k| + |o|)
   std::vector<std::uint8_t> cut, grey;
   std::vector<std::uint8_t> near;  ///< 1 where a margin lies within near_factor
   std::vector<Vec3> position;      ///< exact result, rounded to double

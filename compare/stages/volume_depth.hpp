@@ -14,12 +14,12 @@
 
 namespace ogc::compare {
 
-/// Input of the stage: one volume, that is its surface and its tetrahedra if it has any, and the points to test. A
-/// *part* is a connected component of triangles and tetrahedra, with its cavities. In a part with tetrahedra the
-/// triangles are exactly their boundary (compare/problem/tetrahedra.hpp). In a part of triangles each edge has one
-/// triangle (a rim), or two that run through it in opposite senses. Each triangle has an area. Its heights are at least
-/// 2⁻²⁰ of its longest side; below that single precision determines neither closest point nor normal. The views' owner
-/// must outlive the call.
+/// Input of the stage: one volume (its surface, and its tetrahedra if it has any) and the points to test. A *part* is a
+/// connected component of triangles and tetrahedra, with its cavities. In a part with tetrahedra the triangles are
+/// exactly their boundary (compare/problem/tetrahedra.hpp). In a part of triangles each edge has one triangle (a rim),
+/// or two that run through it in opposite directions. Each triangle has a positive area. Its heights are at least 2⁻²⁰
+/// of its longest side; below that single precision determines neither closest point nor normal. The views' owner must
+/// outlive the call.
 struct VolumeDepthIn {
   const Topology* topology = nullptr;            ///< of the volume's triangles
   std::span<const Vec3f> positions;              ///< by vertex of the volume [m]
@@ -47,8 +47,8 @@ struct VolumeContact {
 /// The answer. Part of triangles: let a be the face nearest to x (of equally near faces the lowest-dimensional, then
 /// the lowest-numbered). The part contains x if the segment from a to x begins on the inner side of a's triangles. Rims
 /// have no inner side. x is outside if it lies on the surface or beyond the closed box of the part's vertices. A part
-/// that contains x gives one contact, at a. Any other part gives one contact for each face in whose outward block (Eq.
-/// 8–10, the outer half) x lies nearer than r.
+/// that contains x gives one contact, at a. Any other part gives one contact for each face nearer than r whose outward
+/// block (Eq. 8–10, the outer half) contains x.
 ///
 /// Part of tetrahedra: the tetrahedra with positive volume, closed, form a complex. A sheet is a point of this complex
 /// that lies at x. It is named by the simplex whose interior contains it. A way leads straight from x to the closest
@@ -59,8 +59,8 @@ struct VolumeContact {
 /// has no contact. If there is no sheet, x is outside.
 ///
 /// If x is a vertex of the volume, sheets of tetrahedra and faces that contain this vertex are left out. At a triangle
-/// of a tetrahedron without positive volume the surface is folded. So a point outside may have a contact with a face of
-/// this triangle or none.
+/// of a tetrahedron without positive volume the surface is folded. There an answer may list or omit the contact of an
+/// outside point with a face of this triangle.
 struct VolumeDepthOut {
   std::vector<VolumeContact> contacts;  ///< ascending by point, inside, triangle, face
   std::vector<Index> unresolved = {};   ///< ascending: the point of each sheet without a way
@@ -77,8 +77,8 @@ struct VolumeAnswer {
   double depth_scale = 0;           ///< max(‖x − c‖, Σ ‖δ‖) + r [m]
 };
 
-/// A group of sheets of a part of tetrahedra at one point, and its accepted contacts. Sheets that cannot be told apart
-/// with certainty form one group; most groups have one sheet.
+/// A group of sheets of one part at one tested point, and the group's accepted contacts. Sheets that cannot be told
+/// apart with certainty form one group; most groups have one sheet.
 struct VolumeSheetTruth {
   int exact = 0;            ///< number of the group's sheets in the exact answer
   bool is_certain = false;  ///< whether the group has exactly one sheet for every outcome of the grey decisions
@@ -88,20 +88,19 @@ struct VolumeSheetTruth {
   bool may_be_unresolved = false;      ///< true if it is not certain that a way exists
 };
 
-/// The accepted answers for one part. If several faces may be the nearest to x (grey), each of them gives a side of x
-/// and contacts; all these answers are accepted.
+/// The accepted answers for one part. In a grey case several faces may be the nearest to x. Each of these faces puts x
+/// inside or outside and gives contacts; all these answers are accepted.
 struct VolumePartTruth {
   Index component = -1;         ///< number of the component (joined_components of the part's vertices)
   bool inside = false;          ///< whether x is inside in the exact answer
   bool may_be_inside = false;   ///< whether one of these faces puts x inside
   bool may_be_outside = false;  ///< whether one of these faces puts x outside; only then `touching` is read
-  /// contacts if x is inside; the answer has exactly one of them. The exact one comes first
+  /// contacts if x is inside, the exact one first; the answer then has exactly one of them
   std::vector<VolumeAnswer> held;
   std::vector<VolumeAnswer> touching;    ///< contacts if x is outside; the answer may have any of them
   std::vector<std::uint8_t> is_certain;  ///< by contact of `touching`: 1 if the answer must have it
   std::vector<std::uint8_t> is_exact;    ///< by contact of `touching`: 1 if the exact answer has it
   /// whether x is certainly outside and nearer than r; then the answer must have at least one contact of `touching`
-  /// (covering)
   bool needs_contact = false;
   bool is_solid = false;                 ///< part of tetrahedra: `sheets` replaces `held`
   std::vector<VolumeSheetTruth> sheets;  ///< of a part of tetrahedra

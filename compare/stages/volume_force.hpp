@@ -46,8 +46,9 @@ inline constexpr double volume_force_tolerance = 26;
 /// Largest error of the block. Rounding errors: μ λ f₁/‖u‖ (19, see volume_force_tolerance), w² and its product (2), an
 /// outer product (2), the difference from I (1), the sum with the normal block (1).
 inline constexpr double volume_block_tolerance = 25;
-/// Largest error of r − φ in units of u · scale: 8 rounding errors of those that volume_force_tolerance counts, and 4
-/// more for other orders of evaluation. If |r − φ| is at most this error, the contact may act or not.
+/// Largest error of r − φ in units of u · scale: 8 rounding errors (a difference, a product and two sums: 4; the
+/// product with n: 3; r − φ), and 4 more for other orders of evaluation. If |r − φ| is at most this error, the contact
+/// may act or not.
 inline constexpr double volume_force_grey = 12;
 
 }  // namespace ogc::compare

@@ -48,7 +48,8 @@ class Outputs {
   std::size_t next_ = 0;
 };
 
-/// Converts a contact. All three overloads throw compare::ContestantFailure if it names an unknown kind of face.
+/// Converts a contact. All three overloads throw compare::ContestantFailure if the contact names an unknown kind of
+/// face.
 compare::VertexFacetContact contact_of(const ogc_vertex_facet_contact& c);
 /// Joins the two structures of a contact with a volume.
 compare::VolumeContact contact_of(const ogc_volume_contact& c, const ogc_volume_numbers& numbers);

@@ -30,7 +30,7 @@ int milliseconds_until(const std::optional<double>& deadline) {
   return static_cast<int>(std::clamp((*deadline - now()) * 1000 + 1, 0.0, 1e9));
 }
 
-/// Returns "88" or "0 to 65536".
+/// Returns the allowed lengths as text, "88" or "0 to 65536".
 std::string printed(BlockLength allowed) {
   return (allowed.least == allowed.most ? "" : std::to_string(allowed.least) + " to ") + std::to_string(allowed.most);
 }

@@ -352,8 +352,8 @@ std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, const Lis
   return static_cast<std::size_t>(of_each() * lists[static_cast<std::size_t>(info.list)]);
 }
 
-// Returns the capacities of lists at the first call: estimates for contacts and planes; for events and detections the
-// most that Algorithm 3 needs, with a detection before each round and each iteration.
+// Returns the capacities of the lists at the first call. Those of contacts and planes are estimates. Those of events
+// and detections are the most that Algorithm 3 needs: a detection before each round and each iteration.
 ListSizes first_capacities(const QuestionSizes& sizes) {
   const std::int64_t contacts = 64 + 4 * (std::int64_t{sizes.vertices} + sizes.edges),
                      rounds = sizes.settings.guess_rounds + sizes.settings.iterations;
@@ -369,8 +369,8 @@ ListSizes first_capacities(const QuestionSizes& sizes) {
           64 + 4 * sizes.cases};
 }
 
-// Returns for each list its first capacity plus the largest number of entries of each detection, in all at most 2^40.
-// Largest numbers of entries of a detection:
+// Returns for each list its first capacity plus the largest number of entries of all detections, together at most 2^40.
+// Largest numbers of entries of one detection:
 //
 // - contacts: all vertices with all triangles, and all ordered pairs of edges
 // - contacts with a volume: all points with all faces

@@ -26,7 +26,8 @@ struct QuestionSizes {
   ogc_vec3 gravity{};
 };
 
-/// `Element` is the type of an output's elements. An output has one group of elements per unit of `Per`.
+/// `Element` is the type of an output's elements. An output has one group of elements in all (`one`), or one for each
+/// case (`item`), each vertex, …, each pair of bodies (`two_bodies`).
 enum class Element : std::uint8_t { number, byte, index, real };
 enum class Per : std::uint8_t { one, item, vertex, edge, triangle, two_bodies };
 /// Outputs whose length the plug-in determines.
@@ -43,7 +44,7 @@ enum class List : std::uint8_t {
   volume_contacts
 };
 inline constexpr std::size_t list_count = 10;
-/// Number of entries of each list, or its capacity; 1 for `none`.
+/// Length or capacity of each list; 1 for `none`, which is no list.
 using ListSizes = std::array<std::int64_t, list_count>;
 
 /// Describes one output array of a stage.
@@ -51,7 +52,7 @@ struct OutputInfo {
   std::string_view name;   ///< name in compare/plugin.h
   Element element;         ///< type of the array
   std::size_t elements;    ///< number of elements per group
-  Per per;                 ///< unit that has one group of elements
+  Per per;                 ///< what has one group of elements
   List list = List::none;  ///< if not `none`: the output has these groups for each entry of this list
 };
 

@@ -28,8 +28,8 @@ Matrix deformation(const ogc_tetrahedron_case& c, const ogc_vec3 (&x)[4]) {
   return f;
 }
 
-/// Adds the damping V k ϕ(G − Gᵗ). G = (FᵀF − I)/2 is the strain, Gᵗ the strain at the start of the step, and ϕ(E) =
-/// λ/2 (tr E)² + μ tr E².
+/// Adds force and block of the damping's energy V k ϕ(G − Gᵗ). G = (FᵀF − I)/2 is the strain, Gᵗ the strain at the
+/// start of the step, and ϕ(E) = λ/2 (tr E)² + μ tr E².
 void add_damping(const ogc_tetrahedron_case& c, Vector& force, Matrix& block) {
   const Matrix f = deformation(c, c.corner), before = deformation(c, c.start);
   const double weight = double(c.volume) * c.damping, lambda = c.lame_lambda, mu = c.lame_mu;

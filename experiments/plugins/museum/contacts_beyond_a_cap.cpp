@@ -20,8 +20,8 @@ struct Nearest {
   double distance = INFINITY;
 };
 
-// Decides faces and blocks. One function decides for all faces on which side of a plane a point lies. So rounding can't
-// place the point between two blocks.
+// Decides in which face's block a point lies. One function decides for all faces on which side of a plane a point lies.
+// So rounding can't place the point between two blocks.
 struct Question {
   const ogc_detect_in& in;
   const ogc_topology& mesh;
