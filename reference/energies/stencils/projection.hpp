@@ -19,7 +19,8 @@ using LowerTriangle = std::array<Number, N*(N + 1) / 2>;
 
 constexpr std::size_t lower(std::size_t i, std::size_t j) { return i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i; }
 
-/// The eigenvalues of symmetric matrices of N rows with entries of at most 1, and their eigenvectors as column[k].
+/// Holds the eigenvalues of symmetric matrices, one matrix per lane, with N rows and entries of at most 1. column[k] is
+/// the eigenvector of value[k].
 template <std::size_t N, std::size_t Packs>
 class Eigensystem {
  public:
