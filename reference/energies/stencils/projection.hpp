@@ -44,7 +44,7 @@ class Eigensystem {
 
   std::array<L, N> beside_;  ///< entries beside the diagonal: entry i couples i and i + 1; the last one is not read
 
-  /// Reduces `a` to a tridiagonal matrix and writes its basis to `column`.
+  /// Reduces `a` to a tridiagonal matrix and writes the basis of this matrix to `column`.
   void reduce(LowerTriangle<N, L>& a) {
     std::array<std::array<L, N>, N> mirror;  // v of each reflection I − β v vᵀ
     std::array<L, N> beta;
