@@ -128,8 +128,8 @@ int generic_sign(const ExactVector& a) {
   return 0;
 }
 
-/// Returns 1 if the ray from x leaves through the triangle, −1 if it enters, 0 if it misses. x must not be on the
-/// triangle.
+/// Returns 1 if the ray from x crosses the triangle along the normal n, −1 if it crosses against n, 0 if it misses the
+/// triangle. x must not be on the triangle.
 int crossing(const std::array<ExactVector, 3>& corners, const ExactVector& n, const ExactVector& x) {
   const int direction = generic_sign(n);
   for (std::size_t k = 0; k < 3; ++k)

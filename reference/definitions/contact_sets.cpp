@@ -30,7 +30,7 @@ bool contains(std::span<const Index> vertices, Index v) {
   return std::find(vertices.begin(), vertices.end(), v) != vertices.end();
 }
 
-/// Returns the lowest-numbered triangle that contains a face.
+/// Returns the triangle with the lowest index that contains a face.
 Index owner_of(const Complex& mesh, Face face) {
   const auto i = static_cast<std::size_t>(face.index);
   if (face.kind == FaceKind::vertex) return mesh.topology.vertex_triangles[i].front();

@@ -1,5 +1,5 @@
-// The contact sets of the paper as plain definitions, for comparison with the detections and with each other. Every
-// function visits all pairs.
+// Computes the contact sets of the paper by plain definitions, to compare them with the detections and with each other.
+// Every function visits all pairs.
 #pragma once
 
 #include <span>
@@ -26,8 +26,8 @@ std::vector<compare::EdgeEdgeContact> edge_edge_by_definition(const compare::Det
 /// 15.
 std::vector<compare::EdgeEdgeContact> edge_edge_over_all_pairs(const compare::DetectIn& in);
 
-/// Returns V_OGC(t): for each triangle the vertices in contact with a face that the triangle owns, ascending, one entry
-/// for each contact.
+/// Returns V_OGC(t) for each triangle t: the vertices of the contacts with faces that t owns, ascending. A vertex with
+/// several of these contacts appears several times.
 std::vector<std::vector<Index>> vertices_near_facets(const compare::Topology& topology,
                                                      std::span<const compare::VertexFacetContact> contacts);
 
@@ -38,11 +38,11 @@ std::vector<std::vector<std::size_t>> contacts_of_edges(const compare::Topology&
 /// Returns |F_OGC(v)| by vertex, the number of layers (§3.3).
 std::vector<Index> layers(const compare::Topology& topology, std::span<const compare::VertexFacetContact> contacts);
 
-/// Returns r − d (Eq. 13) for each contact [m], within 1 ulp of double.
+/// Returns the depth r − d (Eq. 13) of each contact [m], within 1 ulp of double.
 std::vector<double> penetration_depths(const Complex& mesh, std::span<const compare::VertexFacetContact> contacts,
                                        float contact_radius);
 
-/// Returns F_IPC(v) (Eq. 3): triangles without v nearer than r, ascending.
+/// Returns F_IPC(v) (Eq. 3), ascending: the triangles that are nearer than r and do not contain v.
 std::vector<Index> ipc_face_set(const Complex& mesh, Index vertex, float contact_radius);
 
 /// Returns F_SDF (Eq. 4) of a point in space: the closest triangles if they are nearer than r. Several triangles may be

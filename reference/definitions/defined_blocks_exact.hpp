@@ -31,8 +31,8 @@ struct DefinedBlocks::Cones {
   /// Returns N_a of one face.
   const NormalCone& of(Face face) const;
   bool contains(Face face, const ExactPoint& x, float contact_radius, Sphere boundary) const;
-  /// Checks whether x is in the face's block of the edge-only manifold (§3.5). There a vertex has the same neighbours
-  /// as on the surface, and every perpendicular of an edge is a normal.
+  /// Checks whether x is in the face's block of the edge-only manifold (§3.5). On this manifold a vertex has the same
+  /// neighbours as on the surface, and every vector perpendicular to an edge is one of the edge's normals.
   bool contains_edge_only(Face face, const ExactPoint& x, float contact_radius) const;
 };
 

@@ -1,4 +1,4 @@
-// Implements the intent of §3.1: the normals of each face by the closest-point principle, the kinds of vertices, and
+// Computes the normals of each face by the closest-point principle, as §3.1 intends, the kinds of vertices, and
 // Echeverria's indicatrix. Decisions are exact; unit vectors for drawing and integrals are in double.
 #pragma once
 
@@ -14,8 +14,8 @@ using Unit = std::array<double, 3>;  ///< unit vector, up to rounding
 
 /// The kinds of vertices of Fig. 5.
 enum class VertexKind : std::uint8_t {
-  /// has normals, and the plane of each triangle at v has all neighbours on one side or on it (includes flat vertices
-  /// and corners of a sheet)
+  /// has normals, and all neighbours of v lie on one side of the plane of each triangle at v, or on the plane (includes
+  /// flat vertices and corners of a sheet)
   convex,
   mixed,   ///< has normals, but is not convex
   saddle,  ///< has no normals: x_v is inside the convex hull of its neighbours

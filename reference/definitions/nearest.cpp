@@ -24,8 +24,8 @@ class NearestOfEach {
   NearestOfEach(std::size_t count, float query_radius)
       : items_(count, Nearest{-1, gap_points({}, {query_radius, 0, 0})}), below_(count, query_radius) {}
 
-  /// Offers a partner. `below` is the distance, rounded down. A partner at r_q or farther is not stored, because its
-  /// `below` is at least r_q, the initial value.
+  /// Stores the partner if it is nearer than the stored partner. `below` is its distance, rounded down. The initial
+  /// value is r_q, so a partner at r_q or farther is not stored.
   void offer(Index primitive, Index partner, const Margin& gap, float below) {
     const auto i = static_cast<std::size_t>(primitive);
     const std::atomic_ref<float> smallest(below_[i]);
@@ -68,7 +68,7 @@ class Search {
     return box;
   }
 
-  /// Calls visit(i, j) for all queries i, in parallel, and for all `boxes` j within r_q of query i.
+  /// Calls visit(i, j) if queries[i] and boxes[j] are within r_q of each other; in parallel over i.
   template <class Visit>
   void for_near(const std::vector<Box>& queries, const std::vector<Box>& boxes, Visit visit) const {
     const BoxTree tree(boxes);

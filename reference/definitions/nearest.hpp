@@ -1,5 +1,5 @@
-// Finds for each smallest distance (Eq. 22, 24 and 26) the pair that has it, without rounding. The pair's squared
-// distance is an exact fraction, so any bound can be compared with it.
+// Finds, without rounding, the pair at each smallest distance (Eq. 22, 24 and 26). The squared distance of a pair is an
+// exact fraction, so any bound can be compared with it.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@ namespace ogc::reference {
 /// If none is nearer than r_q, `gap` is r_q and `partner` is −1.
 struct Nearest {
   compare::Index partner = -1;  ///< index of the partner, or −1
-  Margin gap;                   ///< the distance to it, as a gap
+  Margin gap;                   ///< the distance to the partner, as a margin
 };
 
 /// Holds the nearest partners: a triangle for each vertex (Eq. 22), an edge for each edge (Eq. 24), a vertex for each

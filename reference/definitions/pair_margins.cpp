@@ -24,8 +24,8 @@ ExactPoint closest_on(const Complex& mesh, Face face, Face other) {
   return point_at(a, u, dot(cross(c - a, v), n), dot(n, n));
 }
 
-/// Returns the margin of x from the plane through `at` perpendicular to the line to `towards`. The inner side lies
-/// towards `towards` if `inward` is 1, away from it if −1.
+/// Returns the margin of x from the plane through `at` that is perpendicular to the line from `at` to `towards`. If
+/// `inward` is 1, the margin is positive on the side of `towards`. If `inward` is −1, it is positive on the other side.
 BlockMargin end_plane(const Complex& mesh, Index at, Index towards, int inward, Face across, const ExactPoint& x) {
   const ExactVector p = exact(mesh.at(at)), d = exact(mesh.at(towards)) - p;
   const Exact m = dot(x.numerator - times(x.weight, p), d);

@@ -8,9 +8,9 @@ namespace ogc::reference {
 
 /// The margins of a contact {p, q} at the boundaries of both blocks (Eq. 17, corrected).
 struct PairMargins {
-  /// margins of the point of q closest to p, at the boundaries of U_p^E (Eq. 14, 15), the sphere first
+  /// for the point of q closest to p: its margins at all boundaries of U_p^E (Eq. 14, 15), the sphere first
   std::vector<BlockMargin> first;
-  std::vector<BlockMargin> second;  ///< margins of the point of p closest to q, at the boundaries of U_q^E
+  std::vector<BlockMargin> second;  ///< for the point of p closest to q: its margins at all boundaries of U_q^E
 };
 
 /// Returns the margins of a contact. Signs are exact, lengths are within 8 ulp. Both lists are empty for the interiors

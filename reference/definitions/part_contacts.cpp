@@ -118,8 +118,9 @@ Reach reach_of(const Complex& mesh, Index t, const Vec3f& x) {
 /// Relative error limit of the distances of Reach.
 constexpr double reach_slack = 0x1p-40;
 
-/// Preselects the triangles of a part. A triangle is in `nearest` if its box is not farther from x than the nearest
-/// corner of all triangles: it may be nearest to x. It is in `touching` if its box is within the radius of x.
+/// Preselects the triangles of a part. `nearest` has the triangles that may be nearest to x: their boxes are not
+/// farther from x than the nearest corner of all triangles. `touching` has the triangles whose boxes are within the
+/// contact radius of x.
 struct Within {
   std::vector<Index> nearest, touching;
 

@@ -14,7 +14,7 @@ namespace ogc::reference {
 /// One contact of a point x with a part; c is the point of `face` closest to x.
 struct PartContact {
   bool inside = false;              ///< whether x is inside the part
-  Index triangle = -1;              ///< the lowest-numbered triangle that contains `face`
+  Index triangle = -1;              ///< the triangle with the lowest index that contains `face`
   Face face;                        ///< the face whose interior holds c
   std::array<double, 3> weights{};  ///< weights of c, by corner of `triangle`; each within 1 ulp
   /// Unit vector out of the part: (x − c)/‖x − c‖ outside, (c − x)/‖x − c‖ inside. For x = c, and for the interior of a
@@ -37,9 +37,9 @@ Face closest_face_of(const Complex& volume, Index triangle, const Vec3f& x);
 /// triangle, or two that run through it in opposite senses. Each triangle must have an area.
 ///
 /// A part holds x if x is in the part's box and the segment from the nearest face to x begins on the inner side
-/// (begins_outside). Of equally near faces the lowest-dimensional, then the lowest-numbered one decides. A part that
-/// holds x gives one contact, at that face. Any other part gives one contact for each face whose outward block holds x
-/// nearer than r.
+/// (begins_outside). If several faces are equally near, the face of the lowest dimension decides, then the lowest
+/// index. A part that holds x gives one contact, at the nearest face. Any other part gives one contact for each face
+/// whose outward block holds x nearer than r.
 std::vector<PartContact> part_contacts(const Complex& volume, const Vec3f& x, float contact_radius,
                                        std::span<const Index> part = {});
 

@@ -16,9 +16,9 @@ class SceneVolumes {
   SceneVolumes(const compare::Scene& scene, const compare::Topology& topology);
   /// Returns whether the scene has volumes.
   bool has_any() const { return !surface_.triangles.empty(); }
-  /// Returns the contacts of all volume_askers (vertices that are tested against volumes), rounded to single precision
-  /// and sorted, and the unresolved sheets (VolumeDepthOut). `point` is the vertex; `triangle` and `face` are indices
-  /// in the scene. `positions` [m] are by vertex of the scene.
+  /// Returns the contacts and the unresolved sheets (VolumeDepthOut) of all volume_askers, the vertices that are tested
+  /// against volumes. Contacts are sorted and rounded to single precision. `point` is the vertex; `triangle` and `face`
+  /// are indices in the scene. `positions` [m] are by vertex of the scene.
   compare::VolumeDepthOut contacts(std::span<const compare::Vec3f> positions) const;
 
  private:

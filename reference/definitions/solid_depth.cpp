@@ -1,10 +1,10 @@
 // A *way* is the straight segment from x to a boundary point. A way is certain if no rounding error changes whether it
 // exists.
 //
-// The grey zone: let δ be the coordinates of a tetrahedron and x, and w a weight of a point in this tetrahedron. An
-// error of 16 · 2⁻²⁴ in δ changes w by 16 · 2⁻²⁴ Σ|∂w/∂δ||δ|. The sum is at most three times the moduli of the terms of
-// w, which have degree three. If a way ends in a triangle's interior, the triangle's normal adds an error to the end
-// (normal_scale).
+// The grey zone: let δ be the coordinates of a tetrahedron and x, and w a weight of a point in this tetrahedron. A
+// relative error of 16 · 2⁻²⁴ in δ changes w by 16 · 2⁻²⁴ Σ|∂w/∂δ||δ|. The terms of w have degree three, so Σ|∂w/∂δ||δ|
+// is at most three times the sum of their moduli. If a way ends in a triangle's interior, the triangle's normal adds an
+// error to the end (normal_scale).
 //
 // Within this error a segment may pass a nearby triangle, edge or vertex on either side of it. A way is certain if none
 // of these is on the body's boundary: whichever tetrahedra rounding selects, the way reaches its end.
@@ -41,7 +41,7 @@ double inner(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z 
 Vec3 normal(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-/// Returns `normal` with every term replaced by its modulus.
+/// Returns a × b with every term replaced by its modulus.
 Vec3 normal_moduli(const Vec3& a, const Vec3& b) {
   const Vec3 p = moduli(a), q = moduli(b);
   return {p.y * q.z + p.z * q.y, p.z * q.x + p.x * q.z, p.x * q.y + p.y * q.x};
@@ -62,7 +62,7 @@ Triangle sorted(Triangle t) {
 struct Piece {
   double low = 0, high = 1;
 
-  /// Keeps the parameters s with from + s (to − from) ≥ least.
+  /// Reduces the interval to the parameters s with from + s (to − from) ≥ least.
   void keep(double from, double to, double least) {
     const double slope = to - from;
     if (slope == 0) {
@@ -128,7 +128,7 @@ struct SolidPart::Passage {
     for (std::size_t k = 0; k < 4; ++k) piece.keep(start[k], end[k], -grey[k]);
     return piece;
   }
-  /// Keeps the part of `piece` that may be on the triangle opposite to corner k.
+  /// Reduces `piece` to its part that may be on the triangle opposite to corner k.
   void keep_on(std::size_t k, Piece& piece) const { piece.keep(-start[k], -end[k], -grey[k]); }
 };
 
@@ -270,7 +270,7 @@ SolidPart::Way SolidPart::way(const Group& group, Face face, double condition) c
   return way;
 }
 
-/// Returns whether the way to the face exists in exact numbers. `way` is a possible way to the face; the face holds the
+/// Returns whether the way to the face exists in exact numbers. `way` must be possible, and the face must hold the
 /// triangle's closest point to x.
 bool SolidPart::is_exact_way(const std::vector<Index>& sheet, const Way& way, Face face, Index triangle) const {
   const auto corner = [&](std::size_t k) { return rational(mesh_.at(mesh_.triangle(triangle)[k])); };

@@ -17,7 +17,7 @@ namespace ogc::reference {
 /// outlive this.
 class Solid {
  public:
-  /// `mesh` has the volume's triangles. Boundary triangles of tetrahedra are found among them by their vertices.
+  /// `mesh` has the volume's triangles. Finds the boundary triangles of the tetrahedra among them, by their vertices.
   Solid(const Complex& mesh, std::span<const Tetrahedron> tetrahedra);
 
   /// Returns whether the triangle belongs to exactly one tetrahedron.
@@ -34,8 +34,8 @@ class Solid {
   bool is_positive(Index t) const { return sign_[static_cast<std::size_t>(t)] > 0; }
   /// Returns whether rounding could change the sign of the volume.
   bool is_doubtful(Index t) const { return doubtful_[static_cast<std::size_t>(t)] != 0; }
-  /// Returns whether a way may end at the triangle opposite to this corner. It may, unless a tetrahedron behind the
-  /// triangle certainly has a positive volume.
+  /// Returns false if the tetrahedron behind the triangle opposite to this corner certainly has a positive volume.
+  /// Otherwise a way may end at this triangle.
   bool is_closed(Index t, std::size_t corner) const;
   /// Returns the triangle opposite to a corner; its normal is outward if the volume is positive.
   compare::Triangle side(Index t, std::size_t corner) const;
@@ -67,7 +67,7 @@ class SolidPart : public VolumeFaces {
   /// Sheets that rounding could merge into one.
   struct Group {
     std::vector<Index> tetrahedra;           ///< tetrahedra that hold x or may hold it
-    std::vector<std::vector<Index>> sheets;  ///< sheets decided exactly, each as its tetrahedra
+    std::vector<std::vector<Index>> sheets;  ///< exact sheets, each as a list of its tetrahedra
     bool is_certain = true;
   };
   /// Describes whether a group has a way to a face.

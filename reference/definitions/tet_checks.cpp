@@ -67,8 +67,8 @@ int turn_about(const RationalPoint& a, const RationalPoint& b, const RationalPoi
   return CGAL::sign(dot(cross(b - a, c - a), d - a));
 }
 
-/// Returns whether the half-plane of `u` about ab lies between the half-planes of c (included) and d (excluded). The
-/// angle between these two must be less than 180°.
+/// Compares half-planes that begin at the line ab. Returns whether the half-plane through u lies between the
+/// half-planes through c (included) and through d (excluded). The angle between these two must be less than 180°.
 bool between_half_planes(const std::array<RationalPoint, 4>& abcd, const RationalPoint& u) {
   const auto& [a, b, c, d] = abcd;
   const int after = turn_about(a, b, c, u);
@@ -76,7 +76,8 @@ bool between_half_planes(const std::array<RationalPoint, 4>& abcd, const Rationa
   return after > 0 && turn_about(a, b, u, d) > 0;
 }
 
-/// Returns how many tetrahedra around edge ab cover the half-plane of the first tetrahedron's third corner.
+/// Returns how many tetrahedra around edge ab cover the half-plane that begins at ab and contains the third corner of
+/// the first tetrahedron.
 int turns_around(std::span<const Vec3f> positions, const std::vector<Tetrahedron>& around) {
   const RationalPoint u = corners_of(positions, around.front())[2];
   return static_cast<int>(std::count_if(around.begin(), around.end(), [&](const Tetrahedron& t) {
@@ -84,7 +85,7 @@ int turns_around(std::span<const Vec3f> positions, const std::vector<Tetrahedron
   }));
 }
 
-/// Returns the same oriented tetrahedron with corners i and j first.
+/// Returns the tetrahedron with corners i and j first and with the same orientation.
 Tetrahedron with_first(const Tetrahedron& t, std::size_t i, std::size_t j) {
   std::array<std::size_t, 4> order{i, j, 0, 0};
   std::size_t free = 2;

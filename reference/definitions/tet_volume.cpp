@@ -34,7 +34,7 @@ double root_below(const Rational& square) {
   return root;
 }
 
-/// Marks the corners of `one` that `other` shares.
+/// Returns for each corner of `one` whether it is also a corner of `other`.
 std::array<bool, 4> shared(const Tetrahedron& one, const Tetrahedron& other) {
   std::array<bool, 4> marked{};
   for (std::size_t k = 0; k < 4; ++k) marked[k] = std::ranges::find(other, one[k]) != other.end();

@@ -50,12 +50,12 @@ struct BoundaryDepth {
   /// the shortest valid path; of equally short paths, the path to the triangle with the lowest index
   BoundaryPath path;
   std::vector<Index> equally_near;  ///< all boundary triangles with a valid path of exactly this length, ascending
-  /// Number of strictly nearer boundary triangles without a valid path. The Euclidean distance would end at one of
-  /// them.
+  /// Number of strictly nearer boundary triangles without a valid path. If it is not 0, the Euclidean distance to the
+  /// boundary ends at one of them.
   std::size_t refused = 0;
 };
 
-/// A body of tetrahedra. Views plain arrays, which must outlive it.
+/// A body of tetrahedra. Holds views of arrays that must outlive it.
 class TetVolume {
  public:
   /// Throws compare::InputError, naming the element, if a shortest path may bend or the map is not locally injective.

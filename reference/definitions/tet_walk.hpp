@@ -40,8 +40,8 @@ class Crossing {
   Crossing(const std::array<RationalPoint, 4>& corners, const RationalPoint& start, const RationalPoint& end)
       : at_start_(weights(corners, start)), at_end_(weights(corners, end)) {}
 
-  /// Returns the part of the segment in a closed face of the tetrahedron. `marked` selects the corners of the face;
-  /// four marks select the tetrahedron itself.
+  /// Returns the part of the segment that lies in a closed face of the tetrahedron. `marked` marks the corners of this
+  /// face; if all four corners are marked, the face is the tetrahedron itself.
   std::optional<Stretch> within(const std::array<bool, 4>& marked) const;
 
  private:

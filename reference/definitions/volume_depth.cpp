@@ -1,6 +1,6 @@
-// Finds exactly the face that is nearest, and all faces that could be nearest within rounding. A distance to a triangle
-// is grey within 16 · 2⁻²⁴ of the triangle's coordinates, and closest_face gives the faces that it accepts for each
-// triangle.
+// Finds the exactly nearest face, and all faces that could be nearest within rounding. The distance to a triangle may
+// be wrong by doubt(t) (volume_faces.hpp). For each triangle, the stage closest_face gives the faces that may hold the
+// triangle's closest point.
 //
 // If a face F is nearest only because of rounding, F itself does not decide whether x is inside. The exactly nearest
 // face decides if it shares a vertex with F and is not a rim. Otherwise the nearest triangle around F decides, because

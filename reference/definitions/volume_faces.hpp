@@ -24,7 +24,7 @@ class VolumeFaces {
   /// Returns the largest error of the distance to a triangle that still counts as rounding: 16 · 2⁻²⁴ times the larger
   /// of the distance and Σ|δ|. δ are the coordinates relative to the triangle's first corner.
   double doubt(Index t) const;
-  /// The smallest distance to triangles, and the triangles that may have it.
+  /// The smallest distance to triangles, and all triangles that may be at this distance.
   struct Candidates {
     double least;
     std::vector<Index> triangles;
@@ -46,11 +46,11 @@ class VolumeFaces {
   /// Returns whether x is on the face's inner side. `nearest_inside` is the answer for the exactly nearest face
   /// `nearest`.
   bool is_inside(Face face, Face nearest, bool nearest_inside, const std::vector<Index>& candidates) const;
-  /// Returns whether both answers, inside and outside, are accepted at this face, because volumes of tetrahedra at the
-  /// face may not be positive.
+  /// Returns whether the answers inside and outside are both accepted at this face, because a tetrahedron at the face
+  /// may not have a positive volume.
   virtual bool is_vague(Face) const { return false; }
-  /// Adds the contacts that x may have if it is outside: one for each face whose outward block may hold x nearer than
-  /// r. `faces_in`: whether x is on the inner side of the nearest face.
+  /// Adds the contacts that x may have if x is outside: one for each face whose outward block may hold x. `faces_in` is
+  /// whether x is on the inner side of `nearest`, the nearest face.
   void touch(const std::vector<Index>& triangles, Face nearest, bool faces_in, compare::VolumePartTruth& truth);
   /// Adds a contact at a face, unless it is already listed or x is certainly farther than r.
   void add_touching(Face face, compare::VolumePartTruth& truth) const;

@@ -20,7 +20,7 @@ struct VolumetricContact {
 
 /// Returns the contacts of x. If sheets hold x, there is one contact for each sheet, in the order of sheets. Otherwise
 /// there is one for each outward block that holds x nearer than r, in the order of faces. `surface` must be
-/// surface_topology of `body`. If x is a vertex of the body, `own` is its index; the sheet of this vertex and its faces
+/// surface_topology of `body`. If x is a vertex of the body, `own` is its index; the sheet and the faces of this vertex
 /// are then left out.
 std::vector<VolumetricContact> volumetric_contacts(const TetVolume& body, const ClosedSurface& surface, const Vec3f& x,
                                                    float contact_radius, Index own = -1);

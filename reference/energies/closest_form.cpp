@@ -36,8 +36,8 @@ const ClosestForm& nearer(const ClosestForm& a, const ClosestForm& b, const Corn
   return squared_distance(b, x) < squared_distance(a, x) ? b : a;
 }
 
-/// Returns the closest points of a point and the triangle's plane if the point's foot on the plane lies inside the
-/// triangle, otherwise those of the point and the nearest edge.
+/// Returns the closest points of a point and a triangle. If the point's foot on the plane lies inside the triangle, the
+/// triangle's point is the foot. Otherwise it lies on the nearest edge.
 ClosestForm point_triangle(const Corners& x) {
   const Triple<double> u = x[2] - x[1], v = x[3] - x[1], w = x[0] - x[1], normal = cross(u, v);
   const double area = dot(normal, normal), second = dot(cross(w, v), normal), third = dot(cross(u, w), normal);
@@ -76,9 +76,9 @@ ClosestForm edge_edge(const Corners& x) {
 
 }  // namespace
 
-/// Returns the closest points of two edges. If the angle between the edges is below 2⁻²⁰, uses the distance from the
-/// nearest end: rounding makes the common normal, and so the distance of the lines, meaningless. The result is then
-/// wrong by at most 2⁻²⁰ of an edge's length.
+/// Returns the closest points of two edges. If the angle between the edges is below 2⁻²⁰, one of the points is an end
+/// of an edge, because rounding makes the common normal of the lines meaningless. The distance is then wrong by at most
+/// 2⁻²⁰ of an edge's length.
 ClosestForm closest_edges(const Corners& x) {
   const Triple<double> u = x[1] - x[0], v = x[3] - x[2], w = x[2] - x[0], normal = cross(u, v);
   const double area = dot(normal, normal), s = dot(cross(w, v), normal), t = dot(cross(w, u), normal);

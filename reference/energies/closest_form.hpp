@@ -11,8 +11,8 @@
 
 namespace ogc::reference {
 
-/// Selects the features that hold the contact points. Each comment lists places in ClosestForm::at: the vertices of the
-/// first side; the vertices of the second side.
+/// Selects the features that hold the contact points. Each comment lists the indices in ClosestForm::at of the first
+/// side's vertices, then of the second side's vertices.
 enum class FormKind : std::uint8_t {
   points,        ///< 0, 1
   point_line,    ///< 0; 1 2
@@ -26,7 +26,7 @@ enum class FormKind : std::uint8_t {
 struct ClosestForm {
   FormKind kind = FormKind::points;  ///< features that hold the contact points
   std::array<std::uint8_t, 4> at{};  ///< vertices of the contact that the form uses, in the order of FormKind
-  /// by vertex of the contact; they add up to 1 on the first side, to −1 on the second
+  /// weights by vertex of the contact; the sum of a side's weights is 1 on the first side, −1 on the second
   std::array<double, 4> weight{};
 };
 

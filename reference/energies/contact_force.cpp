@@ -9,8 +9,8 @@ namespace {
 using ByDistance = Derivative<Input, 1>;
 using ByDistanceTwice = Derivative<ByDistance, 1>;
 
-/// Returns d as a function of the own vertex's displacement, at displacement 0; `weight` is the vertex's weight in the
-/// contact points.
+/// Returns the distance d of the contact points with its derivatives by the own vertex's position. `weight` is the own
+/// vertex's weight in the contact points.
 ByVertex distance_of(const Meeting& meeting, const Input& weight) {
   Triple<ByVertex> apart = fixed(meeting.separation());
   apart = apart + ByVertex(weight) * own_vertex();

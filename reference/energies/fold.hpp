@@ -1,4 +1,4 @@
-// The angle of a hinge over any number type (compare/stages/bending.hpp).
+// Computes the angle of a hinge, over any number type (compare/stages/bending.hpp).
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ struct Fold {
   /// Returns whether a kernel may treat the hinge as collapsed (compare/stages/bending.hpp).
   bool may_count_as_collapsed() const { return is_needle(first, x[2]) || is_needle(second, x[3]); }
   /// Returns whether the sine of a triangle's angle at an end of the edge is below bending_needle · 2⁻²⁴. Tests the end
-  /// with the longer side, where the sine is smaller.
+  /// that is farther from the opposite vertex, because the sine is smaller there.
   bool is_needle(const Triple<T>& normal, const Triple<T>& opposite) const {
     const double side = std::max(plain_length(opposite - x[0]), plain_length(opposite - x[1]));
     return plain_length(normal) < compare::bending_needle * compare::unit_roundoff * plain_length(edge) * side;

@@ -49,7 +49,8 @@ double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) 
 }  // namespace
 
 double Inputs::stencil_condition(std::span<const Input> answer, const Range& stencil) const {
-  // The point at the origin is points[0]. Moving it has the same effect as moving all other points by the opposite.
+  // The point at the origin is points[0]. Moving it changes the answer as moving all other points in the opposite
+  // direction does.
   std::vector<std::array<double, 3>> points(1);
   std::vector<double> norms(1);
   Rows origin(answer.size());

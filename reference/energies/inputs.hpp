@@ -1,6 +1,6 @@
-// Differentiates an energy by all given numbers q of its stencil (positions, constants), at the innermost level of
-// nested derivatives. So each outer derivative f (force, block) has a condition Σ ‖∂f/∂q‖ ‖q‖. It is the judge's error
-// scale (compare/stages/force.hpp).
+// Differentiates an energy by all given numbers q of its stencil (positions, constants). These derivatives are the
+// innermost of nested derivatives. So each outer derivative f (force, block) has a condition Σ ‖∂f/∂q‖ ‖q‖. The judge
+// takes it as the error scale of f (compare/stages/force.hpp).
 #pragma once
 
 #include <span>
@@ -67,8 +67,8 @@ compare::ForceAnswer answer(const Inputs& inputs, const VertexSystemOf<Input>& s
 /// Returns the force −∂E/∂x of `energy` and the given block as an answer, with their error scales.
 compare::ForceAnswer answer(const Inputs& inputs, const ByVertex& energy, const Block& block);
 
-/// Adds damping by vertex to an elastic force with the block B: the force gets −k B `moved`, the block k B. `moved` is
-/// the vertex's motion since the start of the step, k is `damping`.
+/// Returns force and block with damping by vertex. Adds −k B `moved` to the elastic force and k B to the elastic block
+/// B. `moved` is the vertex's motion since the start of the step, k is `damping`.
 compare::ForceAnswer damped_by_vertex(const Inputs& inputs, const VertexSystemOf<Input>& elastic, const Input& damping,
                                       const Triple<Input>& moved);
 

@@ -7,8 +7,8 @@
 
 namespace ogc::reference {
 
-/// Returns ‖u‖ of a slip u whose error is `units` · 2⁻²⁴ · condition. If u may be 0 within this error, its direction is
-/// unknown. Each derivative of ‖u‖ is then the length of the derivative of u.
+/// Returns the length ‖u‖ of a slip u. The error of u is `units` · 2⁻²⁴ times its condition. If u may be 0 within this
+/// error, its direction is unknown, and each derivative of ‖u‖ is set to the length of the derivative of u.
 inline Input slip_length(const Inputs& inputs, const Triple<Input>& slip, double units) {
   Input y = sqrt(dot(slip, slip));
   if (y.value > units * compare::unit_roundoff * inputs.condition(slip)) return y;

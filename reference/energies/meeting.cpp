@@ -300,7 +300,7 @@ void weigh(Meeting& meeting, ContactSides sides, const Parameters& at) {
   meeting.weight = weights(sides, at[0] + first, at[1] + second);
 }
 
-/// Returns copies of `common`, one with the weights of each accepted position of the contact points.
+/// Returns one copy of `common` for each accepted position of the contact points, with the weights of this position.
 std::vector<Meeting> weighed(const ContactForceCase& question, Meeting common) {
   std::vector<Meeting> all;
   common.needle = has_needle(question, common.vertex);

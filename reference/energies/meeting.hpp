@@ -2,8 +2,8 @@
 // friction_force. The features with the closest points are decided exactly. The positions of the contact points on
 // these features come from a formula, so that the condition of an answer includes the sensitivity of the weights.
 //
-// Weights are constants of the outer differentiation (method.md §4.2): at the closest points the distance is stationary
-// in them, so the force is the same.
+// The outer differentiation treats the weights as constants (method.md §4.2). The force is the same, because the
+// closest points minimise the distance.
 #pragma once
 
 #include <array>
@@ -39,7 +39,7 @@ struct Meeting {
   /// Returns |w| Σ |w_u|. w is the own vertex's weight; the sum is over the own vertex and the vertices that are
   /// updated with it.
   Input majorant(const compare::ContactForceCase& question) const;
-  /// Returns Σ w_i x_i, the vector d n from the second side's contact point to the first's.
+  /// Returns Σ w_i x_i, the vector from the second side's contact point to the first side's. Its length is d.
   Triple<Input> separation() const;
   /// Returns the distance at which slope and curvature are evaluated: d clamped to 2⁻²³ r … r, with the derivatives of
   /// d. If d is certainly beyond r, the result has no derivatives, so that nothing depends on the distance of sides
@@ -105,20 +105,20 @@ std::vector<compare::ForceAnswer> answers(const std::vector<Meeting>& meetings, 
 struct LargestSlopes {
   double first = 0, second = 0;  ///< −g', g''
 };
-/// Returns the limits for all distances from `distance` [m] on.
+/// Returns upper limits of −g' and g'' that hold for all distances from `distance` [m] on.
 LargestSlopes largest_slopes(const compare::ContactForceCase& question, double distance);
 /// Returns an upper limit of Meeting::majorant, |w| Σ |w_u|. The moduli of all weights add up to 2.
 inline double largest_majorant(const compare::ContactForceCase& question) { return question.together == 0 ? 1 : 2; }
 
-/// Returns the scale with which a stage of this tolerance accepts an error of 1: 1/(2⁻²⁴ · tolerance), plus 1 for one
-/// rounding.
+/// Returns the error scale for which a stage with this tolerance accepts every error up to 1: 1/(2⁻²⁴ · tolerance),
+/// plus 1 for one rounding.
 inline double units_of_whole(double tolerance) { return 1 / (compare::unit_roundoff * tolerance) + 1; }
 
-/// Returns an upper limit of the answer's norm: its value plus its error.
+/// Returns an upper limit of the answer's norm: the norm of its value plus its error.
 double reach(const Inputs& inputs, std::span<const Input> answer);
 
-/// Adds the rounding errors of the weights themselves to the scales; they come on top of the errors of the inputs.
-/// Weights are computed as in closest_face. So each weight, even a weight of 0, has an error of 2⁻²⁴ times the largest
+/// Adds the rounding errors of the weights to the scales, which contain only the errors of the inputs so far. Weights
+/// are computed as in closest_face. So each weight, even a weight of 0, has an error of 2⁻²⁴ times the largest
 /// condition of all weights. `force` and `curvature` are the largest force and curvature for w = 1. If n vertices u are
 /// updated together, the block has the factor |w| Σ |w_u|, whose error has the terms
 ///

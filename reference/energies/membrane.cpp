@@ -112,8 +112,8 @@ std::vector<ForceAnswer> damped_by_strain(const Question& q, const ModelRules& r
   return answers;
 }
 
-/// Adapts the error scales to damping by vertex. Its force is the block times `moved`, so it has the block's tolerance
-/// plus per_vertex_additions.
+/// Adapts the error scales to damping by vertex. The damping force is the block times `moved`, so its tolerance is the
+/// block's tolerance plus per_vertex_additions.
 ForceAnswer with_vertex_units(const ModelRules& rules, const ForceAnswer& answer) {
   return with_units(answer, (rules.block_tolerance + compare::per_vertex_additions) / compare::membrane_force_tolerance,
                     rules.block_tolerance / compare::membrane_block_tolerance);

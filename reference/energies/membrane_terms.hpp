@@ -117,7 +117,7 @@ struct MembraneTermOf {
 /// A triangle over doubles.
 using MembraneTerm = MembraneTermOf<double>;
 
-/// F and G as functions of one corner's position, and a copy of G whose components are independent variables.
+/// Holds F and G as functions of one corner's position. `by_strain` is a copy of G whose components are the variables.
 template <class Number>
 struct MembraneCorner {
   Deformation<ByOwnTwice<Number>> f;
@@ -140,8 +140,8 @@ void add_strain(const Strain<ByOwnTwice<Number>>& g, const ByOwnTwice<Number>& e
   }
 }
 
-/// Adds the geometric part of the block, from the elastic stress, if it is positive. The second derivative of G by the
-/// corner is a multiple of the identity.
+/// Adds the geometric part of the block, max(0, s) I, where s I is Σ ∂E/∂Gᵢ ∂²Gᵢ/∂x² for the elastic energy E and the
+/// corner x. Each ∂²Gᵢ/∂x² is a multiple of I.
 template <class Number>
 void add_geometric(const Number& area, const Strain<ByOwnTwice<Number>>& g, const ByOwnTwice<Number>& elastic,
                    VertexSystemOf<Number>& sum) {
@@ -150,7 +150,8 @@ void add_geometric(const Number& area, const Strain<ByOwnTwice<Number>>& g, cons
   add_identity(positive_part(geometric, area), sum.block);
 }
 
-/// Adds the exact force and second derivative, but replaces the negative eigenvalue along the normal by 0.
+/// Adds the exact force, and the exact second derivative as the block. If the block's eigenvalue along the normal is
+/// negative, replaces this eigenvalue by 0.
 template <class Number>
 void add_neo_hookean(const Number& area, const ByOwnTwice<Number>& energy, const Triple<Number>& normal,
                      VertexSystemOf<Number>& sum) {
@@ -186,7 +187,7 @@ void add_elastic(const MembraneTermOf<Number>& term, const MembraneCorner<Number
   }
 }
 
-/// Adds force and block of k ϕ(G − Gᵗ).
+/// Adds force and block of the damping energy A k ϕ(G − Gᵗ).
 template <class Number>
 void add_damping(const MembraneTermOf<Number>& term, const MembraneCorner<Number>& at, VertexSystemOf<Number>& sum) {
   if (plain(term.damping) > 0) add_strain(at.g, term.damping_of(at.by_strain), sum);

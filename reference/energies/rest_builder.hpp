@@ -1,6 +1,6 @@
-// Collects the rest state. Each kind of element adds its part. Each quantity is written once, as polynomials over a
-// number type. Exact numbers give its value, so that even needles, flat hinges and folds lose no bit before the last
-// root, quotient or angle. Input numbers give the scale of the value's error.
+// Collects the rest state, to which each kind of element adds its quantities. A quantity is written once, as
+// polynomials over a number type. Over exact numbers they give its value: even needles, flat hinges and folds lose no
+// bit before the last root, quotient or angle. Over Input numbers they give the value's error scale.
 #pragma once
 
 #include <CGAL/Mpzf.h>
@@ -52,7 +52,7 @@ struct RestBuilder {
   const compare::Vec3& at(compare::Index v) const { return scene.rest_positions[static_cast<std::size_t>(v)]; }
   const compare::Body& body(compare::Index b) const { return scene.bodies[static_cast<std::size_t>(b)]; }
 
-  /// Adds an element's mass in equal parts to its vertices; `scale` is the error scale of `size`.
+  /// Adds density · size, an element's mass, in equal parts to its vertices. `scale` is the error scale of `size`.
   template <class Vertices>
   void add_mass(const Vertices& vertices, double density, long double size, double scale) {
     for (const compare::Index vertex : vertices) {

@@ -20,7 +20,7 @@ struct Fold {
     const auto same = number(dot(first, second)) * length;
     return atan2(turned, same);
   }
-  /// Returns 3 ‖e‖²/(A₀ + A₁).
+  /// Returns 3 ‖e‖²/(A₀ + A₁), with the areas A of both triangles.
   auto factor() const {
     using std::sqrt;
     const auto ee = number(dot(edge, edge)), twice_first = sqrt(number(dot(first, first))),

@@ -21,7 +21,7 @@ struct Shape {
       : edge(x1 - x0), normal(cross(edge, x2 - x0)), across{x0 - x2, x1 - x0} {}
 };
 
-/// Returns ∇N_k = n × (edge opposite to k) / ‖n‖², in the frame of e and n × e.
+/// Returns ∇N of corner k + 1, which is n × (edge opposite to this corner)/‖n‖², as its components along e and n × e.
 template <class T>
 auto gradient(const Shape<T>& shape, std::size_t k) {
   using std::sqrt;

@@ -56,19 +56,19 @@ struct FrictionTermOf {
   Triple<Number> normal{}, start{};  ///< n; Σ wᵢ xᵢᵗ [m]
   Number force = 0.0, limit = 0.0;   ///< μ λ [N]; ε = ε_v h [m]
 
-  /// Returns u at the corners, over any number type.
+  /// Returns the slip u at the positions x of the vertices.
   template <class T, std::size_t N>
   Triple<T> slip(const std::array<Triple<T>, N>& x) const {
     return slip_between(separation(weight, x));
   }
-  /// Returns u; `apart` is Σ wᵢ xᵢ.
+  /// Returns the slip u; the argument `moved` is Σ wᵢ xᵢ.
   template <class T>
   Triple<T> slip_between(Triple<T> moved) const {
     for (std::size_t k = 0; k < 3; ++k) moved[k] = moved[k] - T(start[k]);
     const T along = normal[0] * moved[0] + normal[1] * moved[1] + normal[2] * moved[2];
     return moved - Triple<T>{normal[0] * along, normal[1] * along, normal[2] * along};
   }
-  /// Returns the energy from `squared` = ‖u‖². With y = ‖u‖, f₀ is y − ε/3 for y ≥ ε and y²/ε − y³/(3ε²) below. So
+  /// Returns the energy μ λ f₀(y) for `squared` = y² = ‖u‖². f₀(y) is y − ε/3 for y ≥ ε and y²/ε − y³/(3ε²) below. So
   /// f₀(0) = 0 and f₀' = f₁.
   template <class T>
   T energy_of(const T& squared) const {

@@ -50,12 +50,12 @@ struct Elastic {
 double length_of(const Triple<Input>& v) { return std::hypot(v[0].value, v[1].value, v[2].value); }
 
 /// Adds errors that the scales Σ ‖∂f/∂q‖ ‖q‖ (Inputs::condition) do not contain:
-/// - The edges of the face opposite to the own corner are rounded separately. So the face's normal (6 roundings) has
-///   an error of 6 u (u = 2⁻²⁴) times the product of the two longest edges. If one corner of the face is far from the
-///   two others, Inputs::condition gives less than this. J has this error times the longest distance from the own
-///   corner to a corner of the face.
-/// - If J − 1 (12 roundings) and the normal (6) nearly vanish together, the product of their errors remains
-///   (compare/stages/tetrahedron.hpp).
+///  - The edges of the face opposite to the own corner are rounded separately. So the face's normal has an error of 6 u
+///    (u = 2⁻²⁴) times the product of the two longest edges, from six roundings. If one corner of the face is far from
+///    the others, Inputs::condition gives less than this error. J has this error times the longest distance from the
+///    own corner to a corner of the face.
+///  - If J − 1 and the normal nearly vanish together, the product of their errors remains
+///    (compare/stages/tetrahedron.hpp). J − 1 has twelve roundings, the normal has six.
 /// With damping by vertex, `resisted` is k_d/h ‖x − xᵗ‖, and the block is `grown` = 1 + k_d/h times the elastic block.
 compare::ForceAnswer with_rounded_edges(const Elastic& elastic, compare::ForceAnswer answer, double resisted = 0,
                                         double grown = 1) {
@@ -101,7 +101,7 @@ std::array<std::pair<double, double>, 6> strain_at_start(const compare::Tetrahed
   return result;
 }
 
-/// Returns V k ϕ(G − Gᵗ) and its block.
+/// Returns force and block of the damping energy V k ϕ(G − Gᵗ).
 compare::ForceAnswer damping_of_strain(const compare::TetrahedronCase& q) {
   Inputs inputs;
   const std::array<Triple<Input>, 4> corner = inputs.stencil(q.corner, 0);

@@ -65,8 +65,8 @@ T solid_density(const SolidDeformation<T>& f, const Lame& lambda, const Lame& mu
   return mu * ((trace * once - T(4.0) * minors - T(8.0) * determinant) / (ratio + T(1.0))) + bulk;
 }
 
-/// A tetrahedron with the energy V (ψ + k ϕ(G − Gᵗ)). F is computed from the gradients; compare/stages/tetrahedron.hpp
-/// computes ψ from weights, whose roundings differ.
+/// A tetrahedron with the energy V (ψ + k ϕ(G − Gᵗ)). Here F is computed from the gradients ∇N. The stage
+/// (compare/stages/tetrahedron.hpp) computes ψ from weights, whose roundings differ.
 template <class Number>
 struct TetrahedronTermOf {
   std::array<compare::Index, 4> vertex{};
@@ -108,7 +108,7 @@ struct TetrahedronTermOf {
 /// A tetrahedron over doubles.
 using TetrahedronTerm = TetrahedronTermOf<double>;
 
-/// F and G as functions of one corner's position, and a copy of G whose components are independent variables.
+/// Holds F and G as functions of one corner's position. `by_strain` is a copy of G whose components are the variables.
 template <class Number>
 struct TetrahedronCorner {
   SolidDeformation<ByOwnTwice<Number>> f;

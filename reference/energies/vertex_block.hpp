@@ -20,7 +20,8 @@ struct VertexSystemOf {
   BlockOf<Number> block{};  ///< [N/m]
 };
 
-/// Numbers with derivatives by the own vertex's coordinates, to first and to second order.
+/// Numbers with derivatives, to first and to second order, by the coordinates of the own vertex, on which the force
+/// acts.
 template <class Number>
 using ByOwn = Derivative<Number, 3>;
 template <class Number>
@@ -34,7 +35,7 @@ ByOwnTwice<Number> variable(const Number& value, std::size_t direction) {
   return x;
 }
 
-/// Sets the three own coordinates to variables with the values x.
+/// Sets `to` to three variables with the values x, the own vertex's coordinates.
 template <class Number>
 void set_own(Triple<ByOwn<Number>>& to, const Triple<Number>& x) {
   for (std::size_t axis = 0; axis < 3; ++axis) to[axis] = ByOwn<Number>(x[axis], axis);
@@ -82,7 +83,7 @@ void add_identity(const std::type_identity_t<Number>& weight, BlockOf<Number>& b
   for (const std::size_t k : {0u, 3u, 5u}) block[k] += weight;
 }
 
-/// Adds an energy of the vertex: minus its slope to the force, its exact second derivative to the block.
+/// Subtracts the slope of an energy from the force, and adds its exact second derivative to the block.
 template <class Number>
 void add_exactly(const ByOwnTwice<Number>& energy, VertexSystemOf<Number>& sum) {
   add_force(1.0, energy.slope, sum);

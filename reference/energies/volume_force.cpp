@@ -1,5 +1,5 @@
-// Computes normal force and friction from separate inputs. Friction takes the normal force λ as one number, whose error
-// is λ's condition.
+// Computes normal force and friction from separate inputs. In friction, the normal force λ is one input, with an error
+// of 2⁻²⁴ times its condition.
 #include "reference/energies/volume_force.hpp"
 
 #include "reference/energies/lagged_friction.hpp"

@@ -27,7 +27,7 @@ struct VolumeTerm {
     const T depth = overlap(separation(weight, x));
     return plain(depth) > 0 ? 0.5 * stiffness * depth * depth : T(0.0);
   }
-  /// Returns the contact's friction, with the normal force λ at the positions x.
+  /// Returns the contact's friction. Its normal force λ follows from the overlap at the positions x.
   FrictionTerm friction_at(const std::array<Triple<double>, 4>& x) const {
     const double force = friction * stiffness * std::max(0.0, overlap(separation(weight, x)));
     return {compare::ContactSides::point_triangle, vertex, weight, normal, start, force, slip_limit};

@@ -30,8 +30,8 @@ struct BlockPicture {
 BlockPicture block_picture(const Complex& mesh, Face face, float contact_radius, bool edge_only = false,
                            double step = 0.1);
 
-/// Returns the boundary of N_a on the unit sphere as points in order; arcs are cut as in the picture. A closed region
-/// repeats its first point at the end.
+/// Returns the boundary of N_a on the unit sphere as points in order; neighbours on an arc are at most `step` [rad]
+/// apart. A closed region repeats its first point at the end.
 std::vector<Unit> outline(const GaussMap& map, double step = 0.1);
 
 }  // namespace ogc::reference

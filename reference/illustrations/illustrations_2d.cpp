@@ -67,8 +67,8 @@ DrawingLayer arrows(const std::string& name, const Slice& slice, const std::vect
   return layer;
 }
 
-/// Returns the segments that sweep the given triangles. If `without` is a vertex, leaves out segments that end at it:
-/// in the plane they contain the vertex (Eq. 3).
+/// Returns the segments that sweep the given triangles. Leaves out the segments that end at the vertex `without` if it
+/// is ≥ 0, because these contain the vertex (Eq. 3).
 std::vector<SliceFace> segments_of(const Slice& slice, const std::vector<Index>& triangles, Index without = -1) {
   const SliceFace own = without < 0 ? SliceFace{true, -2} : slice.face_of(vertex_face(without));
   std::vector<SliceFace> faces;
@@ -81,7 +81,8 @@ std::vector<SliceFace> segments_of(const Slice& slice, const std::vector<Index>&
   return faces;
 }
 
-/// Returns the faces in contact with the vertex by Eq. 12: faces without the vertex whose blocks hold it.
+/// Returns the faces in contact with the vertex by Eq. 12: faces whose blocks hold the vertex and that do not contain
+/// it.
 std::vector<SliceFace> ogc_faces(const Slice& slice, Index vertex, float r) {
   const Complex mesh = slice.mesh();
   const std::vector<Index> no_groups;
@@ -179,8 +180,8 @@ DrawingLayer capsule(const Slice& slice, int segment, double r) {
   return layer;
 }
 
-/// Returns a panel with the given vertices, and arrows for their forces on the faces in their contact sets, by OGC or
-/// IPC.
+/// Returns a panel with the given vertices. Arrows show the force of each vertex on each face in its contact set, by
+/// OGC if `ogc`, otherwise by IPC.
 DrawingPanel model_panel(const std::string& name, const std::string& caption, const Slice& slice,
                          const std::vector<Index>& vertices, float r, bool ogc) {
   const Complex mesh = slice.mesh();

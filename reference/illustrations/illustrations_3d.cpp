@@ -16,7 +16,7 @@ struct Shape {
   Complex mesh() const { return {topology, positions}; }
 };
 
-/// Returns a closed fan of triangles around vertex 0; its i-th neighbour has height heights[i].
+/// Returns a closed fan of triangles around vertex 0. The i-th neighbour of vertex 0 has the height heights[i].
 Shape star(const std::vector<float>& heights) {
   const auto k = static_cast<Index>(heights.size());
   std::vector<Vec3f> positions{{0, 0, 0}};

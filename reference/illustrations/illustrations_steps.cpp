@@ -78,7 +78,7 @@ std::vector<Point2> singles(const std::vector<Plane>& points) {
   return single;
 }
 
-/// Returns b_v for each vertex of the moving polyline M, beside the obstacle.
+/// Returns b_v for each vertex of the moving polyline M. The bounds include the distances between M and the obstacle.
 std::vector<float> bounds_beside(const OneStep& step) {
   const Slice line(singles(step.before)), obstacle(singles(step.obstacle));
   std::vector<Vec3f> positions(line.mesh().positions.begin(), line.mesh().positions.end());

@@ -79,7 +79,7 @@ class Motion {
   }
 
  private:
-  /// Replaces the slab by the one perpendicular to `normal` if that is wider.
+  /// Replaces the slab by the slab perpendicular to `normal` if the latter is wider.
   void widen(Slab& slab, const Triple<double>& normal) const {
     const double size = norm(normal);
     if (!(size > 0)) return;

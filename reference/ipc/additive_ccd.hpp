@@ -16,8 +16,9 @@ namespace ogc::reference {
 /// The share of the first gap that is left at the returned time (s of Algorithm 1), and the factor of each safe step.
 inline constexpr double ccd_gap_left = 0.1, ccd_rescaling = 0.9;
 
-/// Largest number of steps. While a tenth of the first gap g is left, a step is at least 0.09 g/ℓ. So the limit ends
-/// only motions that would take unreasonably long. The time reached by then is a safe answer.
+/// Largest number of steps. While a tenth of the first gap g is left, a step is at least 0.09 g/ℓ, where ℓ is the
+/// largest possible approach. So the limit ends only motions that would take unreasonably long. The time reached by
+/// then is a safe answer.
 inline constexpr int ccd_most_steps = 10000;
 
 /// Returns a time t in [0, until], until ≤ 1. On [0, t] the pair stays more than `thickness` [m] apart while its

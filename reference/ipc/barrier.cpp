@@ -17,8 +17,9 @@ compare::BarrierTruth barrier_truth(const compare::BarrierIn& in) {
     truth.slope.push_back(b.slope[0]);
     truth.curvature.push_back(b.bend(0));
     const double depth = support - gap, log = std::abs(std::log(gap / support));
-    // Each scale sums the effects of relative errors of D, ξ² and the support H. An effect is the quantity times the
-    // modulus of the derivative by it. All terms of a derivative have one sign.
+    // Each scale is the number's modulus (`terms`), plus the effects of relative errors of D, ξ² and the support H. The
+    // effect of an error of q is |q| times the modulus of the derivative by q. All terms of a derivative have the same
+    // sign.
     const double of_gap = c.squared_distance + double{c.thickness} * c.thickness, ratio = depth / gap;
     const bool acts = depth > 0;
     const auto scale = [&](double terms, double by_gap, double by_support) {

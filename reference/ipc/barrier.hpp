@@ -1,7 +1,7 @@
 // The barrier energy of IPC (Li et al. 2020, Eq. 6; with a thickness Li et al. 2021, Eq. 10), for any number type. It
-// is a function of the squared distance D, because D is a polynomial or a quotient of two, while the distance has a
-// root. With a thickness ξ the gap D − ξ² replaces D, and 2 ξ d̂ + d̂² replaces d̂². The barrier then acts for ξ < d <
-// ξ + d̂.
+// is a function of the squared distance D, which is a polynomial or a quotient of polynomials; the distance would need
+// a root. With a thickness ξ the gap D − ξ² replaces D, and 2 ξ d̂ + d̂² replaces d̂². The barrier then acts for ξ < d
+// < ξ + d̂.
 #pragma once
 
 #include <cmath>

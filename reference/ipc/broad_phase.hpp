@@ -34,8 +34,8 @@ std::vector<Box> swept_boxes(const Primitives& primitives, const State& from, co
   return boxes;
 }
 
-/// Returns whether two primitives make a pair: they share no vertex and are not excluded, as members of one rigid group
-/// or by the scene.
+/// Returns whether two primitives form a candidate pair. They must share no vertex, they must not be in the same rigid
+/// group, and the scene must not exclude the pair.
 template <class First, class Second>
 bool is_pair(const compare::ExclusionView& exclusions, const First& first, const Second& second) {
   return std::find_first_of(first.begin(), first.end(), second.begin(), second.end()) == first.end() &&

@@ -35,7 +35,7 @@ double largest_coordinate(const Corners& x, const Triple<double>& from) {
   return largest;
 }
 
-/// Returns the distance of two points of the faces, an upper limit of the faces' distance.
+/// Returns the distance between a point of one face and a point of the other, an upper limit of the faces' distance.
 double distance_above(compare::ContactSides sides, const Corners& x) {
   const ClosestForm form = sides == compare::ContactSides::edge_edge ? closest_edges(x) : closest_form(sides, x);
   const Triple<double> apart = separation(form.weight, x);

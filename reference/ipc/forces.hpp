@@ -11,8 +11,8 @@
 
 namespace ogc::reference {
 
-/// Pulls prescribed vertices that lag behind their targets t, as an augmented Lagrangian: Σ ρ m/(2h²) ‖x − t‖² − λ·(x −
-/// t).
+/// A pull on prescribed vertices that lag behind their targets t, with the augmented Lagrangian Σ ρ m/(2h²) ‖x − t‖² −
+/// λ·(x − t).
 struct Pull {
   double stiffness = 0;  ///< ρ, in units of the inertia m/h² [1]
   State force;           ///< λ, by vertex [N]
@@ -48,7 +48,8 @@ class IpcForces {
   void begin_step(const State& start, const State& target, std::int64_t number);
   /// Returns the rods. Energies and forces use the frames of the rods.
   RodSystem& rods() { return potential_.rods(); }
-  /// Computes λ, n and weights of these barriers at x; they stay until the next call.
+  /// Computes λ, n and the weights of lagged friction from the barriers `set` at x. They stay constant until the next
+  /// call.
   void lag_friction(const BarrierSet& set, const State& x, double stiffness);
 
   /// Returns the energies at x. `set` holds the barriers at x; `stiffness` is κ [J/m⁴]. After the vertices, x may hold
@@ -58,10 +59,10 @@ class IpcForces {
   /// would have to clear tens of megabytes of new memory.
   IpcDerivatives derivatives(const State& x, const BarrierSet& set, double stiffness, HessianProjection projection,
                              IpcDerivatives room = {}) const;
-  /// Returns ∇ Σ b of the unknowns [m³].
+  /// Returns the gradient of Σ b, the barriers without κ, by the unknowns [m³].
   State barrier_gradient(const State& x, const BarrierSet& set) const;
 
-  /// Makes prescribed vertices unknowns and pulls them; without a value, fixes them.
+  /// With a value, makes prescribed vertices unknowns and pulls them. Without a value, fixes them.
   void pull(std::optional<Pull> pull) { pull_ = std::move(pull); }
   /// Returns the present pull; empty if nothing is pulled.
   const std::optional<Pull>& pull() const { return pull_; }

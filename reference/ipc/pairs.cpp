@@ -81,7 +81,7 @@ void merge(std::vector<BarrierTerm>& terms) {
   if (mergeable != terms.end()) terms.erase(kept + 1, terms.end());
 }
 
-/// The barriers of some of the pairs, for one thread.
+/// Collects the barriers of the pairs that one thread handles.
 struct BarrierPart {
   BarrierSet set;
   double squared = std::numeric_limits<double>::infinity();  ///< squared distance of the closest pair [m²]

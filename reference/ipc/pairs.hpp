@@ -41,7 +41,7 @@ std::vector<PrimitivePair> near_pairs(const PairMesh& mesh, const State& from, c
 
 /// Barriers at one state.
 struct BarrierSet {
-  /// pairs with the same closest vertices and edges are one term; its weight is their number
+  /// pairs with the same closest vertices and edges share one term, whose weight is the number of these pairs
   std::vector<BarrierTerm> terms;
   std::vector<PrimitivePair> active;    ///< pairs with 0 < gap < H (BarrierShape), before merging
   std::vector<double> squared;          ///< squared distances of the active pairs [m²]

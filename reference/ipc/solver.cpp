@@ -361,7 +361,7 @@ IpcSolver::Bounded IpcSolver::bounded(const State& p) {
   return bound;
 }
 
-/// Appends to x the rotations of frames, which are the given share of those in p.
+/// Appends `share` times the rotations of the frames in p to x.
 State IpcSolver::with_frames(State x, double share, const State& p) const {
   for (std::size_t i = x.size(); i < p.size(); ++i) x.push_back(share * p[i]);
   return x;

@@ -12,9 +12,9 @@
 // rule. One broad phase serves an iteration: its boxes hold the whole motion and reach d̂ further. So it finds the
 // pairs for the continuous detection and for the barriers of every trial state.
 //
-// If a step stalls (below 1e-10 of p), the next direction is the negative gradient divided by the diagonal. If this
-// step stalls, too, the time step ends without convergence. Each of these events is added to the notes of the step,
-// with the pair that caused it.
+// If the line search accepts less than 1e-10 of p, the next direction is the negative gradient divided by the diagonal.
+// If this direction also stalls, the time step ends without convergence. The notes of the step get each of these
+// events, with the pair that caused it.
 //
 // Positions are doubles in all steps, because rounding could remove a gap. Positions in files are rounded.
 #pragma once
@@ -50,7 +50,7 @@ inline constexpr std::size_t ipc_stage_count = 8;  ///< number of phases
 /// Returns the names in the order of IpcStage.
 std::vector<std::string> ipc_stage_names();
 
-/// The result of a step [m], [m/s]; the result of a failed step must not be used.
+/// Positions [m] and velocities [m/s] at the end of a step. If the step failed, they must not be used.
 struct IpcStep {
   State position, velocity;
   compare::StepMetrics metrics;
@@ -99,7 +99,7 @@ class IpcSolver {
   void move_prescribed();
   Outcome solve();
   Outcome solve_once();
-  /// Runs one iteration; returns empty if the solve continues.
+  /// Runs one iteration. Returns the outcome of the solve, or nothing if the solve continues.
   std::optional<Outcome> iterate();
   bool take(const State& p, bool is_last);
   std::optional<State> direction();

@@ -17,8 +17,9 @@ struct StiffnessScale {
   double inertia = 0;   ///< mean m/h² of the free vertices [N/m]
 };
 
-/// Limits of κ. At the lower limit the barrier's curvature at a distance of 1e-8 diagonals is 1e11 mean inertias; the
-/// upper limit is a hundred times the lower one. With IpcAdaptation::gap, the thickness is added to that distance.
+/// Limits of κ. At the lower limit, the barrier's curvature at a distance of 1e-8 diagonals is 1e11 times the mean
+/// inertia. The upper limit is a hundred times the lower limit. With IpcAdaptation::gap, the thickness is added to the
+/// distance of 1e-8 diagonals.
 struct StiffnessBounds {
   double lower = 0, upper = 0;  ///< [J/m⁴]
 };
@@ -28,11 +29,12 @@ StiffnessBounds stiffness_bounds(const BarrierShape& shape, const StiffnessScale
 /// Returns the κ between the limits that minimises ‖∇E + κ ∇b‖; the lower limit if there is no barrier.
 double initial_stiffness(const State& energy_gradient, const State& barrier_gradient, const StiffnessBounds& bounds);
 
-/// Finds pairs that were closer than 1e-9 diagonals at the last call and have come closer; κ is then doubled.
+/// Finds pairs that were closer than 1e-9 diagonals of the rest box at the last call and are even closer now. The
+/// solver doubles κ if there is such a pair.
 class StiffnessGuard {
  public:
   StiffnessGuard(const StiffnessScale& scale, const BarrierShape& shape, IpcAdaptation adaptation);
-  /// Forgets the earlier gaps.
+  /// Forgets the pairs that were close at the last call.
   void forget() { close_.clear(); }
   /// Returns a pair that has come closer since the last call, if any; stores the pairs that are close now.
   std::optional<PrimitivePair> came_closer(const BarrierSet& set);

@@ -1,4 +1,4 @@
-// Computes the units of length of IPC's distances and tolerances, and the speed below which a step ends.
+// Computes the lengths to which IPC's distances and tolerances are relative, and the speed below which a step ends.
 #pragma once
 
 #include "compare/problem/scene.hpp"

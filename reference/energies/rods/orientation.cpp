@@ -103,7 +103,7 @@ struct Question {
   }
 };
 
-/// Returns the Frobenius norm of H⁻¹ C, where H is `bend` and C has these columns. Returns infinity if H is not
+/// Returns the Frobenius norm of H⁻¹ C, where H is `bend` and C has the columns `columns`. Returns infinity if H is not
 /// positive definite.
 double reaction(const Square<Many>& bend, const std::vector<Triple<Many>>& columns) {
   Many squared(0.0);
@@ -119,8 +119,8 @@ Triple<Many> along(const std::array<Four<Many>, 3>& basis, const Four<Many>& v) 
   return {inner(basis[0], v), inner(basis[1], v), inner(basis[2], v)};
 }
 
-/// Returns Σ ‖∂q/∂y‖ ‖y‖ over the given numbers y, at the minimiser q. `pull_size` is the size of b, or of the vector
-/// that replaces b.
+/// Returns Σ ‖∂q/∂y‖ ‖y‖ over the given numbers y, at the minimiser q. `pull_size` is the size of the energy's vector
+/// b, or of the faint vector that replaces b = 0.
 double condition(const Question& question, const Problem<Many>& problem, const Four<Many>& q, double pull_size) {
   const auto basis_at = tangents(q);
   const Square<Many> bend = OnSphere<Many>(problem, q).bend;

@@ -32,7 +32,8 @@ struct Turn {
   double factor;  ///< 1/cos(θ/2)
 };
 
-/// Computes the smallest rotation's quaternion: (sin θ axis, 1 + cos θ) is the quaternion times 2 cos(θ/2).
+/// Returns the smallest rotation between two directions at an angle θ. The vector (sin θ axis, 1 + cos θ) is 2 cos(θ/2)
+/// times its quaternion.
 Turn smallest_turn(const Direction& from, const Direction& to) {
   const Triple<Wide> across = cross(from, to);
   const Wide along = dot(from, to), one = std::sqrt(dot(from, from) * dot(to, to));

@@ -11,12 +11,12 @@ FourOf<Input> given(Inputs& inputs, const compare::Quaternion& q) {
   return {inputs.number(q[0]), inputs.number(q[1]), inputs.number(q[2]), inputs.number(q[3])};
 }
 
-/// A segment in Input numbers. The position of its end `own` is the variable.
+/// Holds a segment in Input numbers. The variable is the position of the segment's end `own`.
 struct Segment {
   Inputs inputs;
   FourOf<Input> q, start;
-  Triple<ByOwnTwice<Input>> apart;  ///< D
-  Triple<Input> before;             ///< Dᵗ
+  Triple<ByOwnTwice<Input>> apart;  ///< D, the vector from end 0 to end 1
+  Triple<Input> before;             ///< D at the start of the step
   Input length, stretch, damping;
 
   explicit Segment(const compare::RodCase& c)

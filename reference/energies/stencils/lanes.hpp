@@ -39,7 +39,7 @@ constexpr std::size_t pack_width = 2;
 using Pack [[gnu::vector_size(8 * pack_width)]] = double;
 using PackBits [[gnu::vector_size(8 * pack_width)]] = std::int64_t;
 
-/// Whether lanes disagreed at a branch; a caller clears the flag first.
+/// Whether lanes have disagreed at a branch since a caller cleared this flag.
 inline constinit thread_local bool lanes_differ = false;
 
 /// The result of a comparison of lanes: all bits of a lane are set, or none.

@@ -19,7 +19,8 @@ using LowerTriangle = std::array<Number, N*(N + 1) / 2>;
 
 constexpr std::size_t lower(std::size_t i, std::size_t j) { return i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i; }
 
-/// The eigenvalues of symmetric matrices of N rows with entries of at most 1, and their eigenvectors as column[k].
+/// Holds the eigenvalues of symmetric matrices, one matrix per lane, with N rows and entries of at most 1. column[k] is
+/// the eigenvector of value[k].
 template <std::size_t N, std::size_t Packs>
 class Eigensystem {
  public:
@@ -43,7 +44,7 @@ class Eigensystem {
 
   std::array<L, N> beside_;  ///< entries beside the diagonal: entry i couples i and i + 1; the last one is not read
 
-  /// Reduces `a` to a tridiagonal matrix and writes its basis to `column`.
+  /// Reduces `a` to a tridiagonal matrix and writes the basis of this matrix to `column`.
   void reduce(LowerTriangle<N, L>& a) {
     std::array<std::array<L, N>, N> mirror;  // v of each reflection I − β v vᵀ
     std::array<L, N> beta;

@@ -1,6 +1,6 @@
-// Differentiates a batch of stencils in three passes: the energy, pack by pack, as one function of lanes; the
-// projection of the whole batch; the transformation back to the vertices. The files that are compiled for several
-// machines include this one.
+// Differentiates a batch of stencils in three passes. The first differentiates the energies, one pack of lanes after
+// another. The second projects the Hessians of the whole batch. The third transforms the derivatives back to the
+// vertices. Files that are compiled for several machines include this file.
 #pragma once
 
 #include <utility>
@@ -51,7 +51,8 @@ struct ByDifferences {
   template <class Corners>
   struct Coordinates {
     Coordinates(const Term<One>&, const Corners&) {}
-    /// Returns the share of vertex k in coordinate d, 0 for k > d + 1.
+    /// Returns the factor of vertex k in coordinate d, a linear combination of the vertices. The factor is 0 for k > d
+    /// + 1.
     double share(std::size_t k, std::size_t d) const { return q[k][d]; }
     static constexpr auto q = without_translation<Count>();
   };
@@ -208,7 +209,7 @@ class SideBySide {
     return Kind::moving == count - 1 && vertex > 0 ? vertex - 1 : 0;
   }
 
-  /// Writes the derivatives of one lane; its entries are One::width apart.
+  /// Writes the derivatives of one lane. In `gradient` and `hessian`, the entries of a lane are One::width apart.
   void scatter(std::size_t stencil, const double* gradient, const double* hessian) const {
     StencilDerivatives& to = *batch_.result[stencil];
     to.energy = energy_[stencil];

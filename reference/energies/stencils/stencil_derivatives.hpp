@@ -22,9 +22,9 @@ struct StencilDerivatives {
   std::array<double, 144> hessian{};
 };
 
-/// `coordinate_count` is the number of coordinates without translations. `without_translation` returns the orthonormal
-/// matrix of one axis: entry (k, d) is the share of vertex k in coordinate d. Each column adds up to 0. Row k is 0
-/// before column k − 1.
+/// `coordinate_count` is the number of coordinates that remain without translations. `without_translation` returns the
+/// matrix q of one axis: coordinate d is Σₖ q[k][d] xₖ over the vertices k. The columns are orthonormal, and each
+/// column adds up to 0. q[k][d] is 0 for k > d + 1.
 template <std::size_t Count>
 constexpr std::size_t coordinate_count = 3 * (Count - 1);
 template <std::size_t Count>

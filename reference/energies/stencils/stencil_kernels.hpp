@@ -1,5 +1,6 @@
 // Computes the derivatives of several stencils of one kind at once, for Newton's method. The functions are compiled for
-// several machines. They give the same bits on each machine, and for one stencil alone (stencil_derivatives.hpp).
+// several machines. On every machine the result has the same bits as stencil_derivatives.hpp gives for each stencil
+// alone.
 #pragma once
 
 #include "reference/energies/stencil_terms.hpp"
@@ -16,17 +17,17 @@ struct Batch {
   std::size_t size = 0;  ///< at most batch_width, at least 1
   std::array<const Term*, batch_width> term{};
   std::array<std::array<Triple<double>, Count>, batch_width> corner{};
-  /// Places of the corners in the result's gradient and Hessian.
+  /// By corner: its index among the vertices of the result's gradient and Hessian.
   std::array<std::array<std::uint8_t, Count>, batch_width> place{};
   std::array<StencilDerivatives*, batch_width> result{};
 
-  /// Adds a stencil; corner k has the place k.
+  /// Adds a stencil whose corner k is vertex k of the result.
   void add(const Term& with, const std::array<Triple<double>, Count>& at, StencilDerivatives& to) {
     std::array<std::uint8_t, Count> places;
     for (std::size_t k = 0; k < Count; ++k) places[k] = static_cast<std::uint8_t>(k);
     add(with, at, places, to);
   }
-  /// Adds a stencil; corner k has the place places[k].
+  /// Adds a stencil whose corner k is vertex places[k] of the result.
   void add(const Term& with, const std::array<Triple<double>, Count>& at, const std::array<std::uint8_t, Count>& places,
            StencilDerivatives& to) {
     term[size] = &with;
@@ -36,8 +37,8 @@ struct Batch {
   }
 };
 
-/// A contact as a function of only the vertices that its closest form uses. A closest form with fixed weights uses all
-/// four places.
+/// A contact as a function of the two to four vertices that its closest form uses. If the closest form has fixed
+/// weights, these are always four.
 template <class Number>
 struct PlacedContactOf {
   ContactTermOf<Number> contact;
@@ -67,7 +68,7 @@ using PlacedContact = PlacedContactOf<double>;
 struct StencilKernels {
   template <class Term, std::size_t Count>
   using Function = void (*)(const Batch<Term, Count>& batch, HessianProjection projection);
-  Function<PlacedContact, 2> contacts_of_2;  ///< the number counts the vertices of the closest form
+  Function<PlacedContact, 2> contacts_of_2;  ///< for closest forms of two vertices
   Function<PlacedContact, 3> contacts_of_3;
   Function<PlacedContact, 4> contacts_of_4;
   /// differentiates contacts whose energy depends on Σ wᵢ xᵢ alone; missing vertices have the weight 0
