@@ -68,8 +68,8 @@ Answer edge_in_edge(const Complex& mesh, Index e, Index a) {
   return answer;
 }
 
-/// Decides Eq. 15 for the point of an edge that is closest to v. `plane(w)` is positive if that point lies on w's side
-/// of the plane that contains v and is perpendicular to vw.
+/// Decides Eq. 15 for c, the point of an edge that is closest to v. `plane(w)` is positive if c lies on w's side of the
+/// plane that contains v and is perpendicular to vw.
 template <class Plane>
 Membership vertex_block(const Complex& mesh, Index v, Nearness& nearness, Plane plane) {
   Membership block;

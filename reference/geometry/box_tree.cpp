@@ -13,8 +13,8 @@ namespace {
 constexpr std::uint32_t leaf_size = 4;
 constexpr std::uint32_t worth_a_thread = 2048;
 
-/// Returns how many nodes a tree of `count` primitives and a tree of `count + 1` primitives have. The halves of a node
-/// differ by at most one primitive, so all nodes of a level hold one of two adjacent counts.
+/// Returns the number of nodes of a tree of `count` primitives, and of a tree of `count + 1` primitives. The children
+/// of a node differ by at most one primitive. So the nodes of a level hold k or k + 1 primitives, for one k.
 std::array<std::uint32_t, 2> node_counts(std::uint32_t count) {
   if (count + 1 <= leaf_size) return {1, 1};
   const auto halves = node_counts(count / 2);

@@ -24,15 +24,15 @@ TriangleFeature closest_feature(const Corners& triangle, const Vec3f& point);
 /// certainly (even if they flip).
 Membership is_closest(const Corners& triangle, TriangleFeature feature, const Vec3f& point);
 
-/// Returns a mask: bit k is set if feature k is the closest one or could be. If the closest feature is certain, only
-/// its bit is set.
+/// Returns a mask. Bit k is set if feature k is certainly or possibly the closest one. If the closest feature is
+/// certain, only its bit is set.
 std::uint8_t possible_features(const Corners& triangle, const Vec3f& point);
 
 /// Returns whether the point lies near the boundary of a feature's region (compare::near_factor).
 bool near_feature(const Corners& triangle, TriangleFeature feature, const Vec3f& point);
 
-/// Returns d² − r² (a gap) of the point and the corner, line or plane of a feature, with r = 0 (see with_radius). For
-/// the closest feature, d is the distance to the triangle.
+/// Returns the gap d² − r² with r = 0 (see with_radius), where d is the distance of the point from the feature's
+/// corner, line or plane. For the closest feature, d is the distance to the triangle.
 Margin feature_gap(const Corners& triangle, TriangleFeature feature, const Vec3f& point);
 
 /// Returns the truth of all cases; computes them in parallel.

@@ -43,8 +43,8 @@ EdgeFeatures closest_features(const EdgePair& pair);
 ///   overlap of exactly parallel edges.
 Membership are_closest(const EdgePair& pair, EdgeFeatures features);
 
-/// Returns whether ‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖² and the projection of the second edge on the line of the first overlaps the
-/// first in more than a point.
+/// Returns whether the edges e and e' are nearly parallel: ‖e×e'‖² < 10⁻⁶‖e‖²‖e'‖², and the second edge, projected on
+/// the line of the first edge, overlaps the first edge in more than a point.
 Membership are_nearly_parallel(const EdgePair& pair);
 /// Returns whether are_nearly_parallel holds exactly.
 bool nearly_parallel(const EdgePair& pair);
@@ -53,7 +53,7 @@ bool nearly_parallel(const EdgePair& pair);
 /// for nearly parallel edges or, if the rule does not hold, a margin of the closest features' region.
 bool is_near_decision(const EdgePair& pair, EdgeFeatures closest, bool is_parallel);
 
-/// Returns d² − r² (a gap) with r = 0 (see with_radius), where d is the distance between the two features. An interior
+/// Returns the gap d² − r² with r = 0 (see with_radius), where d is the distance between the two features. An interior
 /// counts as the edge's whole line. For the closest features, d is the distance of the edges.
 Margin feature_gap(const EdgePair& pair, EdgeFeatures features);
 

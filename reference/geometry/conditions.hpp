@@ -1,5 +1,5 @@
-// Describes a region of space as a conjunction of conditions on margins. Besides the exact answer it tells whether
-// rounding could change the answer (grey).
+// Describes a region of space as a conjunction of conditions on margins. Tells exactly whether a point is in the
+// region, and whether rounding could change this answer (grey).
 #pragma once
 
 #include "reference/geometry/margin.hpp"
@@ -35,8 +35,8 @@ inline void require(Membership& membership, const Condition& condition) {
   require(membership, (margin.sign > 0) == condition.positive, margin.grey);
 }
 
-/// Decides whether a conjunction is near a change of its value: some condition is near its boundary, and so is every
-/// condition that fails.
+/// Decides whether the value of a conjunction is near a change: at least one condition is near its boundary, and all
+/// conditions that fail are near their boundaries.
 class Nearness {
  public:
   /// Adds a condition: whether it holds, and whether it is near its boundary.

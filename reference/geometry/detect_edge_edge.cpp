@@ -30,7 +30,7 @@ struct EdgeAnswer {
   std::vector<Generated> generated;
   std::vector<Doubt> doubts;
   std::size_t pairs = 0;
-  std::vector<Index> near;  ///< the other edges of pairs with a decision near its boundary
+  std::vector<Index> near;  ///< the other edge of each pair with a decision near its boundary
 };
 
 class EdgeQuery {
@@ -85,8 +85,8 @@ class EdgeQuery {
     if (rule.possible) enter_interiors(other, pair, rule, within, doubtful);
     if (rule.certain) return;
     const Membership local = are_closest(pair, closest);
-    // If the rule for nearly parallel edges does not hold, the pair may have no contact. So an answer without the
-    // contact of the interiors may be right.
+    // If the rule for nearly parallel edges does not hold, the two edges may have no contact. So an answer without the
+    // contact of their interiors is accepted.
     if (rule.possible && !(local.certain && membership(faces_of(other, closest)).certain)) accept_absence(other);
     enter_features(other, pair, closest, closest, rule);
     if (local.certain) return;
@@ -107,9 +107,9 @@ class EdgeQuery {
     if (doubtful || !tested.certain) accept_absence(other);
   }
 
-  /// Returns whether closest points of nearly parallel edges lie in the block of the other edge's face. Exactly
-  /// parallel edges have closest points at both ends of the overlap; one of these pairs is enough. The answer is
-  /// certain if all possible pairs of features certainly pass, or if a certainly closest pair certainly passes.
+  /// Returns whether the closest points of nearly parallel edges lie in the block of the other edge's face. Exactly
+  /// parallel edges have closest points at both ends of the overlap; one end is enough. The answer is certain if all
+  /// possibly closest pairs of features certainly pass, or if a certainly closest pair certainly passes.
   Membership in_blocks_where_closest(Index other, const EdgePair& pair) const {
     Membership some{false, false, false};
     bool all_certain = true;
@@ -126,8 +126,8 @@ class EdgeQuery {
     return some;
   }
 
-  /// Checks the conditions of the features' blocks. Skips a condition if its failure makes other features of the same
-  /// two edges closest, because are_closest decides it.
+  /// Returns whether each closest point lies in the block of the other feature. Leaves out the conditions that separate
+  /// features of the same two edges, because are_closest decides these.
   Membership in_other_blocks(Index other, EdgeFeatures features) const {
     Membership inside;
     visit_pair(mesh_, faces_of(other, features), [&](const PairBoundary& boundary) {
@@ -146,7 +146,7 @@ class EdgeQuery {
   }
 
   /// Adds one of the nine pairs of faces. Skips a pair that certainly ties with the closest pair (edges of zero
-  /// length), because the order of closest_features decides which of them is the contact.
+  /// length). Of these two pairs, the first in the order of closest_features is the contact.
   void enter_features(Index other, const EdgePair& pair, EdgeFeatures features, EdgeFeatures closest,
                       const Membership& rule) {
     const FacePair faces = faces_of(other, features);
@@ -157,8 +157,8 @@ class EdgeQuery {
     }
     const Membership inside = membership(faces);
     if (!inside.possible) return;
-    // If the rule for nearly parallel edges may hold, the pair of faces is doubtful. The pair of interiors is not,
-    // because it is the contact with and without the rule.
+    // If the rule for nearly parallel edges may hold, this pair of faces is doubtful. Only the pair of interiors is not
+    // doubtful, because it is the contact with and without the rule.
     const bool is_interiors = features == EdgeFeatures{EdgeFeature::interior, EdgeFeature::interior};
     const bool unaffected = is_interiors || !rule.possible;
     add(faces, other, is_closest && inside.exact && (is_interiors || !rule.exact),

@@ -84,7 +84,7 @@ class VertexQuery {
                        [&](const VertexFacetContact& c) { return c.face == face; });
   }
 
-  /// Executes lines 9–20 of Alg. 1.
+  /// Executes lines 9–20 of Alg. 1 for the closest face of a triangle.
   void enter(Face face) {
     if (entered(face)) return;
     if (face.kind != FaceKind::triangle) {
@@ -99,7 +99,7 @@ class VertexQuery {
     answer_.contacts.push_back(contact(face));
   }
 
-  /// Takes a triangle within r of the vertex. Notes which of the triangle's possibly closest faces are doubtful, and
+  /// Examines a triangle within r of the vertex. Notes which of the triangle's possibly closest faces are doubtful, and
   /// which faces could replace them.
   void ask_about(Index t, const Corners& corners) {
     const std::uint8_t features = possible_features(corners, x_);

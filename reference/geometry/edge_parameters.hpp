@@ -11,8 +11,8 @@ namespace ogc::reference {
 /// The parameters of one pair of contact points.
 struct EdgeParameters {
   std::array<double, 2> values{};  ///< in [0, 1]
-  /// The larger Σ|∂s/∂δᵢ||δᵢ| of the two parameters s, at least 1; δ are the coordinates relative to the first edge's
-  /// end_0. Infinite if undefined.
+  /// For each parameter s the sum Σ|∂s/∂δᵢ||δᵢ|, where δ are the coordinates relative to the first edge's end_0.
+  /// `condition` is the larger sum, at least 1; infinite if a parameter is undefined.
   double condition = 1;
   double distance = 0;  ///< distance of the two points [m]; set by parallel_parameters only
 };

@@ -46,7 +46,7 @@ struct FilterCounts {
   FilterCounts since(const FilterCounts& earlier) const;
 };
 
-/// Returns the counts of all threads since the program began. Evaluations that run at the same time may be missing.
+/// Returns the counts of all threads since the program began. May miss evaluations that run during the call.
 FilterCounts filter_counts();
 
 /// Counts one evaluation; called by the predicates.

@@ -44,8 +44,8 @@ T side(const Point<T>& a, const Point<T>& b, const Point<T>& c, const Point<T>& 
   return dot(cross(e, p - a), cross(e, c - a));
 }
 
-/// Returns ((q₀−p)×(q₁−q₀))·((x−p)×(q₁−q₀)): > 0 if a step from p towards x comes nearer to the line q₀q₁. With the
-/// foot c of p on that line, it equals ‖q₁−q₀‖² (c−p)·(x−p), the plane test of Eq. 15 for c.
+/// Returns ((q₀−p)×(q₁−q₀))·((x−p)×(q₁−q₀)): > 0 if a step from p towards x comes nearer to the line q₀q₁. The result
+/// equals ‖q₁−q₀‖² (c−p)·(x−p), where c is the foot of p on the line: the plane test of Eq. 15 for c.
 template <class T>
 T turn(const Point<T>& p, const Point<T>& x, const Point<T>& q0, const Point<T>& q1) {
   const Point<T> v = q1 - q0;

@@ -50,8 +50,8 @@ Candidates candidates_of(std::span<const Generated> sorted) {
   return candidates;
 }
 
-/// Adds a grey decision if a contact is certain, but the lowest-numbered pair of edges that generates it is not. The
-/// decision accepts the contact with each pair of edges up to the first certain pair.
+/// Adds a grey decision if a contact is certain, but its lowest-numbered pair of edges is not certain. The decision
+/// accepts the contact with each pair of edges up to the first certain pair.
 void add_doubtful_owner(const Complex& mesh, const Candidate& candidate, std::vector<Grey>& grey) {
   const auto certain = candidate.first_certain();
   if (certain == candidate.generators.begin()) return;

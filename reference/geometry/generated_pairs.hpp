@@ -18,8 +18,8 @@ struct Generated {
   friend auto operator<=>(const Generated&, const Generated&) = default;
 };
 
-/// Holds a doubtful pair of faces. Beyond one of the pair's boundaries, `other` is the contact instead (if `joined`),
-/// or there is no contact.
+/// Holds a doubtful pair of faces: rounding may put it beyond one of its boundaries. There `other` is the contact (if
+/// `joined`), or there is no contact.
 struct Doubt {
   FacePair faces, other;  ///< the doubtful pair, and the pair that replaces it
   bool joined = false;    ///< whether `other` replaces `faces`

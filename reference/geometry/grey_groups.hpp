@@ -12,7 +12,7 @@ namespace ogc::reference {
 template <class Key>
 class GreyGroups {
  public:
-  /// Adds a doubtful contact. `absence`: whether rounding can remove the contact without another contact in its place.
+  /// Adds a doubtful contact. `absence`: whether rounding can remove the contact and put no other contact in its place.
   void add(const Key& key, bool absence) {
     Entry& entry = entries_.try_emplace(key, Entry{key}).first->second;
     entry.absence = entry.absence || absence;

@@ -194,7 +194,7 @@ double gap_sensitivity(const Points<double>& at, double radius, bool is_plane) {
 }
 
 /// Returns Σ|∂m/∂δᵢ||δᵢ|. Uses explicit derivatives for speed, because every doubtful decision needs this sum. `delta`
-/// comes from `relative`.
+/// is the result of `relative`.
 double sensitivity_at(const Margin& margin, const std::array<std::array<double, 3>, 4>& delta) {
   const Points<double> at = constants<double>(delta);
   switch (margin.kind) {

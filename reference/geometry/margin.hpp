@@ -14,8 +14,8 @@ namespace ogc::reference {
 
 using compare::Vec3f;
 
-/// Names a formula of formulas.hpp. A gap is the numerator minus r² times the denominator of a squared distance d²: it
-/// has the sign of d² − r².
+/// Names a formula of formulas.hpp. For a squared distance d² = p/q, the gap is p − r² q, which has the sign of d² −
+/// r².
 enum class MarginKind : std::uint8_t { along, side, turn, parallel, gap_points, gap_line, gap_plane, gap_lines };
 
 /// A formula and its points. The coordinates δ of the grey zone are relative to the first point.
@@ -78,8 +78,8 @@ int sign(const Margin& margin);
 double sensitivity(const Margin& margin);
 
 /// Returns whether |m| ≤ 16 · 2⁻²⁴ Σ|∂m/∂δᵢ||δᵢ| and the sum is not 0 (method.md §2.5); the radius counts as exact. If
-/// the sum is 0, no relative change of the δᵢ changes the sign, and the margin is not grey. An example is a vertex
-/// straight above a vertex of an axis-parallel grid.
+/// the sum is 0, no relative change of the δᵢ changes the sign, so the margin is not grey. An example is a vertex
+/// straight above a grid vertex, in an axis-parallel grid.
 bool grey(const Margin& margin);
 
 /// Returns the distance of a gap [m], within 1 ulp of double. The denominator must be positive.
@@ -109,9 +109,9 @@ int compare_distances(const Margin& a, const Margin& b);
 /// denominator must be positive.
 std::string squared_distance(const Margin& gap, float scale = 1);
 
-/// Returns the margin as a signed length [m], within 1 ulp of double. For `along` and `side` it is the distance of the
-/// last point from the plane, for a gap d − r (without cancellation). Returns 0 if the line or plane is not defined.
-/// Throws std::logic_error for `turn` and `parallel`, which are no lengths.
+/// Returns the margin as a signed length [m], within 1 ulp of double: for `along` and `side` the distance of the last
+/// point from the plane, for a gap d − r (without cancellation). Returns 0 if the line or plane is not defined. Throws
+/// std::logic_error for `turn` and `parallel`, because these margins are not lengths.
 double signed_length(const Margin& margin);
 
 /// Returns m_k / Σ m_j for each margin m_k, within 1 ulp of double. The margins must not be gaps, and their exact sum

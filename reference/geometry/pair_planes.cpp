@@ -159,7 +159,7 @@ class PlaneMaker {
     const Long gap = bottom - top;
     const bool first_fixed = is_fixed(pair, false), second_fixed = is_fixed(pair, true);
     const Long part = first_part(pair);
-    // The offset of a fixed side is put half way to the offset of the other side; no vertex uses it.
+    // No vertex uses the offset of a fixed side. It is put half way from this side to the offset of the other side.
     const auto room = [share](bool fixed, bool other_fixed, Long own_part) {
       return fixed ? Long{0.5} - share : (other_fixed ? 2 * share : 2 * share * own_part);
     };

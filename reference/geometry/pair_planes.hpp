@@ -27,13 +27,13 @@ struct NearPair {
 
 /// Returns all pairs within r_q, ascending, with their planes if they can have one (method.md §5.6). The normal is n =
 /// (c_q − c_p)/d for the exact closest points c_p and c_q. Each offset lies γ_p d from its side, or 2γ_p d if the other
-/// side is fixed. If displacements are given and both sides can move, the sides divide 2γ_p d (PlaneFreedom::division).
-/// If `sought` (by vertex) is not empty, only pairs with a marked vertex are returned. Runs in parallel; the answer
-/// does not depend on the number of threads.
+/// side is fixed. If displacements are given and both sides can move, the offsets divide 2γ_p d between the sides
+/// (PlaneFreedom::division). If `sought` (by vertex) is not empty, only pairs with a marked vertex are returned. Runs
+/// in parallel; the answer does not depend on the number of threads.
 std::vector<NearPair> near_pairs_with_planes(const compare::PlaneIn& in, std::span<const std::uint8_t> sought = {});
 
-/// Returns planes and balls. A pair has a plane if it is nearer than the 17th nearest pair of each of its movable
-/// vertices. All other pairs limit the balls.
+/// Returns planes and balls. A pair has a plane if, for each of its movable vertices, it is nearer than the vertex's
+/// 17th nearest pair. All other pairs limit the balls.
 compare::PlaneOut pair_planes(const compare::PlaneIn& in);
 
 }  // namespace ogc::reference

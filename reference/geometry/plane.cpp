@@ -1,10 +1,6 @@
-// Decides exactly which pairs the planes and balls of an answer keep apart. Compares heights n·x in double first, and
-// in exact numbers if rounding could hide the sign. Computes the exact distance of a pair only if neither a plane nor a
-// cheap test proves that the answer keeps the pair apart.
-//
-// Measures in double how far the vertices can move: the errors of distances (within 2⁻⁴⁰ of their scale) are far below
-// the units in which freedom is judged. A pair must have a plane only if every single-precision kernel within its
-// tolerances finds that the pair must have one.
+// Measures in double how far the vertices can move. The errors of distances (within 2⁻⁴⁰ of their scale) are far below
+// the units in which freedom is judged. Requires a plane for a pair only if every single-precision kernel within its
+// tolerances must give it one.
 #include "reference/geometry/plane.hpp"
 
 #include <CGAL/Gmpq.h>
@@ -212,8 +208,8 @@ class FreedomCheck {
   }
 
  private:
-  /// Returns whether a kernel may put the pair within r_q. `pairs_` may lack pairs whose distance has few correct bits,
-  /// so a missing pair is measured here.
+  /// Returns whether a kernel may find the pair within r_q. `pairs_` may lack a pair whose distance has few correct
+  /// bits, so a pair that is not in `pairs_` is measured here.
   bool may_have_plane(const PrimitivePair& name) const {
     const auto found = std::ranges::lower_bound(pairs_, order(name), {},
                                                 [](const MeasuredPair& pair) { return order(pair.name); });
@@ -266,7 +262,7 @@ class FreedomCheck {
     return std::ranges::any_of(side, [this](Index v) { return answered_.moves(v); });
   }
 
-  /// Returns how far a side's offset lies beyond the side's farthest vertex in the direction `sign` · n, times the
+  /// Returns the distance from a side's farthest vertex in the direction `sign` · n to the side's offset, times the
   /// length of n.
   template <class Vertices>
   Long way_to_offset(const PrimitivePair& name, const Vertices& side, const Vec3f& n, Long sign) const {
@@ -286,8 +282,9 @@ class FreedomCheck {
     return largest / std::sqrt(inner(n, n));
   }
 
-  /// Returns the error with which the offsets divide 2γ_p d, in the units of PlaneFreedom::division. Returns 0, so that
-  /// any division is accepted, if a side cannot move or rounding can hide whether the sides approach.
+  /// Returns the error of the offsets: how far their division of 2γ_p d is from the right one, in the units of
+  /// PlaneFreedom::division. Returns 0 if any division is accepted, because a side cannot move or rounding can hide
+  /// whether the sides approach.
   template <class Pair>
   double division(const Pair& pair, const Vec3f& n, const MeasuredPair& measured) const {
     if (!can_move(pair.first) || !can_move(pair.second)) return 0;
@@ -306,8 +303,8 @@ class FreedomCheck {
     return static_cast<double>(error / (u * (measured.scale + doubtful)));
   }
 
-  /// Returns how far a side may move in the direction `sign` · n, times the length of n: the smallest distance of a
-  /// movable vertex from its half-space's plane. Returns 0 if no vertex can move.
+  /// Returns how far a side may move in the direction `sign` · n, times the length of n. This is the smallest distance
+  /// from a movable vertex to the plane of its half-space; 0 if no vertex can move.
   template <class Vertices>
   double room(const PrimitivePair& name, const Vertices& side, const Vec3f& n, double sign) const {
     double least = infinity;
@@ -321,8 +318,8 @@ class FreedomCheck {
     return least < infinity ? least : 0;
   }
 
-  /// Returns a threshold for each vertex. A pair nearer than the thresholds of its vertices has a plane, however a
-  /// kernel rounds.
+  /// Returns a threshold for each vertex. If a pair is nearer than the thresholds of all its vertices, every kernel
+  /// must give it a plane, however it rounds.
   std::vector<double> thresholds() const {
     constexpr std::size_t most = compare::planes_of_vertex;
     std::vector<std::vector<double>> distances(in_.positions.size());
@@ -340,7 +337,8 @@ class FreedomCheck {
   void judge_planes(const std::vector<double>& threshold) {
     for (const MeasuredPair& pair : pairs_) {
       const auto is_among_nearest = [&](Index v) { return pair.distance < threshold[at(v)]; };
-      // Skips pairs of fixed vertices. No case has such pairs, but a wrong form that ignores exclusions may add some.
+      // Skips pairs of fixed vertices. Cases have no such pairs, but a wrong form that ignores exclusions may find
+      // some.
       const auto moves = [&](Index v) { return answered_.moves(v); };
       const bool is_due = pair.has_room && is_within(pair.distance) && std::ranges::any_of(pair.vertices, moves) &&
                           std::ranges::all_of(pair.vertices, is_among_nearest);

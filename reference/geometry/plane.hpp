@@ -6,7 +6,7 @@
 
 namespace ogc::reference {
 
-/// A number n·x + o whose parts are exact.
+/// A height n·x + o, given exactly by its parts n, x and o.
 struct Height {
   compare::Vec3f normal, point;  ///< n, and x [m]
   double offset = 0;             ///< o [m] times the length of n
@@ -15,8 +15,8 @@ struct Height {
 /// Returns the sign of a − b, exactly. All numbers must be finite.
 int compared(const Height& a, const Height& b);
 
-/// Returns whether an answer guarantees separation, and how much freedom it leaves. The answer's arrays must have one
-/// entry for each vertex and its numbers must be finite. Throws like plane_guarantee.
+/// Returns whether an answer keeps all pairs apart, and how far it lets the vertices move. The answer's arrays must
+/// have one entry for each vertex and its numbers must be finite. Throws like plane_guarantee.
 compare::PlaneTruth plane(const compare::PlaneIn& in, const compare::PlaneOut& out);
 
 /// Checks the guarantee for all pairs within r_q, in parallel. Throws InputError if the answer's arrays do not have one

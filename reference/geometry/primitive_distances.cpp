@@ -57,15 +57,15 @@ class Facets {
   }
 
  private:
-  /// Measures the vertices that lie opposite to the triangle's edges in the neighbouring triangles.
+  /// Measures the distances between triangle t and the vertices opposite to its edges in the neighbouring triangles.
   void meet_ring(Index t) {
     for (const Index e : in_.topology->triangle_edges[at(t)])
       for (const Index other : mesh_.triangles_of(e))
         if (other != t) meet(mesh_.opposite(other, e), t, in_.query_radius);
   }
 
-  /// Lowers the distances of vertex v and triangle t to the distance of the pair, unless the pair is surely beyond
-  /// `known`.
+  /// Lowers the distances of vertex v and triangle t to the distance of the pair. Skips the pair if it is certainly
+  /// farther apart than `known`.
   void meet(Index v, Index t, float known) {
     const compare::Triangle& corners = mesh_.triangle(t);
     if (!in_.topology->on_surface(v) || !in_.topology->on_surface(corners)) return;
@@ -109,8 +109,8 @@ class Edges {
       for (const Index other : mesh_.edges_of(mesh_.opposite(t, e))) meet(e, other, of_edge_.so_far(at(e)));
   }
 
-  /// Lowers the distances of both edges to the distance of the pair, unless the pair is surely beyond `known`. Puts the
-  /// lower-numbered edge first, as the detection does, so that both compute the same bits.
+  /// Lowers the distances of both edges to the distance of the pair. Skips the pair if it is certainly farther apart
+  /// than `known`. Puts the lower-numbered edge first, as the detection does, to get the same bits.
   void meet(Index e, Index other, float known) {
     const compare::Edge &a = mesh_.edge(std::min(e, other)), &b = mesh_.edge(std::max(e, other));
     if (!in_.topology->on_surface(a) || !in_.topology->on_surface(b)) return;

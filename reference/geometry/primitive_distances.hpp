@@ -8,8 +8,8 @@
 
 namespace ogc::reference {
 
-/// d_min,v, d_min,e and d_min,t [m] (Alg. 1 line 6, Alg. 2; Eq. 22, 24, 26); r_q if no primitive is nearer. They equal
-/// those of detect_vertex_facet and detect_edge_edge bit for bit.
+/// d_min,v, d_min,e and d_min,t [m] (Alg. 1 line 6, Alg. 2; Eq. 22, 24, 26); r_q if no primitive is nearer. The values
+/// are bit for bit the same as in detect_vertex_facet and detect_edge_edge.
 struct PrimitiveDistances {
   std::vector<float> vertex, edge, triangle;  ///< by number of the primitive [m]
 };

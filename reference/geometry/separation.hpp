@@ -1,6 +1,6 @@
-// Tests cheaply, before exact tests, whether two primitives are certainly farther apart than a distance. Two parallel
-// planes with one primitive on either side prove it, for any direction of the planes. So only the width of the slab
-// between them needs an error bound.
+// Tests cheaply, before exact tests, whether two primitives are certainly farther apart than a distance. Any slab
+// between the primitives proves a distance: two parallel planes with the first primitive on one side and the second on
+// the other. So only the width of this slab needs an error bound.
 #pragma once
 
 #include <array>
@@ -12,7 +12,8 @@ namespace ogc::reference {
 /// Selects what a detection returns.
 enum class DetectionExtent {
   judged,  ///< the whole truth of the stage: counts pairs, lists near and grey decisions
-  /// only `exact`: skips pairs that can neither be a contact nor lower a smallest distance, and does not count them
+  /// only `exact` of the truth: skips a pair without counting it if the pair can be no contact and lower no smallest
+  /// distance
   exact
 };
 

@@ -31,8 +31,9 @@ class Smallest {
   std::vector<float> values_;
 };
 
-/// Factor by which the search radius exceeds r_q. So detections find grey distances just outside r even if r_q = r. The
-/// grey zone is wider only for slender faces, whose distance has fewer than about ten correct bits.
+/// Multiple of r_q up to which pairs are searched. So detections find pairs beyond r that rounding may put within r,
+/// even if r_q = r. Rounding may reach farther only for slender faces, whose distance has fewer than about ten correct
+/// bits.
 inline constexpr double search_margin = 1 + 1.0 / 64;
 
 }  // namespace ogc::reference

@@ -67,8 +67,8 @@ struct Way {
   double relative_error = infinity;
 };
 
-/// Solves H w = n for w by cofactors. The condition number of H is computed in Frobenius norms; it is at most three
-/// times as large as in ‖·‖₂.
+/// Solves H w = n for w by cofactors. Uses Frobenius norms for the condition number, which is at most three times the
+/// condition number in ‖·‖₂.
 Way way_out(const std::array<float, 6>& block, const Vec3f& normal) {
   const auto [xx, xy, xz, yy, yz, zz] = std::array<Long, 6>{block[0], block[1], block[2], block[3], block[4], block[5]};
   const std::array<Long, 6> cofactor{yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy,
@@ -141,8 +141,8 @@ class RegionCheck {
     truth_.accepted = infinity;
   }
 
-  /// Finds the largest share of the step that every half-space and the ball allow. `least` is this share if the answer
-  /// keeps the largest permitted distance from the half-spaces and from the ball's surface.
+  /// Finds the largest share of the step that every half-space and the ball allow. `least` is the smallest share that
+  /// is accepted: an answer may keep the largest permitted distance from the half-spaces and from the ball's surface.
   void along_path() {
     const Point step = plus(proposal_, -1, current_);
     const double whole = length(step);
@@ -172,8 +172,8 @@ class RegionCheck {
   }
 
   /// Counts the half-spaces that the step does not approach, but that the rounded end of the step may violate. If there
-  /// is one, a small step away from this half-space brings the end inside. If there are several, possibly no position
-  /// near the end is inside all of them.
+  /// is only one, a small step away from it brings the end inside. If there are several, there may be no position near
+  /// the end that is inside all of them.
   std::ptrdiff_t beside(const Point& end, const Point& step) const {
     return std::ranges::count_if(half_spaces_, [&](const HalfSpace& h) {
       const Point n = wide(h.normal);
@@ -181,8 +181,9 @@ class RegionCheck {
     });
   }
 
-  /// Returns the half-space that the proposal certainly violates, if the proposal can violate no other one, even with a
-  /// kernel's rounding; otherwise null. Sets `is_ball` to whether the proposal certainly violates no half-space.
+  /// Returns the half-space that the proposal certainly violates, if the proposal certainly keeps all other
+  /// half-spaces, however a kernel rounds. Otherwise returns null. Sets `is_ball` to whether the proposal certainly
+  /// keeps all half-spaces, so that only the ball can cut it.
   const HalfSpace* only_violated(bool& is_ball) const {
     const HalfSpace* only = nullptr;
     int count = 0;

@@ -21,7 +21,8 @@ Index root(std::vector<Index>& parent, Index v) {
   return v;
 }
 
-/// Returns for each vertex the lowest vertex number of its component; vertices of one stencil are connected.
+/// Returns for each vertex the lowest vertex index of its component. Two vertices are in one component if stencils
+/// connect them.
 std::vector<Index> components(const std::vector<std::vector<Index>>& near) {
   std::vector<Index> parent(near.size());
   std::iota(parent.begin(), parent.end(), Index{0});

@@ -66,8 +66,8 @@ compare::VolumeForceCase question_of(const compare::SweepIn& in, const std::vect
   return question;
 }
 
-/// Returns Σ |w_u|/|w|. The sum is over the contact's vertices that have the updated vertex's colour; it includes the
-/// updated vertex, whose weight is w (method.md §7.4).
+/// Returns Σ |w_u|/|w|, where w is the weight of the updated vertex. The sum is over the contact's vertices of the same
+/// colour, including the updated vertex (method.md §7.4).
 double majorant(const compare::SweepIn& in, const compare::VolumeContact& contact, std::size_t own) {
   const compare::Triangle& corners = in.topology->triangles[static_cast<std::size_t>(contact.triangle)];
   const std::array<Index, 4> vertex{contact.point, corners[0], corners[1], corners[2]};
@@ -86,8 +86,8 @@ std::vector<compare::ForceAnswer> majorised(std::vector<compare::ForceAnswer> an
   return answers;
 }
 
-/// Roundings that the factor of `majorant` adds to a block: up to three additions of moduli. The product with |w|, in
-/// place of w², adds no rounding.
+/// Roundings that the factor of `majorant` adds to a block: up to three additions of moduli. The block has the factor
+/// |w| in place of w², which adds no rounding.
 constexpr double majorant_tolerance = 3;
 
 }  // namespace

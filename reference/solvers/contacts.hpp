@@ -37,8 +37,8 @@ ContactStencil stencil_of(const compare::Topology& topology, const compare::Vert
 /// Returns the stencil of a contact between two edges; its sides may be ends of the edges.
 ContactStencil stencil_of(const compare::Topology& topology, const compare::EdgeEdgeContact& contact);
 
-/// Returns ‖ē‖² of both edges of an edge–edge contact [m²], by which its energy is mollified. Returns 0 for an edge
-/// without triangles, and zeros for all other contacts.
+/// Returns the squared rest length ‖ē‖² of each edge of an edge–edge contact [m²], which the mollifier needs. Returns 0
+/// for an edge without triangles, and zeros for all other contacts.
 std::array<float, 2> mollified_rest_squared(const compare::Topology& topology, const compare::RestStateOut& rest,
                                             const ContactStencil& stencil);
 

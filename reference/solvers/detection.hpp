@@ -23,10 +23,10 @@ struct Detected {
 /// Rounds positions to the nearest single-precision numbers.
 std::vector<compare::Vec3f> rounded(const State& x);
 
-/// Returns a query radius between r and `most` [m] that gives the `movable` vertices the same contacts and bounds as
-/// `most`. Let e be the edge opposite to v in a triangle of v. If e has another triangle, without v, that triangle
-/// limits b_v to γ_p times the distance from v to e. The function computes the smallest such distance for each vertex,
-/// or `most` if there is none, and returns the largest.
+/// Returns a query radius between r and `most` [m] that is large enough: the `movable` vertices get the same contacts
+/// and bounds as with `most`. Let e be an edge opposite to v that also belongs to a triangle without v. This triangle
+/// limits b_v to γ_p times the distance from v to e. The function computes the smallest of these distances for each v,
+/// or `most` if there is none, and returns the largest result.
 float sufficient_query_radius(const compare::Topology& topology, const compare::ExclusionView& exclusions,
                               const std::vector<std::size_t>& movable, const std::vector<compare::Vec3f>& positions,
                               float contact_radius, float most);

@@ -19,8 +19,8 @@ Coordinate coordinate(long double x, long double v, long double a, long double h
   return {x + flown + accelerated, std::abs(x) + std::abs(flown) + std::abs(accelerated)};
 }
 
-/// Adds the truth about one rotation, computed in double. The error of 2⁻⁵² is small enough: if the cosine of half the
-/// angle is below 3 · 2⁻²⁰, every answer is accepted.
+/// Adds the truth about one rotation, computed in double. Its error of 2⁻⁵² is divided by the cosine of half the angle.
+/// This is precise enough, because every answer is accepted if the cosine is below 3 · 2⁻²⁰.
 void add_turn(const compare::TurnCase& c, compare::InitialGuessTruth& truth) {
   const Triple<double> from{c.before.x, c.before.y, c.before.z}, to{c.now.x, c.now.y, c.now.z};
   FourOf<double> q{c.orientation[0], c.orientation[1], c.orientation[2], c.orientation[3]};

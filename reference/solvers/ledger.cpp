@@ -160,9 +160,9 @@ class LedgerWriter::Writer : private RoundedScene {
   }
 
   /// Finds the vertices that the sweep cut; the trace has only their number. A prescribed vertex was cut if its stored
-  /// position differs from its proposal, because nothing else changes it. Free vertices always differ from their
-  /// proposals by rounding. So the remaining cuts are assigned to the free vertices farthest from their proposals. The
-  /// proposals of all other vertices are set to their stored positions.
+  /// position differs from its proposal, because nothing else changes it. Rounding makes the stored positions of all
+  /// free vertices differ from their proposals. So the remaining cuts are assigned to the free vertices farthest from
+  /// their proposals. The proposals of all other free vertices are set to their stored positions.
   void find_cut(State& proposed, const State& stored, Index cut) {
     const auto behind = std::ranges::count_if(prescribed_, [&](std::size_t v) { return proposed[v] != stored[v]; });
     const auto taken = [&](std::size_t v) { return length(proposed[v] - stored[v]); };
@@ -173,7 +173,8 @@ class LedgerWriter::Writer : private RoundedScene {
     cut_.erase(end, cut_.end());
   }
 
-  /// Adds the momentum that truncation removed from the cut vertices, split by direction.
+  /// Adds the momentum that truncation removed from the cut vertices: the total, and the parts across and against the
+  /// normal towards the other side of the vertex's nearest pair.
   void enter_taken(const State& proposed, const State& stored) {
     find_nearest();
     for (const std::size_t v : cut_) {

@@ -1,7 +1,7 @@
-// Computes the ledger of a step by any solver: how much each part of the step changes energy and momentum
-// (reference/ledger.md). The trace of the step is enough: the positions that a sweep would have reached without bounds
-// are computed here in double from the positions before and after the sweep. So neither solvers nor devices need code
-// for the ledger.
+// Computes the ledger of a step: how much each part of the step changes energy and momentum (reference/ledger.md). Only
+// the step's trace is needed, from any solver: the positions that a sweep would have reached without bounds are
+// computed here in double from the positions before and after the sweep. So neither solvers nor devices need code for
+// the ledger.
 #pragma once
 
 #include <memory>

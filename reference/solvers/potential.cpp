@@ -333,8 +333,8 @@ void Potential::sum_gradient(const State& x, PotentialDerivatives& result) const
   add_frame_noise(x, result);
 }
 
-/// Adds to the noise of `result` the errors of energy and forces that rounded frames cause. Sets the error of torques,
-/// which rounded positions and frames cause.
+/// Adds to the noise of `result` the errors in energy and forces that rounded frames cause. Sets the noise of torques,
+/// which rounded positions and rounded frames cause.
 void Potential::add_frame_noise(const State& x, PotentialDerivatives& result) const {
   const RodSystem& rods = this->rods();
   if (!rods.is_used()) return;

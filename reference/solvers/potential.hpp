@@ -106,7 +106,7 @@ class Potential {
   const State& target() const { return target_; }                                       ///< y of the step [m]
   double inertia(std::size_t vertex) const { return mass_[vertex] / (step_ * step_); }  ///< m/h² [N/m]
   /// Returns the diagonal term of each unknown: m/h² of a vertex [N/m], then the regularisation of a segment [N m],
-  /// which makes a matrix with a free twist definite.
+  /// without which the matrix of a freely twisting rod would be singular.
   std::vector<double> inertias() const;
   /// Returns the number of free vertices.
   std::size_t free_count() const { return free_count_; }
@@ -115,12 +115,12 @@ class Potential {
   void add_contact(const ContactStencil& stencil, const State& previous);
   void add_contact(const compare::VolumeContact& contact);
   /// Calls `use` with the list that holds the stencil (elements of one kind, contacts, volumes or friction) and the
-  /// stencil's place in that list. Returns the result of `use`.
+  /// stencil's index in that list. Returns the result of `use`.
   template <class Use>
   auto in_its_list(std::size_t stencil, Use use) const;
   double stencil_energy(std::size_t stencil, const State& x) const;
-  /// Stores the sums of the stencil's moduli from which `sum_gradient` computes the noise of `result`. The stencil's
-  /// first `corners` unknowns are vertices.
+  /// Stores sums of the moduli of the stencil's gradient and Hessian. `sum_gradient` computes the noise of `result`
+  /// from these sums. The stencil's first `corners` unknowns are vertices.
   void measure(std::size_t stencil, std::size_t corners, PotentialDerivatives& result) const;
   void add_frame_noise(const State& x, PotentialDerivatives& result) const;
   void sum_gradient(const State& x, PotentialDerivatives& result) const;

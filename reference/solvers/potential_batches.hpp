@@ -19,8 +19,8 @@ struct Bundle {
 };
 /// Group of the terms that are not evaluated.
 constexpr std::uint8_t left_out = 255;
-/// Sorts terms into bundles; `group` is the group of each term. Terms that take the same branches should be in one
-/// group.
+/// Divides terms into bundles, each with terms of one group. `group` has the group of each term. The terms of a group
+/// should take the same branches.
 std::vector<Bundle> bundled(const std::vector<std::uint8_t>& group);
 
 /// Called by `differentiate` for each finished stencil, on the thread that computed it.

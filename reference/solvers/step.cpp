@@ -34,8 +34,8 @@ std::vector<std::vector<compare::HeldMove>> held_moves(const compare::StepIn& in
   return moves;
 }
 
-/// Returns for each vertex whether a contact keeps it in place, certainly or possibly. Empty if the event is not a
-/// round of the guess loop.
+/// Returns for each vertex whether a contact certainly or possibly keeps it in place. Empty if the event is not a round
+/// of the guess loop.
 std::vector<bool> staying(const std::vector<compare::HeldMove>& moves) {
   std::vector<bool> stays;
   for (const compare::HeldMove& held : moves) stays.push_back(held.touches != 0);
@@ -75,8 +75,8 @@ Depth depth_of(const std::vector<compare::VolumeContact>& contacts, const compar
       above += w * (n.x * apart.x + n.y * apart.y + n.z * apart.z);
       size += std::abs(w) * (std::abs(n.x * apart.x) + std::abs(n.y * apart.y) + std::abs(n.z * apart.z));
     }
-    // φ + r/2 has the same number of terms as r − φ, so the number of roundings in compare/stages/volume_force.hpp is
-    // valid for it, too.
+    // φ + r/2 has as many terms as r − φ, so the number of roundings in compare/stages/volume_force.hpp is valid here,
+    // too.
     if (std::abs(above) <= compare::volume_force_grey * compare::unit_roundoff * size)
       deepest = std::max(deepest, Depth::doubtful);
     else if (above < 0)
@@ -127,7 +127,8 @@ compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answe
     bool is_deep = false;
     if (is_there && *kind == compare::StepEventKind::sweep && volumes != nullptr) {
       const Depth depth = depth_of(*volumes, *in.topology, answer.events[i].position, settings.contact_radius);
-      // If the depth is doubtful, both orders of events are right; the answer's next event shows which one it follows.
+      // If the depth is doubtful, both orders of events are right. Follows the order that the answer's next event
+      // shows.
       const bool detects_next = i + 1 < answer.events.size() &&
                                 answer.events[i + 1].kind == compare::StepEventKind::detection;
       is_deep = depth == Depth::deep || (depth == Depth::doubtful && detects_next);

@@ -9,9 +9,9 @@
 
 namespace ogc::reference {
 
-/// Counts the prescribed vertices at x that bounds keep behind their targets; zero if bounds are not planes. `stays`
-/// holds for each vertex whether a contact keeps it in place in a round of the guess loop; if empty, contacts keep no
-/// vertex in place. A vertex that stays at `previous` for this reason is not counted, because it triggers no detection.
+/// Counts the prescribed vertices that bounds keep behind their targets at x; zero if bounds are not planes. `stays`
+/// tells for each vertex whether a contact keeps it in place in a round of the guess loop; it is empty if contacts keep
+/// no vertex in place. A vertex that a contact keeps at `previous` is not counted, because it triggers no detection.
 StepLag lag_of(const std::vector<compare::Vec3f>& x, const std::vector<compare::Vec3f>& previous,
                const std::vector<compare::Vec3f>& target, const std::vector<compare::Index>& groups,
                const compare::Settings& settings, const std::vector<bool>& stays = {});

@@ -23,9 +23,9 @@ std::array<Triple<double>, Count> plain_corners(const std::array<Index, Count>& 
 /// Holds for each of a contact's four vertices whether it is updated together with the vertex `own`; true for `own`.
 using Updated = std::array<bool, 4>;
 
-/// Returns Σ |w_u|/|w|, or 1 if w is 0. The sum is over the vertices that are updated together; w is the weight at
-/// place `own`. A block times this factor majorises the energy for a simultaneous motion of all these vertices
-/// (method.md §7.4).
+/// Returns Σ |w_u|/|w|, or 1 if w is 0. Here w is the weight at place `own`, and the sum is over the vertices that are
+/// updated together. A block times this factor majorises the energy if all these vertices move at once (method.md
+/// §7.4).
 double majorant(const std::array<double, 4>& weight, const Updated& updated, std::size_t own) {
   double sum = 0;
   for (std::size_t k = 0; k < 4; ++k) sum += updated[k] ? std::abs(weight[k]) : 0;
@@ -53,7 +53,8 @@ void add_friction(const FrictionTerm& term, double factor, const std::array<Trip
     add_outer(2 * factor * slope, component.slope, component.slope, sum.block);
 }
 
-/// Adds a contact. Slope and curvature are evaluated at d clamped to 2⁻²³ r … r, as in the stage contact_force.
+/// Adds a contact. Slope and curvature of the activation are taken at d, clamped to 2⁻²³ r … r as in the stage
+/// contact_force.
 void add_contact(const Potential& potential, const ContactTerm& term, const Updated& updated, std::size_t place,
                  const std::array<Triple<double>, 4>& corners, VertexSystem& sum) {
   const ClosestForm form = closest_form(term.sides, corners);

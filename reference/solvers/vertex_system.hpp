@@ -1,7 +1,7 @@
 // The 3×3 system of one vertex in double, for whole runs: the sum of the forces and blocks of its stencils (method.md
-// §4). Force and block of an element are derived in the file of its energy (kinds/kinds.hpp). The judged sweep
-// (vertex_terms.hpp) sums the answers of the force stages for single-precision positions, with errors. It computes
-// blocks with the same functions, over another number type.
+// §4). The file of each energy derives force and block of its elements (kinds/kinds.hpp). The judged sweep
+// (vertex_terms.hpp) sums the answers of the force stages for single-precision positions, with errors. The force stages
+// compute blocks with the same functions as this file, over another number type.
 #pragma once
 
 #include <array>

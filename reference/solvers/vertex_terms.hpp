@@ -13,17 +13,17 @@
 
 namespace ogc::reference {
 
-/// One term of force and block, with the tolerances of its stage in units of 2⁻²⁴ · scale. Accepted answers near the
-/// exact one are not tried one by one. The spread covers them: it is their largest difference from the exact answer
-/// plus one tolerance. The tolerance is added because their scales may be twice the exact answer's scale.
+/// One term of force and block. The tolerances of its stage are multiples of 2⁻²⁴ of the error scales. The spread is an
+/// additional error that covers all accepted answers near the exact answer: their largest difference from it, plus one
+/// tolerance, because their error scales may be twice as large.
 struct Term {
   std::vector<compare::ForceAnswer> accepted;  ///< the exact answer first
   double force_tolerance = 0, block_tolerance = 0;
   double force_spread = 0, block_spread = 0;  ///< [N], [N/m]
 };
 
-/// Makes a term from the accepted answers of one energy. The spread covers answers within the tolerance of the exact
-/// one; `accepted` keeps all others.
+/// Makes a term from the accepted answers of one energy. Answers within the tolerance of the exact answer only enlarge
+/// the spread. `accepted` gets the exact answer and all others.
 Term term_of(std::vector<compare::ForceAnswer> accepted, double force_tolerance, double block_tolerance);
 
 /// All terms of a vertex except inertia.

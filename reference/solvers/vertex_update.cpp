@@ -39,8 +39,8 @@ Vec3 times(double s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
 double inner(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 double norm(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 
-/// H and f for one choice among the accepted answers, with their errors η and φ. The errors include the error of the
-/// solve.
+/// H and f for one choice among the accepted answers, with their errors η and φ. These errors include the error of
+/// solving H dx = f.
 struct System {
   Vec3 force;
   Symmetric3 block{};
@@ -104,8 +104,8 @@ double beyond_planes(const FreeVertex& vertex, const Vec3& x) {
 }
 
 /// Returns the accepted error of a vertex whose block is so ill-conditioned that the exact position is unknown. The
-/// error is infinity if the vertex may be cut, or if dx·f ≥ −‖dx‖(φ + η‖dx‖) up to the error of storing (φ, η: head of
-/// this file). Otherwise it is 0: the answer is wrong.
+/// error is infinite if the vertex may be cut, or if dx·f ≥ −‖dx‖(φ + η‖dx‖) for the stored position, up to its
+/// rounding (φ, η: head of this file). Otherwise the answer is wrong, and the error is 0.
 double accepted_without_position(const System& system, const FreeVertex& vertex, const Vec3f& answer) {
   const Vec3 moved = minus(wide(answer), wide(vertex.old));
   const bool may_be_cut = norm(minus(wide(answer), wide(vertex.previous))) + truncation_error(vertex) >= vertex.bound ||
@@ -116,8 +116,8 @@ double accepted_without_position(const System& system, const FreeVertex& vertex,
   return inner(moved, system.force) >= -slack ? infinity : 0;
 }
 
-/// Returns the accepted length of an error that has the direction of `error`. Its component along the i-th eigenvector
-/// may be at most `along[i]`.
+/// Returns the largest accepted length of an error in the direction of `error`. The component of this error along the
+/// i-th eigenvector may be at most `along[i]`.
 double accepted_along(const Vec3& error, const Eigen3& eigen, const std::array<double, 3>& along) {
   double share = 0;
   for (std::size_t i = 0; i < 3; ++i) share = std::max(share, std::abs(inner(error, eigen.axis[i])) / along[i]);

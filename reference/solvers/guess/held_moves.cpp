@@ -93,7 +93,8 @@ struct Doubted {
   bool is_grey = false;
 };
 
-/// A contact: all accepted places of its contact points (`ways`), and the moves that its vertices are expected to make.
+/// A contact, with all accepted pairs of its contact points (`ways`) and the moves that its vertices are expected to
+/// make.
 struct Asked {
   std::vector<Meeting> ways;
   std::array<Doubted, 4> expected{};
@@ -101,7 +102,7 @@ struct Asked {
   double friction = 0;
 };
 
-/// The quantities of one contact that determine the move, and their errors.
+/// The quantities that determine what one contact leaves of a move, and their errors.
 struct Measured {
   Hold hold;
   double taken = 0, sliding = 0, normal = 0;  ///< errors of the removed part q, the slip s/w and the normal n
@@ -131,7 +132,8 @@ Measured measure(Meeting meeting, const Asked& asked, std::size_t own, const Mov
   const InputMove relative = wanted + Input(1.0) / weight * others, slide = relative - dot(normal, relative) * normal;
   const Input closing = dot(normal, wanted), opening = dot(normal, others) / weight;
   const auto plain_of = [](const InputMove& a) { return Move{a[0].value, a[1].value, a[2].value}; };
-  // If the other vertices certainly approach, the removed part does not depend on their moves, so they add no error.
+  // If the other vertices certainly approach this vertex, the removed part does not depend on their moves. Then errors
+  // of their moves do not count.
   const double room = dot(plain_of(normal), plain_of(others)) / share,
                room_error = unit * inputs.condition({&opening, 1}) + others_error / share;
   Measured result;
@@ -166,8 +168,7 @@ double norm(const Matrix& a) {
 
 double distance(const Matrix& a, const Matrix& b) { return norm(Matrix{a[0] - b[0], a[1] - b[1], a[2] - b[2]}); }
 
-/// What a contact leaves of a move: the new move, the derivative of the new move by the old move, and an additional
-/// error [m].
+/// What a contact leaves of a move: the new move, its derivative by the old move, and an additional error [m].
 struct Passed {
   Move move{};
   Matrix slope = identity;
@@ -175,7 +176,7 @@ struct Passed {
   bool is_grey = false;
 };
 
-/// Returns the derivative of the remaining move by the move. The contact must certainly remove a part of the move, and
+/// Returns the derivative of the new move by the old move. The contact must certainly remove a part of the move, and
 /// the vertex must certainly slip.
 Matrix slipping(const Hold& hold, double taken, const Move& slide) {
   const double length = norm(slide), mu = hold.friction, share = mu * taken / length;
@@ -217,7 +218,7 @@ Passed passed(const Measured& at, const Move& move, double error) {
   return result;
 }
 
-/// Applies a contact to a move, for one accepted place of the contact points.
+/// Applies a contact to a move. `meeting` has one accepted pair of contact points.
 Passed passed(const Meeting& meeting, const Asked& asked, std::size_t own, const Move& move, double error) {
   const double apart = meeting.distance.value, weight = meeting.weight[own].value;
   const bool ends = meeting.may_end(), acts = meeting.acts();
@@ -314,7 +315,7 @@ std::vector<compare::HeldMove> HeldMoves::judged_round(std::span<const GuessCont
   std::vector<Asked> all;
   // pairs (contact, place in it) of each free vertex
   std::vector<std::vector<std::array<std::size_t, 2>>> rows(groups_.size());
-  std::vector<Touch> touches(groups_.size(), {.is_certain = false});  // of each prescribed vertex
+  std::vector<Touch> touches(groups_.size(), {.is_certain = false});  // whether contacts act on each prescribed vertex
   const bool is_later = !std::exchange(is_first_, false);
   for (const GuessContact& contact : contacts) {
     Asked asked{meetings(question_of(contact, previous, radius_)), {}, {}, contact.friction};
@@ -338,8 +339,8 @@ std::vector<compare::HeldMove> HeldMoves::judged_round(std::span<const GuessCont
     const Doubted& move = carried.at();
     taken_[v] = move.move - wanted;
     taken_error_[v] = rows[v].empty() ? 0 : move.error + compare::unit_roundoff * norm(taken_[v]);
-    // If the error is at most 1/16 of the intended move, the vertex is not grey, because the accepted error covers the
-    // doubt.
+    // A move with a grey decision is not grey if its error is at most 1/16 of the intended move, because the accepted
+    // error covers both decisions.
     const bool is_grey = move.is_grey && move.error > norm(wanted) / 16;
     result[v] = {{move.move[0], move.move[1], move.move[2]}, move.error, !rows[v].empty(), is_grey};
     if (touches[v].is_possible) result[v] = {{}, 0, 1, !touches[v].is_certain};

@@ -14,7 +14,7 @@
 
 namespace ogc::reference {
 
-/// A contact as one of its vertices sees it.
+/// The data of a contact that determine what it leaves of one vertex's move.
 struct Hold {
   double weight = 0;        ///< weight of the vertex, not 0
   Triple<double> normal{};  ///< n

@@ -19,7 +19,7 @@ struct HingeKind : compare::HingeKind {
   using List = Elements<HingeKind>;
   /// Adds the rest data of a scene.
   static void add_at_rest(RestBuilder& to) { add_hinges_at_rest(to); }
-  /// Tolerances of the kind's stage, in units of 2⁻²⁴ · scale.
+  /// Tolerances of the kind's stage, as multiples of 2⁻²⁴ of the error scale.
   static constexpr double force_tolerance = compare::bending_force_tolerance,
                           block_tolerance = compare::bending_block_tolerance;
 

@@ -3,7 +3,7 @@
 //
 //     List                    all elements in double: Elements<Kind>, or a class with its members
 //     elements, vertices      inherited from the kind of the same name in compare
-//     pulled                  the vertices that an element moves, if these are not all of its vertices
+//     pulled                  the vertices on which an element exerts forces, if these are not all of its vertices
 //     add_at_rest             adds the rest data of a scene, if a rest state has elements of the kind
 //     TermOf, term, begin, corners
 //                             for Elements: the type of one element over any number type; functions that make an

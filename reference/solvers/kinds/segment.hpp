@@ -15,7 +15,7 @@ struct SegmentKind : compare::SegmentKind {
   using List = RodSystem;
   /// Adds the rest data of a scene.
   static void add_at_rest(RestBuilder& to) { add_segments_at_rest(to); }
-  /// Tolerances of the kind's stage, in units of 2⁻²⁴ · scale.
+  /// Tolerances of the kind's stage, as multiples of 2⁻²⁴ of the error scale.
   static constexpr double force_tolerance = compare::rod_force_tolerance,
                           block_tolerance = compare::rod_block_tolerance;
 

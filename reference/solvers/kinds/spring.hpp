@@ -16,7 +16,7 @@ struct SpringKind : compare::SpringKind {
   using Term = SpringTerm;
   /// All elements of a scene.
   using List = Elements<SpringKind>;
-  /// Tolerances of the kind's stage, in units of 2⁻²⁴ · scale.
+  /// Tolerances of the kind's stage, as multiples of 2⁻²⁴ of the error scale.
   static constexpr double force_tolerance = compare::spring_force_tolerance,
                           block_tolerance = compare::spring_block_tolerance;
 

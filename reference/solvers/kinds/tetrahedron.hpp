@@ -18,7 +18,7 @@ struct TetrahedronKind : compare::TetrahedronKind {
   using List = Elements<TetrahedronKind>;
   /// Adds the rest data of a scene.
   static void add_at_rest(RestBuilder& to) { add_tetrahedra_at_rest(to); }
-  /// Tolerances of the kind's stage, in units of 2⁻²⁴ · scale.
+  /// Tolerances of the kind's stage, as multiples of 2⁻²⁴ of the error scale.
   static constexpr double force_tolerance = compare::tetrahedron_force_tolerance,
                           block_tolerance = compare::tetrahedron_block_tolerance;
 

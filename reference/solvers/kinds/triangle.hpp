@@ -19,7 +19,7 @@ struct TriangleKind : compare::TriangleKind {
   using List = Elements<TriangleKind>;
   /// Adds the rest data of a scene.
   static void add_at_rest(RestBuilder& to) { add_triangles_at_rest(to); }
-  /// Tolerances of the kind's stage, in units of 2⁻²⁴ · scale.
+  /// Tolerances of the kind's stage, as multiples of 2⁻²⁴ of the error scale.
   static constexpr double force_tolerance = compare::membrane_force_tolerance,
                           block_tolerance = compare::membrane_block_tolerance;
 

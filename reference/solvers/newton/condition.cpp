@@ -10,8 +10,9 @@ namespace ogc::reference {
 namespace {
 
 constexpr int most_iterations = 500;
-/// Relative tolerance of an eigenvalue. For a unit vector z, ‖A z − θ z‖ ≤ tolerance θ implies an eigenvalue within
-/// tolerance θ of θ. It is small, so that the iteration separates the largest eigenvalue from its neighbours.
+/// Relative tolerance of an eigenvalue θ. If ‖A z − θ z‖ ≤ tolerance θ for a unit vector z, A has an eigenvalue within
+/// tolerance θ of θ. The tolerance is small, so that the iteration separates the largest eigenvalue from its
+/// neighbours.
 constexpr double tolerance = 0x1p-20;
 
 /// Returns a start vector with pseudorandom entries in [−1, 1), the same in every run. If it were orthogonal to the

@@ -13,10 +13,9 @@ double smallest_eigenvalue(const BlockMatrix& matrix, Factor& factor);
 /// matrix must be positive definite and factorised.
 double condition_number(const BlockMatrix& matrix, Factor& factor);
 
-/// Returns the condition number of the matrix that inertia and the potential's first `stencils` stencils form.
-/// `derivatives` and `projected` are the derivatives of all stencils, without and with projection. If the matrix
-/// without projection is not positive definite, the projected derivatives are used. Returns not-a-number if neither
-/// matrix is positive definite.
+/// Returns the condition number of the matrix of inertia and the potential's first `stencils` stencils. `derivatives`
+/// and `projected` are the derivatives of all stencils, without and with projection. Uses the projected ones if the
+/// matrix without projection is not positive definite. Returns not-a-number if neither matrix is positive definite.
 double condition_of_first(const Potential& potential, std::size_t stencils, const PotentialDerivatives& derivatives,
                           const PotentialDerivatives& projected);
 

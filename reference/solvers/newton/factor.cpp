@@ -44,7 +44,7 @@ struct Factor::Memory {
 
 namespace {
 
-/// Returns a view of the matrix, which CHOLMOD reads in place and does not change.
+/// Returns a view of the matrix. CHOLMOD reads the matrix in place and does not change it.
 cholmod_sparse view(const BlockMatrix& matrix) {
   cholmod_sparse a{};
   a.nrow = a.ncol = matrix.rows();

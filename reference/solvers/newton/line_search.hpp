@@ -16,8 +16,8 @@ struct Accepted {
 double value_noise(const PotentialTerms& terms);
 
 /// Tries the shares `share`, `share`/2, `share`/4, … of `delta` and returns the first that lowers the energy. `before`
-/// holds the terms at x. A full step may raise the energy by up to `noise` [J], because rounding hides decreases close
-/// to the minimum.
+/// holds the terms at x. The first share may also raise the energy by up to `noise` [J], because rounding hides
+/// decreases close to the minimum.
 Accepted backtracked(const Potential& potential, const State& x, const State& delta, double share,
                      const PotentialTerms& before, double noise);
 

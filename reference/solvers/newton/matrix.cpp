@@ -13,8 +13,8 @@ std::uint64_t key(std::uint64_t column, std::uint64_t row) { return column << 32
 std::size_t column_of(std::uint64_t block) { return block >> 32; }
 std::size_t row_of(std::uint64_t block) { return block & 0xffffffff; }
 
-/// If a kept pattern has more than this many times the needed blocks, a smaller one replaces it, which costs a new
-/// symbolic factorisation.
+/// A kept pattern is replaced by a smaller one if it has more than this many times the needed blocks. Replacing it
+/// costs a new symbolic factorisation.
 constexpr double most_spare = 1.25;
 
 }  // namespace
@@ -49,7 +49,7 @@ std::vector<BlockMatrix::Share> BlockMatrix::shares_of(std::span<const StencilVe
   return shares;
 }
 
-/// Returns the keys of all blocks that shares or the diagonal need, ascending.
+/// Returns the keys of all blocks to which stencils or the diagonal are added, ascending.
 std::vector<std::uint64_t> BlockMatrix::needed_blocks() const {
   std::vector<std::uint64_t> shared, diagonal, needed;
   for (const Share& share : shares_)

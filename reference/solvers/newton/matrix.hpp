@@ -21,8 +21,8 @@ class BlockMatrix {
   /// Takes the mobility of each vertex; free vertices have rows.
   explicit BlockMatrix(const std::vector<Mobility>& mobility);
 
-  /// Finds the blocks of these stencils; returns whether the pattern changed. The first `steady` stencils must be the
-  /// same in every call with the same `steady`, so that their blocks are found only once.
+  /// Finds the blocks of these stencils; returns whether the pattern changed. The blocks of the first `steady` stencils
+  /// are found only once. So these stencils must be the same in every call with the same `steady`.
   bool set_stencils(std::span<const StencilVertices> stencils, std::size_t steady = 0);
   /// Discards the pattern, so that the next stencils get a minimal one. A kept pattern may have more blocks than
   /// needed, and the pattern determines the order of elimination. If it were kept, the last bits of a step would depend

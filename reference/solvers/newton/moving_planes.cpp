@@ -7,9 +7,9 @@
 namespace ogc::reference {
 namespace {
 
-/// Limit of the sweeps of `truncated`, which move apart the sides of pairs that would come too near.
+/// Most sweeps of `truncated`. A sweep moves apart the sides of pairs that would come too near.
 constexpr int most_sweeps = 64;
-/// Limit of the rounds that scale the steps of single vertices; after them all vertices get the same scale.
+/// Most rounds that scale the steps of single vertices. If they are not enough, one scale is used for all vertices.
 constexpr int most_scalings = 16;
 /// Sides that come too near are moved apart to the least separation plus this share of (gap − least separation).
 /// Without the addition the sweeps might not end.
@@ -87,7 +87,8 @@ double MovingPlanes::share_in_ball(std::size_t vertex, const Triple<double>& x, 
   return std::clamp((std::sqrt(ab * ab + bb * room) - ab) / bb * (1 - 0x1p-40), 0.0, 1.0);
 }
 
-/// Returns the pairs whose sides would come too near if they moved straight towards each other by twice their steps.
+/// Returns the pairs whose sides would come too near if both sides moved straight towards each other, each by twice its
+/// largest step.
 std::vector<std::uint32_t> MovingPlanes::endangered(const State& x, const State& step) const {
   std::vector<double> reach(x.size());
   for (std::size_t v = 0; v < x.size(); ++v) reach[v] = length(step[v]);

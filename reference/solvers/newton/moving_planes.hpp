@@ -35,13 +35,14 @@ class MovingPlanes {
 
   /// Moves the vertices that must stay at X_prev to X_prev. x must be X_prev up to rounding.
   void enter(State& x) const;
-  /// Returns `step` [m], changed for the free vertices so that it stays inside; x must be inside. First cuts the step
-  /// to the balls. Then moves apart, in sweeps, the sides of pairs that would come too near. Finally scales the steps
-  /// of vertices whose pairs are still too near.
+  /// Returns `step` [m], changed for the free vertices so that x + step is inside; x must be inside. First cuts the
+  /// step to the balls. Then moves apart, in sweeps, the sides of pairs that would come too near. Finally scales the
+  /// steps of vertices whose pairs are still too near.
   State truncated(const State& x, State step) const;
-  /// Returns a share in [0, 1] for which x + share · step is certainly inside, the largest except for rounding.
+  /// Returns the largest share in [0, 1], up to rounding, for which x + share · step is certainly inside.
   double share_inside(const State& x, const State& step) const;
-  /// Returns a share in [0, 1] for which x + share · step is certainly inside; only `vertex` moves, by `step`.
+  /// Returns a share in [0, 1] of `step` by which `vertex` can move from x, if all others stay, so that x is certainly
+  /// still inside.
   double share_inside(const State& x, std::size_t vertex, const Triple<double>& step) const;
   /// Checks exactly whether stored positions keep every pair apart.
   bool kept_by(const std::vector<compare::Vec3f>& stored) const;

@@ -12,19 +12,19 @@ namespace {
 
 using compare::Vec3f;
 
-/// Factor between the energy decreases: the scaled step is taken if it lowers the energy by this many times the
-/// decrease of δ' (head of solver.hpp).
+/// The scaled step is taken if it lowers the energy by more than this multiple of the decrease of δ' (head of
+/// solver.hpp).
 constexpr double far_more = 2;
 /// A judgement evaluates the residual of a converged or stalled solve with newly detected contacts. After this many
 /// judgements without success the solve ends above the tolerance (head of solver.hpp).
 constexpr int most_judgements = 4;
-/// Largest ratio ‖δ_v‖/‖δ'_v‖ for the stiffness of springs on cut vertices. Beyond it a vertex practically does not
-/// move.
+/// Largest factor by which a round stiffens a cut vertex (its inertia and spring): ‖δ_v‖/‖δ'_v‖, the full step over the
+/// cut step. A vertex with a larger ratio practically does not move.
 constexpr double most_pinned = 1e6;
-/// Limit of the rounds that stiffen these springs. Each round costs a factorisation; from the third round on they
+/// Most rounds that stiffen springs on cut vertices. Each round costs a factorisation; from the third round on they
 /// rarely lower the energy more.
 constexpr int most_pin_rounds = 6;
-/// If the line search accepts a smaller share of the step, the solve has stalled: vertices are at the limits of their
+/// A solve stalls if the line search accepts a smaller share of the step. Then vertices are at the limits of their
 /// balls, or the energy has a kink where contacts change.
 constexpr double least_share = 1e-3;
 
@@ -120,8 +120,8 @@ NewtonSolver::Outcome NewtonSolver::solve() {
 }
 
 /// Runs rounds until the solve ends. A round is an iteration, or only a detection if the residual is small enough.
-/// While prescribed vertices approach their targets slowly, several detections may follow each other; the limit of
-/// rounds ends them, too.
+/// Several detections may follow each other while prescribed vertices approach their targets slowly. The limit on
+/// rounds ends these, too.
 NewtonSolver::Outcome NewtonSolver::solve_once() {
   for (std::int64_t round = 0; round <= 2 * newton_.iterations + 1; ++round)
     if (const std::optional<Outcome> outcome = iterate()) return *outcome;
@@ -171,8 +171,8 @@ std::optional<NewtonSolver::Outcome> NewtonSolver::iterate() {
   return advance(prescribed_cut);
 }
 
-/// Counts a judgement of a solve with newly detected contacts; returns whether there were most_judgements. A judgement
-/// whose force is at most half of the least force so far does not count.
+/// Counts a judgement of a solve (its residual with newly detected contacts), unless the force is at most half of the
+/// least force of earlier judgements. Returns whether most_judgements have been counted.
 bool NewtonSolver::judged_in_vain(double force) {
   if (judgements_ == 0 || force > 0.5 * least_judged_) ++judgements_;
   least_judged_ = std::min(least_judged_, force);
@@ -288,8 +288,8 @@ bool NewtonSolver::pin(const Direction& direction, std::vector<double>& pins) {
   return timed(factorization, [&] { return factor_.factorize(matrix_); });
 }
 
-/// Solves with springs on cut vertices and searches along the truncated solution. As long as vertices are cut again and
-/// the energy falls more, stiffens the springs and repeats.
+/// Solves with springs on cut vertices and searches along the truncated solution. Stiffens the springs and repeats
+/// while vertices are cut again and the energy falls more.
 Accepted NewtonSolver::pinned(Direction direction, const PotentialTerms& before, double noise) {
   Accepted best;
   std::vector<double> pins(derivatives_.gradient.size(), 0);

@@ -226,8 +226,8 @@ void RodSystem::sweep(const Positions& x) {
 
 namespace {
 
-/// Returns k_s l/2 (‖D/l − R(q) e₃‖² + k ‖D/l − R(q) R(qᵗ)ᵀ Dᵗ/l‖²); `apart` is D, `damping` is k. The second vector is
-/// the change of the strain R(q)ᵀ D/l since xᵗ, rotated by R(q), which keeps its length.
+/// Returns k_s l/2 (‖D/l − R(q) e₃‖² + k ‖D/l − R(q) R(qᵗ)ᵀ Dᵗ/l‖²); `apart` is D, `damping` is k. The second norm
+/// equals that of the change of the strain R(q)ᵀ D/l since xᵗ, because R(q) keeps lengths.
 template <class T>
 T segment_energy(const RodTerm& term, const Triple<T>& apart, const FourOf<T>& q, double damping) {
   const auto about = [&](const Triple<double>& own) {

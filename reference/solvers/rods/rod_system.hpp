@@ -20,7 +20,7 @@ struct RodTerm {
   std::array<compare::Index, 2> vertex{-1, -1};     ///< x₀, x₁
   double length = 0, stretch = 0, damping = 0;      ///< l [m], k_s [N], k [1]
   Triple<double> start{};                           ///< R(qᵗ)ᵀ Dᵗ/l
-  std::array<compare::Index, 2> neighbour{-1, -1};  ///< behind, ahead
+  std::array<compare::Index, 2> neighbour{-1, -1};  ///< segments behind and ahead; −1 if there is none
   std::array<double, 2> weight{};                   ///< w = 4 k_b/l̄ [N m]
   std::array<FourOf<double>, 2> rest{}, before{};   ///< p° at rest, pᵗ at xᵗ: rotations relative to each neighbour
   compare::Index held = -1;                         ///< the segment's entry of compare::segment_groups
@@ -56,9 +56,11 @@ class RodSystem {
 
   /// Begins a step at xᵗ with q = qᵗ; damping is relative to this state.
   void begin_step(const std::vector<Triple<double>>& start, std::int64_t number);
-  /// Sets q after the guess loop by rotating qᵗ. A free segment rotates as its direction does from xᵗ to x, or not at
-  /// all with rod_start=kept. A prescribed segment rotates by its motion's rotation; if the motion defines none, it
-  /// rotates as its direction does. A fixed segment keeps qᵗ.
+  /// Sets q after the guess loop by rotating qᵗ:
+  ///
+  /// - free segment: as its direction rotates from xᵗ to x; not at all with rod_start=kept
+  /// - prescribed segment: as its motion rotates; as its direction rotates if the motion defines no rotation
+  /// - fixed segment: not at all
   void turn(const std::vector<Triple<double>>& x);
   /// Moves each free segment to its minimiser, colour by colour.
   void sweep(const std::vector<Triple<double>>& x);
@@ -94,7 +96,8 @@ class RodSystem {
   double length(std::size_t segment) const { return terms_[segment].length; }  ///< l [m]
   std::size_t segments() const { return terms_.size(); }
   bool is_free(std::size_t segment) const { return terms_[segment].held == -1; }
-  /// Returns the diagonal term of ω [N m]. It makes a matrix with a free twist definite and is far below k_s l.
+  /// Returns the diagonal term of ω [N m], which is far below k_s l. Without it the matrix of a freely twisting rod
+  /// would be singular.
   double regularisation(std::size_t segment) const { return 1e-8 * terms_[segment].stretch * terms_[segment].length; }
   /// Sets q ← q exp(ω/2). x has the ω of all segments after the positions.
   void turn_by(const std::vector<Triple<double>>& x);

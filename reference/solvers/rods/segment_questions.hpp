@@ -5,8 +5,8 @@
 
 namespace ogc::reference {
 
-/// Returns the case for the segment's quaternion. Neighbours of lower colour and prescribed vertices have the values of
-/// the answer, all others the values before the sweep.
+/// Returns the case for the segment's quaternion. Prescribed vertices and neighbour segments of lower colour have the
+/// values of the answer. All other vertices and segments have the values before the sweep.
 compare::OrientationCase orientation_question(const compare::SweepIn& in, const compare::SweepOut& answer,
                                               std::size_t segment);
 

@@ -8,7 +8,8 @@ namespace ogc::reference {
 
 /// Selects the contacts that a detection lists (contact_sets.hpp).
 enum class ContactSet {
-  ogc,    ///< each closest face whose block contains the other side, once (Alg. 1 and 2)
+  /// each closest face whose block contains the contact point of the other side; each contact once (Alg. 1 and 2)
+  ogc,
   pairs,  ///< the closest faces of each pair of primitives within r, as in IPC; blocks are not tested
   /// for each vertex the closest point of each other body, as with the gradient of an unsigned distance field
   distance
@@ -26,7 +27,8 @@ enum class ContactBlocks {
   majorised,  ///< |w| Σ |w_u|; the sum is over the contact's vertices that are updated together
   own         ///< w²
 };
-/// Returns whether a contact's term in a vertex's block includes the other vertices that are updated together with it.
+/// Returns whether the factor of a vertex's block includes the weights of the vertices that are updated together with
+/// it.
 constexpr bool majorises(ContactBlocks blocks) {
   switch (blocks) {
     case ContactBlocks::majorised: return true;
