@@ -22,7 +22,8 @@ struct ContactTables {
   const Vec* previous = nullptr;        ///< X_prev by vertex, for e_k [m]
 };
 
-/// Returns a contact with k_c [N/m] and μ from the bodies of two vertices (method.md §4.5); all else is not set.
+/// Returns a contact whose k_c [N/m] and μ come from the bodies of two vertices (method.md §4.5). No other member is
+/// set.
 OGC_HD inline ContactIncidence meeting(const ContactTables& tables, int first, int second) {
   const ContactMaterial material = tables.materials[tables.body[first] * tables.body_count + tables.body[second]];
   ContactIncidence contact;

@@ -6,10 +6,10 @@
 //                     further data that StreamView describes; `NoData` if the kind has none
 //   RestBeside        further data of an element at rest; `NoData` if the kind has none
 //   stream(view)      its stream in a SweepView, and `View`, the part of SweepView that holds it
-//   Whole             its part of a sum, for all of its models
-//   row_in_vertex     its index in SweepVertex::rows; −1: its rows are a separate array
+//   Whole             type that makes the kind's part of a vertex's sum, for all models of the kind
+//   row_in_vertex     index of the kind's row in SweepVertex::rows; −1: its rows are a separate array
 //   is_curve          whether vertices have few elements, so that a narrow team serves them
-//   count, vertices   how many vertices an element has, and which
+//   count, vertices   number of vertices of an element, and their indices
 //   seen, beside      the incidence and its Beside data, by the role of the vertex (its index among the vertices)
 //   begin             computes Start of an element from xᵗ
 //   add_energy        adds an element's energy

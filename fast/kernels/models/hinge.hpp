@@ -110,7 +110,7 @@ struct IsometricStencil {
   float own = 0, other[3] = {};
 };
 
-/// Holds the values that the discrete model reads of hinges as one vertex sees them.
+/// Holds the values of a hinge that the discrete model reads for one vertex.
 template <class N>
 struct HingeReadsOf {
   HingeStencilOf<N> stencil;  ///< c and θ₀
@@ -119,7 +119,7 @@ struct HingeReadsOf {
   N angle_start{};            ///< θᵗ [rad]; 0 without damping
 };
 
-/// Holds the values that any bending model reads of a hinge.
+/// Holds the values of a hinge that any bending model may read.
 struct HingeSeen : HingeReadsOf<float> {
   Vec own;                     ///< position of the vertex that is updated [m]
   IsometricStencil isometric;  ///< read by the isometric model

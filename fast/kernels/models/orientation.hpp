@@ -23,7 +23,7 @@ OGC_HD QuatOf<T> asked_orientation(bool is_ahead, const QuatOf<T>& q, const Quat
   return q * (is_ahead ? conjugate(relative) : relative);
 }
 
-/// Returns w s t, where w is the weight, t is `asked`, and the sign s = ±1 makes s t·old ≥ 0.
+/// Returns w t or −w t, with w = `weight` and t = `asked`. The sign makes the product of t and `old` non-negative.
 template <class T>
 OGC_HD QuatOf<T> pull_towards(const T& weight, const QuatOf<T>& asked, const QuatOf<T>& old) {
   return select(dot(asked, old) < T(0.0f), -weight, weight) * asked;
@@ -72,7 +72,10 @@ OGC_HD T secular_root(const T& upper, const T& lower, const T& sigma) {
 /// Computes M q/σ = −D q c for unit vectors D and c (compare/rods.md). This map is its own inverse.
 template <class T>
 struct ReflectedFrameOf {
-  QuatOf<T> apart, direction;  ///< D/‖D‖, c/‖c‖
+  /// Returns the projection of q onto the eigenspace of eigenvalue 1, where directors are along D. It projects twice:
+  /// after one projection, the rounding error outside the eigenspace is relative to ‖q‖, and could exceed the
+  /// projection itself.
+  QuatOf<T> apart, direction;
 
   OGC_HD QuatOf<T> operator()(const QuatOf<T>& q) const { return T(-1.0f) * (apart * q * direction); }
   /// Returns the part of q in the eigenspace of eigenvalue 1, whose directors are along D. It projects twice. After

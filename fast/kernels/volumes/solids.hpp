@@ -50,7 +50,7 @@ struct SolidAnswer {
 /// Finds where a point lies relative to a volume's parts of tetrahedra.
 class SolidQuestion {
  public:
-  /// `own` is the vertex at the point if it is a vertex of the volume, else −1.
+  /// `own`: the vertex whose position is `point`, if it belongs to the volume; else −1.
   OGC_HD SolidQuestion(const VolumeView& volume, const Vec& point, int own)
       : volume_(volume), solids_(volume.solids), faces_(volume, point), x_(point), own_(own) {}
 
@@ -113,7 +113,7 @@ class SolidQuestion {
     return corner[0] == v || corner[1] == v || corner[2] == v || corner[3] == v;
   }
 
-  /// Returns whether `element` has all corners of `of` whose bits are set.
+  /// Returns whether `element` contains those corners of tetrahedron `of` whose bits are set in `corners`.
   OGC_HD bool has_all(int element, int of, unsigned corners) const {
     for (int k = 0; k < 4; ++k)
       if ((corners >> k & 1U) != 0 && !has(element, solids_.elements[of].corner[k])) return false;
@@ -264,7 +264,8 @@ class SolidQuestion {
   }
 
   /// Returns whether the segment from c to x can be traversed through tetrahedra and ends in the given sheet. c is the
-  /// point of facet t closest to x, and `face` holds it. `sheet` is the sheet's lowest-numbered tetrahedron.
+  /// point of facet t closest to x, `face` is the face that holds c, and `sheet` is the sheet's lowest-numbered
+  /// tetrahedron.
   OGC_HD bool passes(int part, int sheet, int t, int face) const {
     const Real apart = from_facet(t);
     Front front;
