@@ -80,8 +80,8 @@ OGC_HD inline EdgePairFeatures closest_edge_features(const Ends& p, const Ends& 
   return {};
 }
 
-/// Returns whether two edges are nearly parallel and overlap in more than a point, when projected onto the line of p. p
-/// must be the lower-numbered edge.
+/// Returns whether two edges are nearly parallel, and their projections onto the line of p overlap in more than a
+/// point. p must be the lower-numbered edge.
 OGC_HD inline bool is_overlapping_parallel(const Ends& p, const Ends& q) {
   if (exact_sign(NearlyParallel{p.a, p.b, q.a, q.b}) <= 0) return false;
   const bool reaches_a = exact_sign(End{q.a, p.a, p.b}) > 0 || exact_sign(End{q.b, p.a, p.b}) > 0;

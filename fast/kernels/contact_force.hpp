@@ -178,7 +178,7 @@ template <class T>
 struct ContactWeightsOf {
   T slot[4] = {};  ///< w; their sum is 0 up to rounding
 
-  /// Returns w of vertex k. It selects, because an index would move the array from registers to memory.
+  /// Returns w of vertex k by selection: an index would move the array from registers to memory.
   OGC_HD T of(int k) const {
     const T low = k == 0 ? slot[0] : slot[1], high = k == 2 ? slot[2] : slot[3];
     return k < 2 ? low : high;

@@ -1,6 +1,6 @@
-// Converts the records of a detection into the stream that the sweep reads. Each incidence gets vertices, stiffness
-// with the mollifier of this detection, friction, and the buffer from which each neighbour is read. This happens once
-// for each detection, so that the sweep needs no tables.
+// Converts the records of a detection into the stream that the sweep reads. Each incidence gets the encoded indices of
+// its vertices, its friction, and its stiffness with the mollifier of this detection. This happens once for each
+// detection, so that the sweep needs no tables.
 #pragma once
 
 #include <cstdint>

@@ -39,7 +39,7 @@ struct StepRow {
 };
 
 /// Checks the certificate of a vertex at the end of a step, and updates the largest lag and the smallest bound (with
-/// planes: the smallest distance). Runs once for each vertex.
+/// planes: the smallest distance of a pair). Runs once for each vertex.
 struct CheckVertex {
   const Vec* position;             ///< x by vertex [m]
   FeasibleRegions regions;         ///< of the last detection

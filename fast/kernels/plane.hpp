@@ -109,9 +109,9 @@ struct Halved {
 };
 
 /// Returns the first side's share of the approach that both sides may make together. Each side gets a share in
-/// proportion to its speed along n (method.md §5.6, `bounds=dat`). The speed of the first side is its largest n·w, the
-/// speed of the second side its largest −n·w; a side that moves away has the speed 0. The share is clamped to
-/// least_division … 1 − least_division.
+/// proportion to its speed along n (method.md §5.6, `bounds=dat`). The speed of the first side is the largest n·w among
+/// the displacements w of its vertices, the speed of the second side the largest −n·w. A side that moves away has the
+/// speed 0. The share is clamped to least_division … 1 − least_division.
 template <int first_count, int second_count>
 struct ByApproach {
   Vec first[first_count], second[second_count];  ///< w by vertex of the side [m]
@@ -202,8 +202,8 @@ OGC_HD inline double room_to_store(const HalfSpace& plane, const Point& y, int s
   return (1 + 2 * steps) * 0x1p-24 * (modulus(n.x * y.x) + modulus(n.y * y.y) + modulus(n.z * y.z));
 }
 
-/// Returns how far y lies beyond the plane, plus the distance by which storing can increase this. The value only guides
-/// the search for a position; `is_within` decides whether the position is accepted.
+/// Returns how far y lies beyond the plane, plus the largest distance across the plane that storing y may add. The
+/// value only guides the search for a position; `is_within` decides whether the position is accepted.
 OGC_HD inline double beyond(const HalfSpace& plane, const Point& y) {
   return dot(wide(plane.normal), y) - plane.offset + room_to_store(plane, y, 0);
 }
@@ -260,7 +260,7 @@ OGC_HD Vec nudged(const FeasibleRegion& region, Vec x, const Lanes& lanes) {
   return x;
 }
 
-/// Returns the stored position, nudged if it is outside of the region. The caller must check with `is_within` whether
+/// Returns y in single precision, nudged if it is outside of the region. The caller must check with `is_within` whether
 /// the nudges sufficed.
 template <class Lanes>
 OGC_HD Vec stored_inside(const FeasibleRegion& region, const Point& y, const Lanes& lanes) {

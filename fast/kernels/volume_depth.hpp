@@ -357,9 +357,9 @@ class VolumeQuestion {
     return dot(difference<Rounded>(x_, corners(t).a), normal(t)).value >= 0;
   }
 
-  /// Returns the contact with its weights, direction and depth. The direction is along x − c, outward. It is the
-  /// facet's normal if c is in the facet's interior. It is also the normal if ‖x − c‖ is at most 2⁻⁴⁸ ‖x − a‖₁ for the
-  /// facet's first corner a, because x − c is then only rounding error.
+  /// Returns the contact with its weights, direction and depth. The direction is the facet's normal if c is in the
+  /// facet's interior. It is also the normal if ‖x − c‖ is at most 2⁻⁴⁸ ‖x − a‖₁ for the facet's first corner a: then x
+  /// − c is only rounding error. Otherwise the direction is along x − c, outward.
   OGC_HD FoundVolumeContact contact_at(int face, bool inside) const {
     const SurfaceView& surface = volume_.surface;
     FoundVolumeContact contact;

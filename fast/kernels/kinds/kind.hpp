@@ -49,8 +49,7 @@ OGC_HD Row row_of(const View& view, int slot, const SweepVertex& vertex) {
     return {};
 }
 
-/// Computes for each element the value that damping reads: θᵗ or Gᵗ at the start of the step. Runs once for each
-/// element.
+/// Computes for an element the value at the start of the step that damping reads: θᵗ or Gᵗ. Runs once for each element.
 template <class Kind>
 struct BeginElement {
   const typename Kind::Rest* rest;       ///< by element

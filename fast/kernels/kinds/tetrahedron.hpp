@@ -46,8 +46,8 @@ using TetrahedronStencil = TetrahedronStencilOf<float>;
 /// A symmetric 3×3 strain [1] or stress [Pa].
 using SolidStrain = Symmetric3;
 
-/// Holds the data that only damping of strains reads: V, and the gradients ∇N of the other three corners' shape
-/// functions. The gradient of this corner is minus their sum.
+/// Holds the data that only damping of strains reads: V, and the gradients ∇N of the shape functions of the other three
+/// corners. The gradient for this corner is minus the sum of these gradients.
 struct TetrahedronGradients {
   Vec other[3];      ///< ∇N [1/m]
   float volume = 0;  ///< V [m³]

@@ -80,8 +80,8 @@ OGC_HD HingeShapeOf<T> hinge_shape(const Vector<T>& edge, const Vector<T>& a, co
   return shape;
 }
 
-/// Returns ∂θ/∂o0 [1/m] if `opposite`, else ∂θ/∂x0. One formula with selected numerators serves both, because the
-/// vertices of a warp's threads may be of both types.
+/// Returns ∂θ/∂o0 [1/m] if `opposite`, else ∂θ/∂x0. One formula with selected numerators computes both gradients,
+/// because threads of one warp may need different ones.
 template <class T>
 OGC_HD Vector<T> hinge_gradient(const HingeShapeOf<T>& shape, const Mask<T>& opposite) {
   const T a = select(opposite, -shape.length_squared, shape.beyond_a), b = select(opposite, T{}, shape.beyond_b);

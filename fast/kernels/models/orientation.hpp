@@ -39,8 +39,8 @@ OGC_HD void add_undamped_neighbour(const T& weight, bool is_ahead, const QuatOf<
 }
 
 /// Adds the elastic and the damping pull of a neighbour to b. The damping pull has k times the neighbour's weight (k =
-/// `damping`), and the relative rotation at the start of the step instead of the one at rest. `now` and `start` are the
-/// neighbour's quaternions, `own_start` is qᵗ of the segment.
+/// `damping`), and the relative rotation at the start of the step instead of the relative rotation at rest. `now` and
+/// `start` are the neighbour's quaternions, `own_start` is qᵗ of the segment.
 OGC_HD inline void add_neighbour(const NeighbourRest& neighbour, bool is_ahead, float damping, const Quat& now,
                                  const Quat& start, const Quat& own_start, const Quat& old, Quat& b) {
   add_undamped_neighbour(neighbour.weight, is_ahead, now, neighbour.rest, old, b);
@@ -94,8 +94,8 @@ using ReflectedFrame = ReflectedFrameOf<float>;
 inline constexpr float lost_part = 0x1p-19f;
 
 /// Returns the unit vector of the eigenspace of eigenvalue 1 that is nearest to the old q. If the old q is
-/// perpendicular to this space, the first of the quaternions 1, i and j that is not perpendicular to it replaces the
-/// old q.
+/// perpendicular to this space, it is replaced by the first of the quaternions 1, i and j that is not perpendicular to
+/// the space.
 OGC_HD inline Quat nearest_upper(const ReflectedFrame& frame, const Quat& old) {
   constexpr float lost = lost_part * lost_part;
   Quat part = frame.upper(old);

@@ -179,8 +179,8 @@ class SolidQuestion {
     return search(part, element, way, first, true, failed);
   }
 
-  /// Returns the shortest way of the sheet of `element`. If `must_pass` is false, returns the shortest segment to a
-  /// facet, even if it cannot be traversed. `first` is a facet to try first, `failed` a face to skip; −1: none.
+  /// Returns the shortest way of the sheet of `element`; `way` if none is shorter. If `must_pass` is false, segments to
+  /// facets that cannot be traversed count, too. `first` is a facet to try first, `failed` a face to skip; −1: none.
   OGC_HD Way search(int part, int element, Way way, int first, bool must_pass, int failed) const {
     float limit = 0x1p126F;  // excludes only empty children, whose boxes lie at infinity
     const auto meet = [&](int t) {
