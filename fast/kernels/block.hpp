@@ -9,8 +9,8 @@
 
 namespace ogc::fast {
 
-/// Returns whether x meets the conditions of U_v; the distance is not tested. x must lie beyond v along every edge at v
-/// (Eq. 8; Eq. 15 if x is a vertex).
+/// Returns whether x meets the conditions of U_v, except the condition on the distance: x projects beyond v on every
+/// edge at v (Eq. 8; Eq. 15 if x is a vertex).
 OGC_HD inline bool in_vertex_block(const Vec& x, int v, const SurfaceView& surface, PaddedVecs positions) {
   const Rows& rows = surface.neighbours;
   for (int k = rows.offsets[v]; k < rows.offsets[v + 1]; ++k) {
@@ -19,8 +19,8 @@ OGC_HD inline bool in_vertex_block(const Vec& x, int v, const SurfaceView& surfa
   return true;
 }
 
-/// Returns whether x meets the conditions of U_e (Eq. 9); the distance is not tested. x must lie on the far side of
-/// every triangle at e. Precondition: x projects into the interior of e.
+/// Returns whether x meets the conditions of U_e (Eq. 9), except the condition on the distance: for every triangle at
+/// e, x lies on the outer side of e. Precondition: x projects into the interior of e.
 OGC_HD inline bool in_edge_block(const Vec& x, int e, const SurfaceView& surface, PaddedVecs positions) {
   const EdgeEnds& ends = surface.edges[e];
   const Rows& rows = surface.opposites;
@@ -58,7 +58,7 @@ OGC_HD inline bool in_vertex_block(const EdgeEnds& other, int v, const SurfaceVi
 // ‖F‖ errs by 16 u S, d by 24 u S, d·g by 32 u S ‖g‖₁. The code uses 64 u S ‖g‖₁, plus a limit of the error that
 // underflow causes.
 
-/// Exceeds the error that underflow causes in a sum of products of two lengths, if squared edges are above 2⁻¹⁰⁰ [m²].
+/// Exceeds the error that underflow causes in a sum of products of two lengths [m²], if squared edges exceed 2⁻¹⁰⁰ m².
 inline constexpr float lost_to_underflow = 0x1p-120F;
 
 /// Returns whether `product`, which is d·g or −d·g, is certainly positive; d errs by at most `error` [m].
@@ -66,9 +66,8 @@ OGC_HD inline bool is_surely_above_0(float product, const Vec& g, float error) {
   return product > error * norm_1(g) + lost_to_underflow;
 }
 
-/// Returns whether v certainly has no contact with the edge `other`. `inner` is the other end of v's edge. Two
-/// conditions must hold: the distance to `other` grows from v towards `inner`, and it falls from v towards some
-/// neighbour of v.
+/// Returns whether v certainly has no contact with the edge `other`: the distance to `other` certainly grows from v
+/// towards `inner`, the other end of v's edge, and certainly falls from v towards some neighbour of v.
 OGC_HD inline bool is_passed_over(int v, int inner, const EdgeEnds& other, const SurfaceView& surface, PaddedVecs x) {
   const Vec at = x[v], f = x[other.b] - x[other.a], from = x[other.a] - at;
   const float ff = dot(f, f);

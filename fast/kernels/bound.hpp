@@ -25,7 +25,8 @@ struct ResetDistances {
   }
 };
 
-/// Computes b_v: γ_p times the smallest of the distances of v, its edges and its triangles. Runs once for each vertex.
+/// Computes b_v: γ_p times the minimum of the smallest distances of v, of its edges and of its triangles. Runs once for
+/// each vertex.
 struct ConservativeBound {
   SurfaceView surface;
   /// smallest distances by vertex, edge and triangle, at most r_q (Eq. 22, 24, 26) [m]

@@ -16,7 +16,7 @@ OGC_HD inline bool is_outside(const Ball& ball, const Vec& position) {
   return x * x + y * y + z * z > static_cast<double>(ball.radius) * ball.radius;
 }
 
-/// Returns whether x is not certainly in the region: it is outside the ball, or fails the test of a half-space.
+/// Returns whether the position fails the certificate: it is outside the ball, or not certainly within a half-space.
 OGC_HD inline bool is_outside(const FeasibleRegion& region, const Vec& position) {
   for (int k = 0; k < region.count; ++k)
     if (!is_behind(region.planes[k], position)) return true;

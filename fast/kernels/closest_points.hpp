@@ -80,8 +80,8 @@ OGC_HD inline EdgePairFeatures closest_edge_features(const Ends& p, const Ends& 
   return {};
 }
 
-/// Returns whether two edges are nearly parallel and overlap in more than a point, when projected onto the line of p. p
-/// must be the lower-numbered edge.
+/// Returns whether two edges are nearly parallel, and their projections onto the line of p overlap in more than a
+/// point. p must be the lower-numbered edge.
 OGC_HD inline bool is_overlapping_parallel(const Ends& p, const Ends& q) {
   if (exact_sign(NearlyParallel{p.a, p.b, q.a, q.b}) <= 0) return false;
   const bool reaches_a = exact_sign(End{q.a, p.a, p.b}) > 0 || exact_sign(End{q.b, p.a, p.b}) > 0;
@@ -104,10 +104,10 @@ struct EdgeParameters {
   double first = 0, second = 0;
 };
 
-/// Returns one end of the overlap of two nearly parallel edges, as parameters on p and on the line of q. This point is
-/// q[end] or, if q[end] projects beyond p, the nearest end of p. The parameter of q[end] on q is computed relative to
-/// q[end]. Relative to an end of p, it would have the rounding error of p's length, which is 10⁷ times as large if p is
-/// 10⁷ times as long as q.
+/// Returns one end of the overlap of two nearly parallel edges, as parameters on p and on the line of q. This end is
+/// q[end] or, if q[end] projects beyond p, the nearest end of p. The parameter on q is computed from q[end]. If it were
+/// computed from an end of p, it would have the rounding error of p's length, which is 10⁷ times as large if p is 10⁷
+/// times as long as q.
 OGC_HD inline EdgeParameters overlap_end(const Ends& p, const Ends& q, int end) {
   const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), u = difference<Rounded>(q[end], p.a);
   const double along = dot(u, e).value, ee = squared(e), ff = squared(f);
@@ -119,14 +119,16 @@ OGC_HD inline EdgeParameters overlap_end(const Ends& p, const Ends& q, int end) 
 /// Clamps s to [0, 1].
 OGC_HD inline double clamped_parameter(double s) { return smaller(larger(s, 0.0), 1.0); }
 
-/// Returns the middle of the overlap on the first edge, and the middle's projection on the closed second edge.
+/// Returns the parameter of the overlap's middle on the first edge, and of the middle's projection on the closed second
+/// edge.
 OGC_HD inline EdgeParameters overlap_parameters(const Ends& p, const Ends& q) {
   const EdgeParameters from = overlap_end(p, q, 0), to = overlap_end(p, q, 1);
   return {mul(0.5, add(from.first, to.first)), clamped_parameter(mul(0.5, add(from.second, to.second)))};
 }
 
-/// Returns the points between which the force acts; `on` are the faces that hold them. For nearly parallel edges these
-/// points are the middle of the overlap and its projection (method.md §1.4), not the closest points.
+/// Returns the parameters of the points between which the force acts; `on` are the faces that hold these points. For
+/// nearly parallel edges they are the middle of the overlap and its projection (method.md §1.4), not the closest
+/// points.
 OGC_HD inline EdgeParameters contact_parameters(const Ends& p, const Ends& q, EdgePairFeatures on) {
   if (on.nearly_parallel) return overlap_parameters(p, q);
   const Real e = difference<Rounded>(p.b, p.a), f = difference<Rounded>(q.b, q.a), w = difference<Rounded>(q.a, p.a);

@@ -8,14 +8,14 @@ namespace ogc::fast {
 
 /// Enters the contacts of noted pairs in the lists. Runs once for each noted pair.
 struct CollectContacts {
-  /// limits a thread to 128 registers; with 6 blocks, spilled registers cost more than the added warps gain
+  /// 4 blocks limit a thread to 128 registers; with 6 blocks, spilled registers cost more than the added warps gain
   /// (fast/PERFORMANCE.md)
   static constexpr int resident_blocks = 4;
   CollectVertexFacet vertex_facet;  ///< decides pairs with first = ~vertex < 0
   /// decides pairs of edges
   CollectEdgeEdge edge_edge;
   ListsView lists;  ///< contacts are entered here; nothing is done if the overflow flag is set
-  /// distance of each noted pair, rounded down [m]; null unless pairs beyond r are noted, too, for their planes
+  /// distance of each noted pair, rounded down [m]; null unless the search also notes pairs beyond r, for their planes
   const float* distances = nullptr;
 
   OGC_HD void operator()(int i) const {

@@ -54,7 +54,8 @@ struct TriangleWeightsOf {
 };
 using TriangleWeights = TriangleWeightsOf<float>;
 
-/// Holds the point x[0] relative to the triangle (x[1], x[2], x[3]): vectors and the weights of its projection.
+/// Holds two edges of the triangle (x[1], x[2], x[3]), the vector from x[1] to the point x[0], and the weights of the
+/// point's projection.
 template <class T>
 struct PointAndTriangle {
   Vector<T> ab, ac, ap;
@@ -142,9 +143,8 @@ struct TwoSegments {
   OGC_HD SegmentParametersOf<T> parameters() const { return beside(on_first()); }
   /// Returns the parameter of the point of the first line closest to the second line, clamped to the first segment.
   OGC_HD T on_first() const { return clamp_unit(dot(cross(between, second), cross(first, second)) / sine); }
-  /// Returns `s` and the parameter of the point of the second segment closest to the point of the first segment at `s`.
-  /// If this closest point is an end, `s` is replaced by the parameter of the point of the first segment closest to
-  /// this end.
+  /// Returns `s` and t, the parameter of the point of the second segment closest to the first segment's point at `s`.
+  /// If t is an end, `s` is replaced by the parameter of the first segment's point closest to this end.
   OGC_HD SegmentParametersOf<T> beside(const T& s) const {
     const T t = (s * ab - dot(second, between)) / bb;
     const Mask<T> is_inside = t > T(0.0f) && t < T(1.0f);
@@ -178,7 +178,7 @@ template <class T>
 struct ContactWeightsOf {
   T slot[4] = {};  ///< w; their sum is 0 up to rounding
 
-  /// Returns w of vertex k. It selects, because an index would move the array from registers to memory.
+  /// Returns w of vertex k by selection: an index would move the array from registers to memory.
   OGC_HD T of(int k) const {
     const T low = k == 0 ? slot[0] : slot[1], high = k == 2 ? slot[2] : slot[3];
     return k < 2 ? low : high;
@@ -186,7 +186,7 @@ struct ContactWeightsOf {
 };
 using ContactWeights = ContactWeightsOf<float>;
 
-/// Return the weights by vertex: for two segments; for a point and a triangle.
+/// Return the weights w by vertex of a contact: of two segments, or of a point and a triangle.
 template <class T>
 OGC_HD ContactWeightsOf<T> weights_of(const SegmentParametersOf<T>& at) {
   return {{1.0f - at.first, at.first, at.second - 1.0f, -at.second}};
@@ -196,8 +196,8 @@ OGC_HD ContactWeightsOf<T> weights_of(const TriangleWeightsOf<T>& at) {
   return {{T(1.0f), -at.a, -at.b, -at.c}};
 }
 
-/// Names the kinds of pairs that may generate a contact. If a kernel is compiled for one kind, formulas of the other
-/// are omitted.
+/// Names the kinds of pairs that may generate a contact. A kernel that is compiled for one kind omits the formulas of
+/// the other kind.
 enum class PairKind { any, vertex_facet, edge_edge };
 
 /// Returns the weights of the closest points of a contact; `x` are the positions of its four vertices, in the order

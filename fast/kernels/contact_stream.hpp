@@ -1,6 +1,6 @@
-// Converts the records of a detection into the stream that the sweep reads. Each incidence gets vertices, stiffness
-// with the mollifier of this detection, friction, and the buffer from which each neighbour is read. This happens once
-// for each detection, so that the sweep needs no tables.
+// Converts the records of a detection into the stream that the sweep reads. Each incidence gets the encoded indices of
+// its vertices, its friction, and its stiffness with the mollifier of this detection. This happens once for each
+// detection, so that the sweep needs no tables.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,8 @@ struct ContactTables {
   const Vec* previous = nullptr;        ///< X_prev by vertex, for e_k [m]
 };
 
-/// Returns a contact with k_c [N/m] and μ from the bodies of two vertices (method.md §4.5); all else is not set.
+/// Returns a contact whose k_c [N/m] and μ come from the bodies of two vertices (method.md §4.5). No other member is
+/// set.
 OGC_HD inline ContactIncidence meeting(const ContactTables& tables, int first, int second) {
   const ContactMaterial material = tables.materials[tables.body[first] * tables.body_count + tables.body[second]];
   ContactIncidence contact;

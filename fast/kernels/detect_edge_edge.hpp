@@ -158,8 +158,8 @@ struct CollectEdgeEdge {
     return exact_sign(End{x, a, b}) > 0 && exact_sign(End{x, b, a}) > 0;
   }
 
-  /// Returns whether the point of edge `other` closest to v lies in the block of v (Eq. 15). This point is in the
-  /// interior of `other` if `is_other_inside` is true, otherwise it is the end w.
+  /// Returns whether the point of edge `other` closest to v lies in the block of v (Eq. 15). If `is_other_inside` is
+  /// true, this point is in the interior of `other`; otherwise this point is the end w of `other`.
   OGC_HD bool is_end_hit(int v, bool is_other_inside, int w, const EdgeEnds& other) const {
     return is_other_inside ? in_vertex_block(other, v, surface, positions)
                            : in_vertex_block(positions[w], v, surface, positions);

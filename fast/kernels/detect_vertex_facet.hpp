@@ -30,8 +30,8 @@ struct DetectVertexFacet {
   /// Returns whether a list has overflowed.
   OGC_HD bool is_off() const { return *lists.overflow != 0; }
 
-  /// Returns the position from which v searches. If v is not on the surface, this is a point so far away that every box
-  /// is beyond the limit. The squared gaps between this point and the boxes are still finite.
+  /// Returns the position from which v searches. A vertex that is not on the surface gets a point so far away that all
+  /// boxes are beyond the limit, although squared gaps to the boxes are still finite.
   OGC_HD Vec searched_from(int v) const {
     return surface.is_off_surface(v) ? Vec{0x1p60f, 0x1p60f, 0x1p60f} : positions[v];
   }

@@ -69,7 +69,7 @@ struct FeasibleRegions {
   OGC_HD bool has_planes() const { return counts != nullptr; }
   /// Returns the ball of a vertex, so that a kernel can load it early, together with other data.
   OGC_HD Ball ball(int v) const { return {centre[v], radius[v]}; }
-  /// Returns the region of a vertex; `ball` is its result of ball(v).
+  /// Returns the region of a vertex; `ball` must be ball(v).
   OGC_HD FeasibleRegion region(int v, const Ball& ball) const {
     if (is_off) return {{ball.centre, unbounded}};
     if (counts == nullptr) return {ball};

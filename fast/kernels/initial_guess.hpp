@@ -100,7 +100,8 @@ struct GuessVertex {
   }
 
  private:
-  /// Returns the position before truncation; exactly y if no contact shortens the move.
+  /// Returns the position before truncation: exactly y if no contact shortens the move. From the second round on, a
+  /// prescribed vertex in contact stays at `stay`.
   OGC_HD Vec proposal(int v, const Vec& stay) const {
     const bool is_odd = control->rounds % 2 != 0;
     GuessContacts here = contacts;

@@ -72,7 +72,7 @@ struct ContactFaces {
                                    : bucket >= 2 * surface.vertex_count;
   }
 
-  /// Returns the vertices of a contact at their roles.
+  /// Returns the vertices of a contact by role.
   OGC_HD RoleVertices vertices(int bucket, int second) const {
     RoleVertices of;
     if (is_vertex_facet(bucket)) {
@@ -249,10 +249,10 @@ struct CheckCapacity {
   }
 };
 
-/// Moves each contact to its bucket, adds the edges of its pair, and clears its slot of the table. The table holds the
-/// edges; if both faces are edge interiors, the faces are the edges. The kernel runs at the same time as CheckCapacity
-/// and may miss a new overflow flag. Then nothing reads its output, and it writes only within the counted buckets. Runs
-/// once for each contact.
+/// Moves each contact to its bucket, adds the edges of its pair, and clears its slot of the table. The slot holds these
+/// edges; a contact of two edge interiors needs no slot, because its faces are the edges. The kernel runs at the same
+/// time as CheckCapacity and may miss a new overflow flag. Then nothing reads the kernel's output, and the kernel
+/// writes only within the counted buckets. Runs once for each contact.
 struct FillBuckets {
   ListsView lists;
   int vertex_count;
@@ -322,9 +322,9 @@ struct WriteRecords {
     for (int k = begin; k < end; ++k) before += lists.bucketed[k].second < own.second ? 1 : 0;
     return before;
   }
-  /// Returns whether the face is the edge's interior or one of its ends. The kernel uses this to find which of the two
-  /// generating edges contains the first face: the record's `first_edge`. Only one of the two contains it, because they
-  /// share no vertex.
+  /// Returns whether the face is the edge's interior or one of its ends. So the kernel finds the record's `first_edge`:
+  /// the edge of the pair that contains the first face. Only one edge of the pair contains this face, because the two
+  /// edges share no vertex.
   OGC_HD bool holds(int face, int edge) const {
     const EdgeEnds& ends = faces.surface.edges[edge];
     return face < faces.surface.vertex_count ? (ends.a == face || ends.b == face)

@@ -39,7 +39,7 @@ struct StepRow {
 };
 
 /// Checks the certificate of a vertex at the end of a step, and updates the largest lag and the smallest bound (with
-/// planes: the smallest distance). Runs once for each vertex.
+/// planes: the smallest distance of a pair). Runs once for each vertex.
 struct CheckVertex {
   const Vec* position;             ///< x by vertex [m]
   FeasibleRegions regions;         ///< of the last detection
@@ -139,16 +139,16 @@ OGC_HD inline double momentum_lost(const double* sums) {
 /// Returns the quotient of two sums; 0 if `whole` is 0.
 OGC_HD inline double share_of(double part, double whole) { return whole > 0 ? part / whole : 0.0; }
 
-/// Writes the row of a step, even if the step failed, as the last kernel of each step. A step that stopped because a
-/// list was full has no row, because it is repeated.
+/// Writes the row of a step, as the last kernel of the step. A failed step has a row, too. Only a step that stopped
+/// because a list was full has none, because it is repeated.
 struct FinishStep {
   StepControl* control;  ///< on the backend
   ContactView contacts;  ///< their counts are reported
-  /// the sums after the guess loop (guess_columns of them), then the sums at the end of the step, by SumColumn
+  /// by SumColumn: first the `guess_columns` sums after the guess loop, then the sums at the end of the step
   const double* sums;
   StepRow* rows;     ///< by step since the last stored state, on the backend
   int segments = 0;  ///< segments of rods
-  /// by LeftColumn, on the backend; null if forces were not measured
+  /// sums by LeftColumn, on the backend; null if forces were not measured
   const double* left = nullptr;
   int free_vertices = 0;
 

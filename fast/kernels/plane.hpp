@@ -43,9 +43,9 @@ OGC_HD double shadow_gap(const Real& direction, const Real (&first)[m], const Re
   return divide(sub(bottom, top), square_root(squared(direction)));
 }
 
-/// Replaces `best` by `direction` if that has a larger gap. For any direction the gap between the projections of two
-/// convex sets is at most their distance. It is equal to the distance along the line of their closest points. So the
-/// direction with the largest gap is along this line, and it need not be known which faces hold these points.
+/// Replaces `best` by `direction` if `direction` has a larger gap between the sides' projections. In any direction this
+/// gap is at most the distance of the two convex sides. It is equal to the distance in the direction that joins their
+/// closest points. So the search for the largest gap finds this direction, without the faces that hold these points.
 template <int m, int n>
 OGC_HD void offer_direction(Real& best, double& best_gap, const Real& direction, const Real (&first)[m],
                             const Real (&second)[n]) {
@@ -109,9 +109,9 @@ struct Halved {
 };
 
 /// Returns the first side's share of the approach that both sides may make together. Each side gets a share in
-/// proportion to its speed along n (method.md §5.6, `bounds=dat`). The speed of the first side is its largest n·w, the
-/// speed of the second side its largest −n·w; a side that moves away has the speed 0. The share is clamped to
-/// least_division … 1 − least_division.
+/// proportion to its speed along n (method.md §5.6, `bounds=dat`). The speed of the first side is the largest n·w among
+/// the displacements w of its vertices, the speed of the second side the largest −n·w. A side that moves away has the
+/// speed 0. The share is clamped to least_division … 1 − least_division.
 template <int first_count, int second_count>
 struct ByApproach {
   Vec first[first_count], second[second_count];  ///< w by vertex of the side [m]
@@ -178,7 +178,7 @@ struct BlockMetric {
 
   OGC_HD Vec operator()(const Vec& n) const { return solve_symmetric(block, n, fallback); }
 };
-/// Returns n, which is the direction of BlockMetric if the energy is inertia alone.
+/// Returns n. If the energy is inertia alone, the direction of BlockMetric is n, up to a factor.
 struct InertiaMetric {
   OGC_HD Vec operator()(const Vec& n) const { return n; }
 };
@@ -202,8 +202,8 @@ OGC_HD inline double room_to_store(const HalfSpace& plane, const Point& y, int s
   return (1 + 2 * steps) * 0x1p-24 * (modulus(n.x * y.x) + modulus(n.y * y.y) + modulus(n.z * y.z));
 }
 
-/// Returns how far y lies beyond the plane, plus the distance by which storing can increase this. The value only guides
-/// the search for a position; `is_within` decides whether the position is accepted.
+/// Returns how far y lies beyond the plane, plus the largest distance across the plane that storing y may add. The
+/// value only guides the search for a position; `is_within` decides whether the position is accepted.
 OGC_HD inline double beyond(const HalfSpace& plane, const Point& y) {
   return dot(wide(plane.normal), y) - plane.offset + room_to_store(plane, y, 0);
 }
@@ -260,7 +260,7 @@ OGC_HD Vec nudged(const FeasibleRegion& region, Vec x, const Lanes& lanes) {
   return x;
 }
 
-/// Returns the stored position, nudged if it is outside of the region. The caller must check with `is_within` whether
+/// Returns y in single precision, nudged if it is outside of the region. The caller must check with `is_within` whether
 /// the nudges sufficed.
 template <class Lanes>
 OGC_HD Vec stored_inside(const FeasibleRegion& region, const Point& y, const Lanes& lanes) {
@@ -269,8 +269,8 @@ OGC_HD Vec stored_inside(const FeasibleRegion& region, const Point& y, const Lan
   return x;
 }
 
-/// Returns the share of the straight path from `from` to y that lies in the region; `from` is in the region. The end of
-/// this share is so far from the region's boundary that storing and `steps` nudges do not leave the region.
+/// Returns the share of the straight path from `from` to y that lies in the region; `from` is in the region. The path's
+/// point at this share is so far from the region's boundary that storing and `steps` nudges do not leave the region.
 template <class Lanes>
 OGC_HD double share_inside(const FeasibleRegion& region, const Point& from, const Point& y, int steps,
                            const Lanes& lanes) {
@@ -306,9 +306,9 @@ OGC_HD Vec scaled(const FeasibleRegion& region, const Vec& from, const Point& y,
 
 }  // namespace slide
 
-/// Returns a position of the region near a finite proposal outside of it. The proposal slides along the half-spaces,
-/// and is nudged if storing moved it out. If it is still outside, it is scaled towards `current`, which is in the
-/// region. If this fails, the result is `current`.
+/// Returns a position in the region, near a finite proposal outside of the region. The proposal slides along the
+/// half-spaces, and is nudged if storing moved it out. If it is still outside, it is scaled towards `current`, which is
+/// in the region. If this fails, the result is `current`.
 template <class Metric, class Lanes>
 OGC_HD OGC_OUT_OF_LINE Truncated slide_into(FeasibleRegion region, Vec current, Vec proposal, Metric metric,
                                             Lanes lanes) {

@@ -97,8 +97,8 @@ struct LineReach {
 };
 
 /// Holds the points of a predicate. value() is negative if x is nearer than r to the plane through a that b − a and d −
-/// c span. With c = a this is the plane of a triangle. With x = c the distance to it is the distance of the lines ab
-/// and cd.
+/// c span. With c = a this is the plane of a triangle. With x = c, the distance of x from the plane is the distance of
+/// the lines ab and cd.
 struct PlaneReach {
   /// ((x − a)·n)² − r² ‖n‖² [m⁶], n = (b − a) × (d − c).
   static constexpr int degree = 6;

@@ -77,7 +77,7 @@ struct SurfaceView {
   OGC_HD int edge_face(int e) const { return vertex_count + e; }
   OGC_HD int triangle_face(int t) const { return vertex_count + edge_count + t; }
 
-  /// Returns whether method.md §2.3 omits a pair. The sides of the pair must not share a vertex.
+  /// Returns whether a pair is omitted by method.md §2.3. The sides of the pair must not share a vertex.
   OGC_HD bool left_out(int v, const Facet& t) const {
     const int g = groups[v];
     if (g >= 0 && groups[t.corner[0]] == g && groups[t.corner[1]] == g && groups[t.corner[2]] == g) return true;
@@ -92,7 +92,8 @@ struct SurfaceView {
   }
 
  private:
-  /// Returns whether `of` is in the row of v in `partners`. Rows are short, and nearly all of them are empty.
+  /// Returns whether the vertex `of` is in the row of v in `partners`. Rows are short, and nearly all of them are
+  /// empty.
   OGC_HD bool is_partner(int v, int of) const {
     for (int i = partners.offsets[v]; i < partners.offsets[v + 1]; ++i) {
       if (partners.items[i] == of) return true;

@@ -19,9 +19,9 @@
 
 namespace ogc::fast {
 
-/// Bits of the features that a scene needs of the sum over the stencils of a vertex: volumes; models of bending or
-/// damping other than the usual ones (discrete hinges, damping of strains); an activation other than `ogc`. Then follow
-/// the bits of the kinds of elements, in the order of kinds/kinds.hpp.
+/// Bits of the features that a scene may need of the sum over a vertex's stencils. `asks_any_model`: models of bending
+/// or damping other than discrete hinges and damping of strains. `asks_any_activation`: an activation other than `ogc`.
+/// The kinds of elements have the bits from `first_kind_bit` on, in the order of kinds/kinds.hpp.
 inline constexpr unsigned asks_volumes = 1, asks_any_model = 2, asks_any_activation = 4, first_kind_bit = 8;
 
 /// The incidences of a vertex in the stream of a kind of element.
@@ -110,8 +110,8 @@ struct VolumeStream {
   int capacity = 0;             ///< contacts that fit in a row
   // The members below are null or 0 if all volumes are driven.
   const int* colour = nullptr;  ///< by vertex; −1: not free
-  /// codes of the contacts in which the vertex of a slot is a corner: (index in `contacts`) · 4 + role, ascending; the
-  /// row of a slot begins at slot · corner_capacity
+  /// by slot, ascending: code of each contact in which the slot's vertex is a corner, (index in `contacts`) · 4 + role;
+  /// the row of a slot begins at slot · corner_capacity
   const int* corner_codes = nullptr;
   const int* corner_counts = nullptr;  ///< by slot: number of codes in its row
   int corner_capacity = 0;             ///< codes that fit in a row
@@ -144,8 +144,8 @@ struct SweepShared {
 
   /// Returns whether another iteration is next, so that this one must do nothing.
   OGC_HD bool is_off() const { return turn != nullptr && *turn != iteration; }
-  /// Returns is_off() while `vertex` is being loaded. It also tests, without a branch, the vertex number, which is
-  /// never negative. So a device issues the loads of `turn` and `vertex` at once.
+  /// Returns the same as is_off(). The test `vertex` < 0 is never true; it is joined without a branch, so that a device
+  /// issues the loads of `turn` and `vertex` at once.
   OGC_HD bool is_off(const SweepVertex& vertex) const {
     return turn != nullptr && ((*turn != iteration) | (vertex.vertex < 0));
   }

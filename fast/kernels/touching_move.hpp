@@ -1,6 +1,5 @@
 // Computes how contacts shorten a vertex's move in the guess loop (method.md §5.2). A vertex in contact does not move
-// into its partner, and friction slows it. So the sweeps change forces only a little, and long slips do not stop at
-// each detection.
+// into its partner, and friction slows it. So a sweep begins with nearly the forces with which it ends.
 #pragma once
 
 #include "fast/kernels/sweep_view.hpp"
@@ -17,8 +16,8 @@ struct GuessContacts {
   const Vec* taken = nullptr;  ///< t by vertex [m]: by how much contacts changed the vertex's move in the last round
   float radius = 0;            ///< r [m]
 
-  /// Returns the move that this round expects of another vertex: y − X_prev, changed by contacts as in the last round
-  /// [m].
+  /// Returns the move that this round assumes for another vertex of a contact [m]: y − X_prev plus the change by
+  /// contacts in the last round.
   OGC_HD Vec expected(int v) const { return target[v] - position[v] + taken[v]; }
 };
 

@@ -89,8 +89,8 @@ OGC_HD OGC_OUT_OF_LINE inline Truncated truncate_in_double(Ball ball, Vec x) {
   const Vec& previous = ball.centre;
   const Vector<Rounded> step = difference<Rounded>(x, previous);
   double s = divide(static_cast<double>(ball.radius), square_root(dot(step, step).value));
-  // The first attempt rarely fails: if rounding of the step in double leaves the point outside the ball. This happens
-  // if coordinates are far larger than the bound, or if the step is nearly parallel to an axis.
+  // The first attempt fails only if rounding of the step in double leaves the point outside the ball. This is rare:
+  // coordinates must be far larger than the bound, or the step nearly parallel to an axis.
   for (int attempt = 0; attempt < 3; ++attempt) {
     const Vec cut{towards(previous.x, x.x, s), towards(previous.y, x.y, s), towards(previous.z, x.z, s)};
     if (is_within(ball, cut)) return {cut, true};

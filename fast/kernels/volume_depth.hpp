@@ -92,8 +92,9 @@ struct FoundVolumeContact {
 /// Holds a ball around a point that was far from a part (outside, and not nearer than r). All points of the ball are
 /// far until the volume moves.
 struct alignas(16) ClearBall {
-  /// Negative radii of an empty ball. `unasked`: the point was not tested since the volume moved. `asked`: it was
-  /// tested, but no ball is known. `refused`: a ball was sought, but there is none.
+  /// Negative values of `radius`, which mean that there is no ball. `unasked`: the point was not tested since the
+  /// volume moved. `asked`: the point was tested, but no ball is known. `refused`: a ball was sought, but there is
+  /// none.
   static constexpr float unasked = -1, asked = -2, refused = -3;
 
   Vec centre;              ///< [m]
@@ -228,7 +229,7 @@ class VolumeQuestion {
   }
 
   /// Returns the height of x over the plane of a facet. Returns −∞ if the facet's normal is inaccurate, or if the
-  /// cosine between it and `away` is at most 2⁻⁸.
+  /// cosine between the normal and `away` is at most 2⁻⁸.
   OGC_HD float height_over(int t, const Real& away) const {
     const Corners at = corners(t);
     const Real e = difference<Rounded>(at.b, at.a), f = difference<Rounded>(at.c, at.a), n = cross(e, f);
@@ -248,8 +249,8 @@ class VolumeQuestion {
            box.lower.z <= x_.z && x_.z <= box.upper.z;
   }
 
-  /// Returns whether x is nearer than r to facet t, whose distance is d. An exact predicate decides if d is within its
-  /// slack of r.
+  /// Returns whether x is nearer than r to facet t; `d` is the computed distance. If d is within its slack of r, an
+  /// exact predicate decides.
   OGC_HD bool is_near(int t, const Distance& d) const {
     const Corners at = corners(t);
     return is_within(x_, at, closest_feature(x_, at, volume_.surface.facets[t].descending), d, volume_.contact_radius);
@@ -356,9 +357,9 @@ class VolumeQuestion {
     return dot(difference<Rounded>(x_, corners(t).a), normal(t)).value >= 0;
   }
 
-  /// Returns the contact with its weights, direction and depth. The direction is along x − c, outward. It is the
-  /// facet's normal if c is in the facet's interior. It is also the normal if ‖x − c‖ is at most 2⁻⁴⁸ ‖x − a‖₁ for the
-  /// facet's first corner a, because x − c is then only rounding error.
+  /// Returns the contact with its weights, direction and depth. The direction is the facet's normal if c is in the
+  /// facet's interior. It is also the normal if ‖x − c‖ is at most 2⁻⁴⁸ ‖x − a‖₁ for the facet's first corner a: then x
+  /// − c is only rounding error. Otherwise the direction is along x − c, outward.
   OGC_HD FoundVolumeContact contact_at(int face, bool inside) const {
     const SurfaceView& surface = volume_.surface;
     FoundVolumeContact contact;

@@ -41,14 +41,14 @@ struct Sign {
 /// Returns −1, 0 or 1; 0 for NaN.
 OGC_HD inline int sign_of(double a) { return (a > 0) - (a < 0); }
 
-/// Holds a value in single precision and the sum of the moduli of its terms, for degrees up to 4. Contraction by the
-/// compiler only omits roundings, so a sign that is certain (Sign::certain) stays right.
+/// Holds a value in single precision and the sum of the moduli of its terms, for polynomials of degree ≤ 4. If the
+/// compiler contracts operations, it only omits roundings, so a sign that is certain (Sign::certain) stays right.
 struct Single {
   float value = 0, scale = 0;  ///< scale: Σ of the moduli of the terms of value
 
-  /// Returns a difference of floats. Its relative error is u = 2⁻²⁴, however small it is. Its scale is at least 2⁻³⁰,
-  /// so a polynomial of degree 4 has a scale of at least 2⁻¹²⁰. Underflow of products, 2⁻¹⁵⁰ each, is far less than u ·
-  /// scale.
+  /// Returns the difference of two floats; its relative error is at most u = 2⁻²⁴. Its scale is at least 2⁻³⁰, so a
+  /// polynomial of degree 4 has a scale of at least 2⁻¹²⁰. A product that underflows errs by 2⁻¹⁵⁰, far less than u
+  /// times this scale.
   OGC_HD static Single difference(float a, float b) {
     const float d = a - b;
     return {d, larger(fabsf(d), 0x1p-30F)};
@@ -104,7 +104,8 @@ struct Wide {
     return normalised(p, add(rest, add(mul(a.high, b.low), mul(a.low, b.high))), mul(a.scale, b.scale));
   }
 
-  /// Returns the sign. Each operation errs by at most 2⁻¹⁰³ of its result, so 32 operations err by at most 2⁻⁹⁸.
+  /// Returns the sign. Each operation errs by at most 2⁻¹⁰³ of its result, so 32 operations err by at most 2⁻⁹⁸ of the
+  /// scale.
   OGC_HD Sign sign() const { return {modulus(high) <= mul(scale, 0x1p-98) ? 0 : sign_of(high), true}; }
 
  private:

@@ -44,13 +44,13 @@ struct HingeKind : ElementKind<HingeRest, HingeIncidence> {
     StreamView<HingeIncidence, IsometricStencil, float, NoData, false> hinges;
   };
   static constexpr int row_in_vertex = 1;
-  /// For each role of a vertex: the roles of the other vertices, in the order of HingeIncidence::index. For the second
-  /// end and the second opposite vertex, x0 is exchanged with x1, and o0 with o1. This does not change the angle
+  /// For each role of a vertex: the roles of the other vertices, in the order of HingeIncidence::index. For roles 1 and
+  /// 3, x0 is exchanged with x1, and o0 with o1. The exchange does not change the angle
   /// (fast/kernels/models/hinge.hpp).
   static constexpr int others[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {1, 0, 2}};
-  /// Operations by term (fast/kernels/models/discrete_hinge.hpp): differences 9, normals 18, squares 25, their limits
-  /// 4, length 1, projections 12, the angle's arguments 11, arctangent2 13, feet 7, divisors 2, gradient 11, moment 5,
-  /// force 6, block 17.
+  /// Floating-point operations of a hinge at one vertex, term by term (fast/kernels/models/discrete_hinge.hpp):
+  /// differences 9, normals 18, squares 25, their limits 4, length 1, projections 12, the angle's arguments 11,
+  /// arctangent2 13, feet 7, divisors 2, gradient 11, moment 5, force 6, block 17.
   static constexpr double flop = 141;
 
   template <class AnyView>
@@ -91,7 +91,7 @@ struct HingeKind : ElementKind<HingeRest, HingeIncidence> {
   }
 };
 
-/// Returns the values that hinges read, at the current positions. `angle_start` is θᵗ by hinge.
+/// Reads the values of hinges at the current positions. `angle_start` is θᵗ by hinge.
 template <class Items>
 OGC_HD HingeReadsOf<typename Items::Number> read_hinges(const SweepShared& view, const float* angle_start,
                                                         const Items& items, const SurfaceMaterial& material) {
@@ -121,7 +121,7 @@ struct AddHinge {
     Model::add(hinge, damping, sum);
   }
 };
-/// Adds the damping that the model's `add` does not include. It has the members of AddHinge.
+/// Adds the damping that the model's `add` does not include. AddHinge explains the members.
 struct AddHingeDamper {
   const HingeSeen& hinge;
   float damping;

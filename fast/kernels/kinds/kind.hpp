@@ -6,10 +6,10 @@
 //                     further data that StreamView describes; `NoData` if the kind has none
 //   RestBeside        further data of an element at rest; `NoData` if the kind has none
 //   stream(view)      its stream in a SweepView, and `View`, the part of SweepView that holds it
-//   Whole             its part of a sum, for all of its models
-//   row_in_vertex     its index in SweepVertex::rows; −1: its rows are a separate array
+//   Whole             type that makes the kind's part of a vertex's sum, for all models of the kind
+//   row_in_vertex     index of the kind's row in SweepVertex::rows; −1: its rows are a separate array
 //   is_curve          whether vertices have few elements, so that a narrow team serves them
-//   count, vertices   how many vertices an element has, and which
+//   count, vertices   number of vertices of an element, and their indices
 //   seen, beside      the incidence and its Beside data, by the role of the vertex (its index among the vertices)
 //   begin             computes Start of an element from xᵗ
 //   add_energy        adds an element's energy
@@ -49,8 +49,7 @@ OGC_HD Row row_of(const View& view, int slot, const SweepVertex& vertex) {
     return {};
 }
 
-/// Computes for each element the value that damping reads: θᵗ or Gᵗ at the start of the step. Runs once for each
-/// element.
+/// Computes for an element the value at the start of the step that damping reads: θᵗ or Gᵗ. Runs once for each element.
 template <class Kind>
 struct BeginElement {
   const typename Kind::Rest* rest;       ///< by element

@@ -22,8 +22,8 @@ template <bool is_there>
 struct AnySegments;
 using Segments = AnySegments<false>;
 
-/// The kind of rod segments. Their energy is summed together with the extremes of rods
-/// (fast/kernels/sums/rod_sums.hpp).
+/// The kind of rod segments. fast/kernels/sums/rod_sums.hpp sums their energy, together with the largest stretch and
+/// the smallest contact distance.
 struct SegmentKind : ElementKind<SegmentRest, RodIncidence> {
   using Whole = Segments;
   using ByBody = float;
@@ -32,8 +32,8 @@ struct SegmentKind : ElementKind<SegmentRest, RodIncidence> {
     RodStream rods;
   };
   static constexpr bool is_curve = true;
-  /// Operations by term at one end (fast/kernels/models/rod.hpp): difference 3, division by the length 5, turned
-  /// director 30, strain 3, force 6, block 4.
+  /// Floating-point operations of a segment at one end, term by term (fast/kernels/models/rod.hpp): difference 3,
+  /// division by the length 5, rotated director 30, strain 3, force 6, block 4.
   static constexpr double flop = 51;
 
   template <class AnyView>

@@ -44,8 +44,8 @@ OGC_HD inline float spring_length(const Vec& apart) {
 OGC_HD inline void add_spring(const SpringRest& spring, float weight, float damping, const Vec& apart,
                               float length_start, ForceAndBlock& sum) {
   const float length = spring_length(apart), stiffness = weight * weight * spring.stiffness;
-  // Without a direction the block is w² k_s I, which majorises the energy for every l₀. A stitch needs it, too: its
-  // true length may exceed l₀ = 0 when the computed length is 0.
+  // A spring of length 0 has no direction. Its block is then w² k_s I, which majorises the energy for every l₀. A
+  // stitch (l₀ = 0) needs this block, too: its true length may exceed 0 when the computed length is 0.
   if (!(length > 0)) {
     sum.add_identity(stiffness);
     return;
@@ -81,8 +81,8 @@ struct SpringKind : ElementKind<SpringRest, SpringIncidence> {
     StreamView<SpringIncidence, NoData, NoData, NoData, true> springs;
   };
   static constexpr bool is_curve = true;
-  /// Operations of a stitch by term: at present and at the start of the step, differences 9 + 9, squares 5 + 5, roots 1
-  /// + 1; then stiffness 2, stretch 2, resistance 1, pull 6, force 1 + 6, block 4 + 3 + 4 + 15.
+  /// Floating-point operations of a stitch, term by term. At present and at the start of the step: differences 9 + 9,
+  /// squares 5 + 5, roots 1 + 1. Then: stiffness 2, stretch 2, resistance 1, pull 6, force 1 + 6, block 4 + 3 + 4 + 15.
   static constexpr double flop = 74;
 
   template <class AnyView>

@@ -46,8 +46,8 @@ using TetrahedronStencil = TetrahedronStencilOf<float>;
 /// A symmetric 3×3 strain [1] or stress [Pa].
 using SolidStrain = Symmetric3;
 
-/// Holds the data that only damping of strains reads: V, and the gradients ∇N of the other three corners' shape
-/// functions. The gradient of this corner is minus their sum.
+/// Holds the data that only damping of strains reads: V, and the gradients ∇N of the shape functions of the other three
+/// corners. The gradient for this corner is minus the sum of these gradients.
 struct TetrahedronGradients {
   Vec other[3];      ///< ∇N [1/m]
   float volume = 0;  ///< V [m³]
@@ -160,11 +160,11 @@ struct TetrahedronKind : ElementKind<TetrahedronRest, TetrahedronIncidence> {
   static constexpr int others[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   /// Index of each pair of corners in TetrahedronRest::weight.
   static constexpr int pair[4][4] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
-  /// Operations of add_tetrahedron by term: differences 9 + 6, normal 9, (J − 1) 7, pull 3, weighted sum 15, forces 6 +
-  /// 1 + 6, sum of weights 3, identity 3, block 2 + 15.
+  /// Floating-point operations of add_tetrahedron, term by term: differences 9 + 6, normal 9, (J − 1) 7, pull 3,
+  /// weighted sum 15, forces 6 + 1 + 6, sum of weights 3, identity 3, block 2 + 15.
   static constexpr double flop = 85;
-  /// Operations of damping by term: F 45, G 39, the corner's gradient 6, trace 6, stresses 21, pull 15, weights 1 + 7,
-  /// force 15 + 6, F∇N 15, blocks 2 + 15 + 45.
+  /// Floating-point operations of damping, term by term: F 45, G 39, the corner's gradient 6, trace 6, stresses 21,
+  /// pull 15, weights 1 + 7, force 15 + 6, F∇N 15, blocks 2 + 15 + 45.
   static constexpr double damping_flop = 238;
 
   template <class AnyView>
@@ -219,14 +219,14 @@ struct TetrahedronKind : ElementKind<TetrahedronRest, TetrahedronIncidence> {
   }
 };
 
-/// Holds the values that tetrahedra read, as one of their corners sees them.
+/// Holds the values of a tetrahedron that the formulas for one of its corners read.
 template <class N>
 struct TetrahedronReadsOf {
   TetrahedronStencilOf<N> stencil;
   Vector<N> a, b, c;  ///< the other corners minus this corner [m]
 };
 
-/// Returns the values that tetrahedra read, at the current positions; `own` is the position of the corner.
+/// Reads the values of tetrahedra at the current positions; `own` is the position of the corner.
 template <class Items>
 OGC_HD TetrahedronReadsOf<typename Items::Number> read_tetrahedra(const SweepShared& view, const Items& items,
                                                                   const Vector<typename Items::Number>& own) {

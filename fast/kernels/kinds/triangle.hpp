@@ -39,8 +39,9 @@ struct TriangleKind : ElementKind<TriangleRest, MembraneIncidence> {
     StreamView<MembraneIncidence, NoData, Symmetric2, NoData, false> triangles;
   };
   static constexpr int row_in_vertex = 0;
-  /// Operations by term (fast/kernels/models/st_venant_kirchhoff.hpp): differences 6, F 18, ∇N_a 2, G 20, S 10, stress
-  /// of damping 3 + 10, pulls 14, force 9 + 6, F∇N_a 9, weights 7, blocks 17 + 30, geometric 9 + 4.
+  /// Floating-point operations of a triangle at one corner, term by term (fast/kernels/models/st_venant_kirchhoff.hpp):
+  /// differences 6, F 18, ∇N_a 2, G 20, S 10, stress of damping 3 + 10, pulls 14, force 9 + 6, F∇N_a 9, weights 7,
+  /// blocks 17 + 30, geometric 9 + 4.
   static constexpr double flop = 174;
 
   template <class AnyView>
@@ -68,8 +69,8 @@ struct TriangleKind : ElementKind<TriangleRest, MembraneIncidence> {
   }
 };
 
-/// Holds the values that triangles read, as one of their corners sees them. All are loaded before any arithmetic,
-/// because loads take most of the time of a vertex on a device.
+/// Holds the values of a triangle that the formulas for one of its corners read. An update loads all of them before any
+/// arithmetic, because loads take most of the time of a vertex on a device.
 template <class N>
 struct MembraneReadsOf {
   MembraneStencilOf<N> stencil;
@@ -77,7 +78,7 @@ struct MembraneReadsOf {
   Symmetric2Of<N> strain_start{};  ///< Gᵗ; 0 without damping
 };
 
-/// Returns the values that triangles read, at the current positions. `strain_start` is Gᵗ by triangle.
+/// Reads the values of triangles at the current positions. `strain_start` is Gᵗ by triangle.
 template <class Items>
 OGC_HD MembraneReadsOf<typename Items::Number> read_triangles(const SweepShared& view, const Symmetric2* strain_start,
                                                               const Items& items, const SurfaceMaterial& material) {
@@ -104,8 +105,9 @@ OGC_HD void add_triangles(const MembraneReadsOf<N>& reads, const SurfaceMaterial
   with_membrane(model, AddDampedMembrane<N>{reads.stencil, material, to_b, to_c, reads.strain_start, sum});
 }
 
-// The functors below select the form of damping first and the model within it; code that all models share is outside of
-// both branches. This nesting changes bits, because a device contracts products and sums only within a branch.
+// The functors below branch on the form of damping first, and within this branch on the model. Code that all models
+// share is outside of both branches. The order of the branches changes bits, because a device contracts products and
+// sums only within a branch.
 
 /// Adds a triangle without damping. The argument of operator() is the functor of the membrane model.
 struct AddElasticMembrane {

@@ -8,7 +8,7 @@ namespace ogc::fast {
 
 /// Implements BendingModel::none, whose hinges have no energy. Rest states omit them.
 struct NoBending {
-  /// UsualHinges may be used, because there is nothing to add. No HingeWeights are needed.
+  /// There is nothing to add, so UsualHinges may be used, and no HingeWeights are needed.
   static constexpr bool is_default = true, reads_weights = false;
   OGC_HD static void add(const HingeSeen&, float, ForceAndBlock&) {}
   OGC_HD static void add_damper(const HingeSeen&, float, ForceAndBlock&) {}

@@ -8,8 +8,8 @@
 
 namespace ogc::fast {
 
-/// Adds an elastic force and block B with damping by vertex: the force minus k B `moved`, and (1 + k) B, with k =
-/// `damping` = k_d/h.
+/// Adds an element's elastic force and block B, with damping by vertex. With k = `damping` = k_d/h, it adds the force
+/// minus k B `moved`, and the block (1 + k) B.
 OGC_HD inline void add_damped_by_vertex(const ForceAndBlock& elastic, float damping, const Vec& moved,
                                         ForceAndBlock& sum) {
   const Symmetric3& b = elastic.block;

@@ -80,8 +80,8 @@ OGC_HD HingeShapeOf<T> hinge_shape(const Vector<T>& edge, const Vector<T>& a, co
   return shape;
 }
 
-/// Returns ∂θ/∂o0 [1/m] if `opposite`, else ∂θ/∂x0. One formula with selected numerators serves both, because the
-/// vertices of a warp's threads may be of both types.
+/// Returns ∂θ/∂o0 [1/m] if `opposite`, else ∂θ/∂x0. One formula with selected numerators computes both gradients,
+/// because threads of one warp may need different ones.
 template <class T>
 OGC_HD Vector<T> hinge_gradient(const HingeShapeOf<T>& shape, const Mask<T>& opposite) {
   const T a = select(opposite, -shape.length_squared, shape.beyond_a), b = select(opposite, T{}, shape.beyond_b);
@@ -110,7 +110,7 @@ struct IsometricStencil {
   float own = 0, other[3] = {};
 };
 
-/// Holds the values that the discrete model reads of hinges as one vertex sees them.
+/// Holds the values of a hinge that the discrete model reads for one vertex.
 template <class N>
 struct HingeReadsOf {
   HingeStencilOf<N> stencil;  ///< c and θ₀
@@ -119,7 +119,7 @@ struct HingeReadsOf {
   N angle_start{};            ///< θᵗ [rad]; 0 without damping
 };
 
-/// Holds the values that any bending model reads of a hinge.
+/// Holds the values of a hinge that any bending model may read.
 struct HingeSeen : HingeReadsOf<float> {
   Vec own;                     ///< position of the vertex that is updated [m]
   IsometricStencil isometric;  ///< read by the isometric model

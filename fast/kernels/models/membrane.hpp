@@ -64,8 +64,8 @@ struct MembraneStencilOf {
 };
 using MembraneStencil = MembraneStencilOf<float>;
 
-/// Adds damping of strains: the force −∂/∂x_a of A (k_d/h) (λ/2 tr(ΔG)² + μ ‖ΔG‖²), ΔG = G − Gᵗ, and the material part
-/// of its second derivative. `strain_start` is Gᵗ.
+/// Adds damping of strains, whose energy is E = A (k_d/h) (λ/2 tr(ΔG)² + μ ‖ΔG‖²) with ΔG = G − Gᵗ: the force −∂E/∂x_a,
+/// and the material part of ∂²E/∂x_a². `strain_start` is Gᵗ.
 template <class T>
 OGC_HD void add_strain_damping(const MembraneStencilOf<T>& stencil, const SurfaceMaterial& material,
                                const Vector<T>& to_b, const Vector<T>& to_c, const Symmetric2Of<T>& strain_start,

@@ -23,7 +23,7 @@ OGC_HD QuatOf<T> asked_orientation(bool is_ahead, const QuatOf<T>& q, const Quat
   return q * (is_ahead ? conjugate(relative) : relative);
 }
 
-/// Returns w s t, where w is the weight, t is `asked`, and the sign s = ±1 makes s t·old ≥ 0.
+/// Returns w t or −w t, with w = `weight` and t = `asked`. The sign makes the product of t and `old` non-negative.
 template <class T>
 OGC_HD QuatOf<T> pull_towards(const T& weight, const QuatOf<T>& asked, const QuatOf<T>& old) {
   return select(dot(asked, old) < T(0.0f), -weight, weight) * asked;
@@ -39,8 +39,8 @@ OGC_HD void add_undamped_neighbour(const T& weight, bool is_ahead, const QuatOf<
 }
 
 /// Adds the elastic and the damping pull of a neighbour to b. The damping pull has k times the neighbour's weight (k =
-/// `damping`), and the relative rotation at the start of the step instead of the one at rest. `now` and `start` are the
-/// neighbour's quaternions, `own_start` is qᵗ of the segment.
+/// `damping`), and the relative rotation at the start of the step instead of the relative rotation at rest. `now` and
+/// `start` are the neighbour's quaternions, `own_start` is qᵗ of the segment.
 OGC_HD inline void add_neighbour(const NeighbourRest& neighbour, bool is_ahead, float damping, const Quat& now,
                                  const Quat& start, const Quat& own_start, const Quat& old, Quat& b) {
   add_undamped_neighbour(neighbour.weight, is_ahead, now, neighbour.rest, old, b);
@@ -72,7 +72,10 @@ OGC_HD T secular_root(const T& upper, const T& lower, const T& sigma) {
 /// Computes M q/σ = −D q c for unit vectors D and c (compare/rods.md). This map is its own inverse.
 template <class T>
 struct ReflectedFrameOf {
-  QuatOf<T> apart, direction;  ///< D/‖D‖, c/‖c‖
+  /// Returns the projection of q onto the eigenspace of eigenvalue 1, where directors are along D. It projects twice:
+  /// after one projection, the rounding error outside the eigenspace is relative to ‖q‖, and could exceed the
+  /// projection itself.
+  QuatOf<T> apart, direction;
 
   OGC_HD QuatOf<T> operator()(const QuatOf<T>& q) const { return T(-1.0f) * (apart * q * direction); }
   /// Returns the part of q in the eigenspace of eigenvalue 1, whose directors are along D. It projects twice. After
@@ -91,8 +94,8 @@ using ReflectedFrame = ReflectedFrameOf<float>;
 inline constexpr float lost_part = 0x1p-19f;
 
 /// Returns the unit vector of the eigenspace of eigenvalue 1 that is nearest to the old q. If the old q is
-/// perpendicular to this space, the first of the quaternions 1, i and j that is not perpendicular to it replaces the
-/// old q.
+/// perpendicular to this space, it is replaced by the first of the quaternions 1, i and j that is not perpendicular to
+/// the space.
 OGC_HD inline Quat nearest_upper(const ReflectedFrame& frame, const Quat& old) {
   constexpr float lost = lost_part * lost_part;
   Quat part = frame.upper(old);

@@ -35,7 +35,7 @@ struct StVenantKirchhoff {
     sum.add_identity(stencil.area * select(geometric > T{}, geometric, T{}));
   }
 
-  /// Adds what `add` adds without damping.
+  /// Does the same as `add` for a membrane without damping.
   OGC_HD static void add_elastic(const MembraneStencil& stencil, SurfaceMaterial material, const Vec& to_b,
                                  const Vec& to_c, ForceAndBlock& sum) {
     material.membrane_damping = 0;

@@ -14,7 +14,7 @@
 
 namespace ogc::fast {
 
-/// Holds J, n and q of a triangle. `ratio` is 0 if the triangle has collapsed in single precision.
+/// Holds J, n and q of a triangle (head of this file). `ratio` is 0 if the triangle has collapsed in single precision.
 template <class T>
 struct AreaRatioOf {
   Vector<T> normal;      ///< n, a unit vector; 0 if the triangle has collapsed

@@ -8,7 +8,7 @@ namespace ogc::fast {
 
 /// Returns q in double, because energies of small angles are small differences of numbers near 1.
 OGC_HD inline QuatOf<double> wide(const Quat& q) { return {q.x, q.y, q.z, q.w}; }
-/// Returns ‖a − s b‖² for the sign s that makes it smaller.
+/// Returns the smaller of ‖a − b‖² and ‖a + b‖²: b and −b are the same rotation.
 OGC_HD inline double squared_apart(const QuatOf<double>& a, const QuatOf<double>& b) {
   const QuatOf<double> apart = dot(a, b) < 0 ? a + b : a - b;
   return dot(apart, apart);

@@ -39,8 +39,8 @@ struct SetDirection {
   }
 };
 
-/// Sets q after the guess loop: rotates each orientation from qᵗ with its segment, or with its prescribed motion. Runs
-/// once for each segment.
+/// Sets q after the guess loop: rotates qᵗ as the segment was rotated since the start of the step, or by the segment's
+/// prescribed motion. Runs once for each segment.
 struct TurnSegment {
   const SegmentRest* segments;  ///< by segment
   const int* motion;            ///< by segment: motion, as in segments.hpp

@@ -45,7 +45,8 @@ template <class List>
 struct AllElements;
 template <class... All>
 struct AllElements<KindList<All...>> : ElementsView<All>... {
-  /// Adds every `chunks`-th energy, kind by kind. If `all` is false, only the kinds with `reports_state` are added.
+  /// Adds the energies of the elements chunk, chunk + chunks, … of each kind. If `all` is false, only the kinds with
+  /// `reports_state` are added.
   template <bool all>
   OGC_HD void add(int chunk, int chunks, double* sums) const {
     (add_kind<all, All>(chunk, chunks, sums), ...);

@@ -16,8 +16,8 @@ OGC_HD ContactWeights closest_weights(const OneItem<ContactIncidence>& one, cons
 OGC_HD inline float own_weight(const OneItem<ContactIncidence>& one, const ContactWeights& weights) {
   return weights.of(one.item.own);
 }
-/// Returns |w| Σ |w_u|, with the sum over all vertices u of the contact that have the colour of the updated vertex,
-/// itself included. If no other vertex has this colour, the result is w².
+/// Returns |w| Σ |w_u|, where w is the weight of the updated vertex. The sum is over all vertices u of the contact that
+/// have this vertex's colour, including the vertex itself. If no other vertex has this colour, the result is w².
 OGC_HD inline float majorant_of(const OneItem<ContactIncidence>& one, const ContactWeights& weights) {
   const float own = fabsf(own_weight(one, weights));
   float together = own;

@@ -1,6 +1,6 @@
 // Sums force and block over the stencils of a vertex, without inertia. The template parameters are the parts, one for
-// each kind of element. A part without items changes no bit (team.hpp). So any sum that has all kinds of a scene gives
-// the same bits; the choice only changes the time.
+// each kind of element. A part without items changes no bit (team.hpp). So all sums that have the kinds of a scene give
+// the same bits; the choice of a sum only changes the time.
 #pragma once
 
 #include <type_traits>

@@ -20,7 +20,7 @@ OGC_HD inline Quat published_orientation(float stretch, const Vec& apart, const 
 
 /// Updates the free segments of a colour. Runs once for each of these segments.
 struct UpdateSegment {
-  /// Holds data that are read before the preceding launch has ended, because that launch does not write them.
+  /// Holds data that a thread may read before the preceding launch has ended, because that launch does not write them.
   struct Ahead {
     SegmentSlot slot;
     bool is_off = false;  ///< whether this iteration must do nothing, because another one is next

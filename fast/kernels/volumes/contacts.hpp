@@ -70,8 +70,8 @@ struct AskVolumes {
 };
 
 /// Lists each asker's contacts. A facet without area has no direction and gives no contact. `has_solids`: some parts
-/// consist of tetrahedra. A search of such a part starts without an earlier answer, so that a run continued from a
-/// stored state has the same bits. Runs once for each row.
+/// consist of tetrahedra. A search of such a part uses no earlier answer, so that a run that continues from a stored
+/// state gets the same bits. Runs once for each row.
 template <bool has_solids>
 struct ListVolumeContacts {
   VolumeView volume;

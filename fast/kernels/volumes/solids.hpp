@@ -50,7 +50,7 @@ struct SolidAnswer {
 /// Finds where a point lies relative to a volume's parts of tetrahedra.
 class SolidQuestion {
  public:
-  /// `own` is the vertex at the point if it is a vertex of the volume, else −1.
+  /// `own`: the vertex whose position is `point`, if it belongs to the volume; else −1.
   OGC_HD SolidQuestion(const VolumeView& volume, const Vec& point, int own)
       : volume_(volume), solids_(volume.solids), faces_(volume, point), x_(point), own_(own) {}
 
@@ -113,7 +113,7 @@ class SolidQuestion {
     return corner[0] == v || corner[1] == v || corner[2] == v || corner[3] == v;
   }
 
-  /// Returns whether `element` has all corners of `of` whose bits are set.
+  /// Returns whether `element` contains those corners of tetrahedron `of` whose bits are set in `corners`.
   OGC_HD bool has_all(int element, int of, unsigned corners) const {
     for (int k = 0; k < 4; ++k)
       if ((corners >> k & 1U) != 0 && !has(element, solids_.elements[of].corner[k])) return false;
@@ -179,8 +179,8 @@ class SolidQuestion {
     return search(part, element, way, first, true, failed);
   }
 
-  /// Returns the shortest way of the sheet of `element`. If `must_pass` is false, returns the shortest segment to a
-  /// facet, even if it cannot be traversed. `first` is a facet to try first, `failed` a face to skip; −1: none.
+  /// Returns the shortest way of the sheet of `element`; `way` if none is shorter. If `must_pass` is false, segments to
+  /// facets that cannot be traversed count, too. `first` is a facet to try first, `failed` a face to skip; −1: none.
   OGC_HD Way search(int part, int element, Way way, int first, bool must_pass, int failed) const {
     float limit = 0x1p126F;  // excludes only empty children, whose boxes lie at infinity
     const auto meet = [&](int t) {
@@ -264,7 +264,8 @@ class SolidQuestion {
   }
 
   /// Returns whether the segment from c to x can be traversed through tetrahedra and ends in the given sheet. c is the
-  /// point of facet t closest to x, and `face` holds it. `sheet` is the sheet's lowest-numbered tetrahedron.
+  /// point of facet t closest to x, `face` is the face that holds c, and `sheet` is the sheet's lowest-numbered
+  /// tetrahedron.
   OGC_HD bool passes(int part, int sheet, int t, int face) const {
     const Real apart = from_facet(t);
     Front front;
