@@ -104,9 +104,9 @@ class Step {
   /// Returns r plus the contact margin [m].
   float detection_radius() const { return settings_.detection_radius; }
 
-  /// Enqueues one step. Equal arguments give the same calls each time, until a list grows. `group`: number of
-  /// iterations between two decisions whether a detection is due. `group` and `sorting` change the time only.
-  /// `measures`: whether the step's row gets the forces that are left at the end of the step.
+  /// Enqueues one step. Equal arguments enqueue the same launches, until a list grows. `group`: number of iterations
+  /// between two decisions whether a detection is due. `group` and `sorting` change the time only. `measures`: whether
+  /// the step's row gets the forces that are left at the end of the step.
   void enqueue(int group, Sorting sorting = Sorting::asked, bool measures = false) {
     if (observer_ != nullptr) observer_->begin();
     clock_.time(StepStage::begin, [&] { begin(sorting); });
@@ -345,7 +345,7 @@ class Step {
                                     .free_vertices = sweep_.slots()});
   }
 
-  /// Checks the certificate and adds `sums`, with the sums of rods.
+  /// Checks the certificate, and adds the terms of `sums` and the terms of rods.
   template <class Sums>
   void check_and_add(const Sums& sums) {
     StepState<Backend>& s = state_;

@@ -199,8 +199,8 @@ TEST_CASE(
       const compare::ForceAnswer hinge = reference::bending(c)[0];
       const double apart = std::hypot(quadratic.force.x - hinge.force.x, quadratic.force.y - hinge.force.y,
                                       quadratic.force.z - hinge.force.z);
-      // Forces are at most c w θ, with c = 3 (`stiffness`) and the largest weight w = 2. The two models' forces differ
-      // by θ² times this. Rounded coordinates add a few c w² 2⁻²⁴.
+      // Forces of both models are at most c w θ, with c = 3 (`stiffness`) and the largest weight w = 2. They differ by
+      // about θ² c w θ. Rounded coordinates add a few c w² 2⁻²⁴.
       if (theta < 0.1) CHECK(apart <= 1e-5);
     }
   }

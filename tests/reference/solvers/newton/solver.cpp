@@ -269,7 +269,8 @@ TEST_CASE("Newton at convergence conserves momentum in a collision, friction inc
                lost = std::hypot(after.x - before.x, after.y - before.y, after.z - before.z);
   double mass = 0;
   for (const double m : potential.mass()) mass += m;
-  // Each step rounds positions of a few centimetres to 2⁻²⁹ m, and each velocity comes from two of them.
+  // Each step rounds positions of a few centimetres by up to 2⁻²⁹ m. A velocity is the difference of two positions,
+  // divided by the step.
   const double rounding = mass * 3 * 2 * 0x1p-29 / 0.01;
   CHECK(lost <= 1e-6 * whole + rounding);
   CHECK(std::abs(double{result.end.velocities[14].y} + 0.4) > 0.05);  // they did collide
