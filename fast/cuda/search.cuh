@@ -45,7 +45,7 @@ struct SearchNode {
 
 /// A primitive that a leaf offered to a search of the group.
 struct alignas(16) SearchItem {
-  int slot;  ///< number of the search in its group
+  int slot;  ///< index of the search in its group
   Offer offer;
 };
 

@@ -259,8 +259,8 @@ class Step {
 
   /// Enqueues iterations `first` to `first` + `count` − 1, and a detection after each iteration that requires one. A
   /// conditional node (`when`, `repeat`) costs a device as much as ten launches that do nothing. So all iterations are
-  /// enqueued at once; those after an iteration that requires a detection do nothing. Then `repeat` detects and runs
-  /// the remaining iterations, as long as a detection is due.
+  /// enqueued at once. If one requires a detection, the later ones do nothing. Then `repeat` detects and runs the later
+  /// ones, as long as a detection is due.
   void iterate(int first, int count) {
     const int last = first + count - 1, *due = flag(&StepControl::detect);
     const auto end = [&](int i) { return EndIteration{control(), settings_.control, count > 1 ? i : -1}; };

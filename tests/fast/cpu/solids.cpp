@@ -214,7 +214,7 @@ TEST_CASE("the work of a sweep counts a tetrahedron once for each of its free co
   CHECK(damping > 200 * stencils);
   scene.bodies[0].fixed = true;
   CHECK(sweep_work(scene).flop == one.flop + damping);
-  // A prescribed vertex needs no work, because no element computes its force on this vertex.
+  // A prescribed vertex needs no work, because the sweep computes no forces on it.
   scene.bodies[0].fixed = false;
   scene.bodies[1].material.solid_damping = 0;
   scene.motions.resize(1);

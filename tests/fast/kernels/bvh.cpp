@@ -1,4 +1,5 @@
-// Tests the order of the trees. The judge tests that searches find all that is near, in any order.
+// Tests the order of the trees. The judge tests whether searches find all that is near; this does not depend on the
+// order.
 #include "fast/kernels/bvh.hpp"
 
 #include <algorithm>

@@ -129,7 +129,7 @@ TEST_CASE("closed surface: the block of a nearest face is outward exactly where 
   std::mt19937 random(9);
   std::size_t inside = 0, outside = 0, on_surface = 0;
   for (const Surface& surface : bodies()) {
-    // Skips overlapping cubes, whose nearest face may lie inside the body.
+    // Skips the two overlapping cubes: the face nearest to a point may lie inside the body.
     if (surface.triangles.size() == overlapping_cubes().triangles.size() && surface.positions[8].x == 1.25f) continue;
     const Body body(surface);
     const ClosedSurface closed(body.mesh());

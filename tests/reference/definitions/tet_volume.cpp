@@ -271,7 +271,7 @@ TEST_CASE(
   CHECK(depths({0.75f, 1.25f, 1.875f}) == std::vector<double>{0.625});
   CHECK(depths({0.75f, 1.25f, 2.5f}).empty());
   CHECK(depths({2.25f, 2, 1}).size() == 1);  // beside the middle of a ridge
-  // A vertex of the body has no contact with its own sheet and its own faces.
+  // A vertex of the body has no contact with the sheet and the faces to which it belongs.
   const Vec3f corner = body.positions.back();
   CHECK(reference::volumetric_contacts(volume, surface, corner, 0.5f, static_cast<Index>(body.positions.size()) - 1)
             .empty());

@@ -118,9 +118,9 @@ TEST_CASE("the reference's hinge exerts no net force and no net torque", "[prope
       }
       scale += answer.force_scale;
     }
-    // The angle depends only on the four points, so only rounding in double remains: some tens of 2⁻⁵³ on arms shorter
-    // than 2 m. In the isometric model, force_scale contains less than a quarter of the elastic force's Σ |∂f/∂q| |q|
-    // over its inputs q.
+    // The energy depends only on the relative positions of the four points, so only rounding in double remains: some
+    // tens of 2⁻⁵³ on arms shorter than 2 m. In the isometric model, force_scale contains less than a quarter of the
+    // elastic force's Σ |∂f/∂q| |q| over its inputs q.
     CHECK(norm(force) < 1e-13 * scale);
     CHECK(norm(torque) < 1e-13 * scale);
   }

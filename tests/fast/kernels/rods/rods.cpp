@@ -180,7 +180,8 @@ TEST_CASE("a row has the energies of segments and joints, each joint once, whate
       stretched += length(apart) - 1;
       CHECK(ratios[e] == Approx(length(apart)).epsilon(8 * u));
     }
-    // A joint has the energy w/2 ‖q̄₀ q₁ − p‖², with w = 4 k_b/l̄ and the sign of p that makes it smaller.
+    // A joint has the energy w/2 ‖q̄₀ q₁ − p‖², with w = 4 k_b/l̄. The sign of p is the one that gives the smaller
+    // energy.
     const Quat relative = conjugate(q[0]) * q[1];
     const double apart = std::min(size(relative - p), size(relative + p));
     energy += 0.5 * w * apart * apart;

@@ -78,7 +78,7 @@ void check_structure(const Corners<N>& x, bool turns_freely, Energy energy) {
     moduli += tests::norm(g);
   }
   CHECK(tests::norm(force) <= 1e-13 * moduli);
-  // Gradients contain roundings of coordinate differences, amplified in slender stencils.
+  // Gradients contain the rounding errors of coordinate differences, which slender stencils amplify.
   if (turns_freely) CHECK(tests::norm(torque) <= 1e-9 * moduli * tests::norm(x[0] - x[N - 1]));
   const Matrix h = hessian_of<N>(at);
   CHECK((h - h.transpose()).cwiseAbs().maxCoeff() <= 1e-14 * h.cwiseAbs().maxCoeff());

@@ -335,8 +335,8 @@ TEST_CASE("Newton: friction solves go on until one changes nothing, and end with
   once->restore(before.end);
   once->advance(1);
   const double lagged = meter.at(once->snapshot().positions).share;
-  // The settled state has only the error of stored positions. After one solve, friction still depends on the state of
-  // the previous step, so its force differs.
+  // The residual of the settled state comes only from rounded positions. After one solve, friction still depends on the
+  // state of the previous step, so its force differs.
   CHECK(settled < 1e-4);
   CHECK(lagged > 10 * settled);
 }
