@@ -11,9 +11,9 @@ struct alignas(16) VertexFacetRecord {
   int corner[3];  ///< vertices of a; a triangle's are in the order of the mesh
 };
 
-/// A contact {p, q}: first[1] = −1 if p is a vertex, second[1] = −1 if q is a vertex. `first_edge`, `second_edge`: see
-/// compare/stages/detect_edge_edge.hpp. If p and q are both edges, these numbers are those of p and q; the mollifier
-/// needs their rest lengths.
+/// A contact {p, q}: first[1] = −1 if p is a vertex, second[1] = −1 if q is a vertex. If p and q are edges, first_edge
+/// and second_edge are their indices, because the mollifier needs their rest lengths. For other contacts see
+/// compare/stages/detect_edge_edge.hpp.
 struct alignas(8) EdgeEdgeRecord {
   int first[2];   ///< vertices of p; of an edge, the smaller first
   int second[2];  ///< vertices of q; of an edge, the smaller first
@@ -39,7 +39,8 @@ struct ContactView {
   const int* incidence_offsets = nullptr;   ///< vertex_count + 1
   const Incidence* incidences = nullptr;    ///< row of vertex v: from incidence_offsets[v]
   const float* bound = nullptr;             ///< b_v, Eq. 21 [m]
-  /// by vertex: smallest distance (Eq. 22) [m], at most r_q; if bounds are planes, over all pairs of the vertex
+  /// by vertex: smallest distance (Eq. 22) [m], at most r_q; if bounds are planes, the smallest distance of all pairs
+  /// that contain the vertex
   const float* d_min_vertex = nullptr;
 };
 

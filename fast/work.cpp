@@ -42,8 +42,8 @@ constexpr double on_segments_flop = 70;
 /// nothing 10.
 constexpr double vertex_flop = 54;
 
-/// Number of vertices of a contact whose closest points are inside the faces. The update of each vertex computes the
-/// contact.
+/// Number of vertices of a contact between two edge interiors, or between a vertex and a triangle's interior. The
+/// update of each vertex computes the contact.
 constexpr double contact_vertices = 4;
 
 /// Operations of squared_gaps for four children: six differences, three products and two sums for each child.

@@ -16,11 +16,11 @@ class LocalList {
   /// Return items and counter. A functor adds to them in place of the common list.
   Item* items() { return items_; }
   int* count() { return &count_; }
-  /// Checks whether `more` further items fit. Call it before adding them: without room, items are counted but not
-  /// stored.
+  /// Checks whether `more` further items fit. Call it before adding them, because items beyond the room are counted but
+  /// not stored.
   bool has_room_for(int more) const { return count_ + more <= room; }
 
-  /// Moves all items to a common list. The common count includes items that find no room there; these are passed to
+  /// Moves all items to a common list, and adds their number to the common count. Passes items that do not fit to
   /// without_room(item).
   template <class Without>
   void flush(Item* common, int capacity, int* common_count, Without without_room) {
@@ -45,7 +45,7 @@ class LocalNotes {
   LocalNotes& operator=(const LocalNotes&) = delete;
   ~LocalNotes() { flush(); }
 
-  /// Returns the common lists, but with this list in place of their notes.
+  /// Returns the common lists, with this thread's notes in place of the common notes.
   ListsView view() {
     ListsView lists = common_;
     lists.noted = list_.items(), lists.noted_count = list_.count(), lists.noted_capacity = room;
@@ -73,8 +73,8 @@ void run_range(const F& f, int begin, int end) {
   for (int i = begin; i < end; ++i) f(i);
 }
 
-/// Collects contacts, at most one for each pair. A contact without room is taken out of the counts of its bucket and
-/// its vertices, because FillBuckets would look for it there.
+/// Collects contacts, at most one for each pair. If a contact has no room, it is subtracted from the counts of its
+/// bucket and its vertices, so that FillBuckets does not look for it.
 inline void run_range(const CollectContacts& f, int begin, int end) {
   constexpr int room = 256;  // 4 KiB
   const ListsView& common = f.lists;

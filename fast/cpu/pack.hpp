@@ -173,10 +173,10 @@ PackOf<N> mixed(const PackOf<N>& a, const PackOf<N>& b) {
   (std::make_integer_sequence<int, N>());
 }
 
-/// The columns of four rows a, b, c and d, for each block of 16 B separately.
+/// The columns of four rows a, b, c and d, each block of 16 B separately.
 template <int N>
 struct ColumnsOf {
-  /// by block: x has number 0 of a, b, c and d in this order; y, z and w have numbers 1, 2 and 3
+  /// in each block, x has number 0 of a, b, c and d, y has number 1, z number 2, and w number 3
   PackOf<N> x, y, z, w;
 };
 /// Returns the columns of four rows.

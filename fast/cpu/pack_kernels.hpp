@@ -106,7 +106,7 @@ struct PackedGather<Gather<AnyActivation, Parts...>> {
     return kernels.gather<W>()(view, slot, vertex, own, sums);
   }
 };
-/// The sum of any scene, in packs.
+/// The sum over a vertex's stencils for any scene, in packs.
 using GatherPacked = PackedGather<GatherAll>;
 
 }  // namespace ogc::fast

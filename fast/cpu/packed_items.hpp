@@ -67,8 +67,8 @@ ForceAndBlockOf<P> selected(typename P::Mask condition, const ForceAndBlockOf<P>
            select(condition, p.yy, q.yy), select(condition, p.yz, q.yz), select(condition, p.zz, q.zz)}};
 }
 
-/// Adds to `sum` in the lanes where the condition holds. add(sum) computes all lanes; the others keep the bits of their
-/// sums.
+/// Adds to `sum` in the lanes where the condition holds; the sums of other lanes keep their bits. add(sum) computes all
+/// lanes.
 template <int N, class Add>
 void add_where(PackMaskOf<N> condition, ForceAndBlockOf<PackOf<N>>& sum, Add add) {
   if (is_false(condition)) return;

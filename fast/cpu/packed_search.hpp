@@ -44,7 +44,7 @@ struct Waiting {
   LocalNotes& notes;                      ///< notes of the thread
   Search& search;                         ///< search of the candidates; distances lower its limit
   int primitive[Pack::width], count = 0;  ///< the first `count` are used
-  /// by candidate: squared gap of boxes, gap limit of reaches, and result of candidate_limit [m²]
+  /// by candidate [m²]: Offer::gap, Offer::reach, and the result of candidate_limit
   float gap[Pack::width], reach[Pack::width], within[Pack::width];
 
   /// Adds a candidate. Tests all candidates when there are four.

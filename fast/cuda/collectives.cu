@@ -22,8 +22,8 @@ constexpr int scan_threads = 512, scan_items = 4, scan_tile = scan_threads * sca
 /// a cycle from the second-level cache.
 constexpr int longest_short_scan = 1 << 16;
 
-// Runs scans without communication between blocks. Each block adds everything before its tile: in a short scan item by
-// item, otherwise the tiles' sums in `sums`. CUB's scan would take two launches for each scan, and neither could begin
+// Runs scans without communication between blocks. Each block adds all that precedes its tile: the items in a short
+// scan, otherwise the tiles' sums in `sums`. CUB's scan would take two launches per scan, and neither could begin
 // early. The first blocks run the first scan, the others the second.
 __global__ void __launch_bounds__(scan_threads)
     scan_tiles(Scan first_scan, int first_blocks, Scan second_scan, const int* sums) {

@@ -23,9 +23,9 @@ compare::Contestant cuda_contestant(const LaunchShape& shape = {});
 std::unique_ptr<compare::Simulation> start_cuda(const compare::Scene& scene, const compare::SimulationOptions& options,
                                                 int list_capacity = 0);
 
-/// Makes the engine of a ContactFinder; `topology` must outlive it. Throws as cuda_contestant does. Device positions
-/// handed to the engine are read on a stream that synchronises with the legacy default stream; work on a non-blocking
-/// stream of the caller must be complete.
+/// Makes the engine of a ContactFinder; `topology` must outlive it. Throws as cuda_contestant does. The engine reads
+/// device positions on a stream that synchronises with the legacy default stream. The caller's work on a non-blocking
+/// stream must be complete before.
 std::unique_ptr<ContactEngine> cuda_contact_engine(const compare::Topology& topology,
                                                    const compare::ExclusionView& exclusions);
 

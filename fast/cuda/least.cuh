@@ -21,7 +21,8 @@ __device__ inline float merged(float own, int lane) {
   return own;
 }
 
-/// Sorts any row of 32 numbers in ascending order: runs of 2, 4, 8 and 16, every second run descending, then all.
+/// Sorts any row of 32 numbers in ascending order. First sorts runs of 2, 4, 8 and 16 numbers, every second run in
+/// descending order, then the whole row.
 __device__ inline float sorted(float own, int lane) {
 #pragma unroll
   for (int run = 2; run < 32; run *= 2)

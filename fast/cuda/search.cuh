@@ -29,11 +29,12 @@ inline constexpr int largest_searched_count = 4 << 25;
 
 /// A node of the stack, with its search.
 struct SearchNode {
-  /// from the top: 4 bits of the level, 3 of the search's number in its group, 25 of the place in the level
+  /// bits from high to low: 4 for the level, 3 for the search's index in its group, 25 for the node's index in its
+  /// level
   unsigned bits;
 
-  /// Packs level < max_levels, number of the search in its group, and place < 2²⁵ of the node in its level. The
-  /// functions below unpack them.
+  /// Packs the level (below max_levels), the search's index in its group (`slot`), and the node's index in its level
+  /// (`j` < 2²⁵). The functions below unpack them.
   __device__ static SearchNode of(int level, int slot, int j) {
     return {static_cast<unsigned>(level) << 28 | static_cast<unsigned>(slot) << 25 | static_cast<unsigned>(j)};
   }
@@ -44,14 +45,14 @@ struct SearchNode {
 
 /// A primitive that a leaf offered to a search of the group.
 struct alignas(16) SearchItem {
-  int slot;  ///< number of the search in its group
+  int slot;  ///< index of the search in its group
   Offer offer;
 };
 
-/// Holds the pending items of one warp. A list with 32 items gets no more, and no round adds more than 32.
+/// Holds the pending items of one warp.
 struct SearchMemory {
-  /// A round that adds items to a list finds at most 31 there and adds at most 32. `nodes` has one node for each search
-  /// and at most 32 of each level.
+  /// `candidates` and `pairs`: a round adds at most 32 items to a list, and only if the list has at most 31. `nodes`:
+  /// one node for each search, and at most 32 of each level.
   static constexpr int most_items = 31 + 32, most_nodes = largest_group + 32 * (max_levels - 1);
   Search searches[largest_group];  ///< by number in the group
   /// two stacks; is_pair moves items from `candidates` to `pairs`

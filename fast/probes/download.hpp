@@ -30,7 +30,7 @@ inline compare::Index owner_of(const compare::Face& face, const compare::Topolog
   return rows[static_cast<std::size_t>(face.index)].front();
 }
 
-/// Returns one side of an edge–edge record.
+/// Returns the face on one side of an edge–edge record. `edge`: the edge that the record has for this side.
 inline compare::Face side_of(const int (&vertices)[2], int edge) {
   return vertices[1] < 0 ? compare::Face{compare::FaceKind::vertex, vertices[0]}
                          : compare::Face{compare::FaceKind::edge, edge};

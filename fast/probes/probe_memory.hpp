@@ -27,7 +27,7 @@ class ProbeMemory {
     return buffer->data();
   }
 
-  /// Returns room for n answers on the backend. `to` is resized, and `fetch` fills it.
+  /// Returns memory for n answers on the backend. Resizes `to`, and `fetch` copies the answers there.
   template <class From, class To>
   From* out(std::vector<To>& to, std::size_t n) {
     static_assert(sizeof(To) == sizeof(From) && alignof(To) == alignof(From));

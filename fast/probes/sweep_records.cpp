@@ -7,7 +7,7 @@
 namespace ogc::fast {
 namespace {
 
-/// Returns the vertices of a face in the order of a detection's records; −1 where it has none.
+/// Returns the vertices of a face as a detection records them: three numbers, −1 for a vertex that the face lacks.
 std::array<int, 3> corners_of(const compare::Face& face, const compare::Topology& topology) {
   const auto i = static_cast<std::size_t>(face.index);
   switch (face.kind) {

@@ -82,8 +82,8 @@ class StepTrace : public StepObserver {
     }
     const Vec* previous = state_.previous.data();
     event.position = download_positions(backend_, previous, n);
-    // A detection before the first iteration belongs to the guess loop, which does not search for contacts with
-    // volumes.
+    // Before the first iteration, a detection belongs to the guess loop, which does not search in volumes. So the trace
+    // searches here.
     if (control.iterations == 0) step_.find_in_volumes(previous);
     set_contacts(event);
     return event;

@@ -72,7 +72,7 @@ struct KeyBits {
   int begin = 0, end = 64;
 };
 
-/// Tells whether a launch begins after the previous launch has ended, or may begin earlier.
+/// Tells whether a launch begins after the end of the previous launch, or may begin earlier.
 enum class Start { after_previous, overlapping };
 
 }  // namespace ogc::fast

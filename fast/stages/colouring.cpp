@@ -127,7 +127,7 @@ std::vector<int> order_by_class(const std::vector<int>& vertices, const std::vec
   return order;
 }
 
-// Returns a colour that no neighbour of v has, other than `own` and `banned`; −1 if there is none.
+// Returns a colour, neither `own` nor `banned`, that no neighbour of v has; −1 if there is none.
 int other_colour(const compare::CompressedRows& graph, const std::vector<int>& colour, int v, int count, int own,
                  int banned) {
   std::uint64_t taken = 0;
@@ -157,8 +157,8 @@ bool eject(const compare::CompressedRows& graph, std::vector<int>& colour, int v
   return true;
 }
 
-// Moves each vertex of the last class to another class if, besides it, at most its direct neighbours must change
-// colour. Returns whether the last class is empty now; false if it is the only class.
+// Gives each vertex of the last class another colour, if at most its direct neighbours must change theirs, too. Returns
+// whether the last class is empty now; false if it is the only class.
 bool dissolve_last_class(const compare::CompressedRows& graph, const std::vector<int>& vertices, int count,
                          std::vector<int>& colour) {
   const int last = count - 1;

@@ -24,9 +24,8 @@ struct Colouring {
 /// tetrahedron or a segment with v. Rows of vertices that are not free are empty.
 compare::CompressedRows conflict_graph(const RestState& rest);
 
-/// Returns how many passes try to reduce the number of colours. All passes together visit about 2·10⁷ neighbours, which
-/// takes a second, but there are at least 4 and at most 100 passes. One pass visits `neighbours` neighbours (the length
-/// of all rows).
+/// Returns the number of passes that try to remove colours: 4 to 100, such that all passes together visit about 2·10⁷
+/// neighbours, which takes a second. One pass visits `neighbours` neighbours, the length of all rows.
 int colouring_passes(std::size_t neighbours);
 
 /// Colours the vertices with Mobility::free.

@@ -3,9 +3,8 @@
 // are added in runs of 32 until 32 rows are left, then these 32. So no backend and no number of threads can change a
 // bit. One thread adds the items of a chunk.
 //
-// Launches are saved, because each would take as long as all the additions: one launch adds items of all kinds, and
-// columns that were added at different times are totalled together. Launches of the caller that need no sum run beside
-// these.
+// Few launches are made, because a launch takes as long as all the additions. One launch adds items of all kinds, and
+// `total` sums columns that were added at different times. The caller may run other loops in these launches.
 #pragma once
 
 #include <utility>

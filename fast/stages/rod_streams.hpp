@@ -11,8 +11,8 @@
 
 namespace ogc::fast {
 
-/// Returns the free segments in the order of their colours. The number v of an end that is not a free vertex is stored
-/// as ~v, so that the sweep reads the new position of this end.
+/// Returns the free segments in the order of their colours. If an end is not a free vertex, its index v is stored as
+/// ~v, so that the sweep reads the new position of this end.
 inline std::vector<SegmentSlot> segment_slots(const RodsAtRest& rods, const Colouring& vertices,
                                               const Colouring& segments) {
   std::vector<SegmentSlot> slots;

@@ -275,8 +275,9 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
   /// step's number alone, so a resumed run has the same rows.
   bool is_measured(std::int64_t step) const { return step % steps_between_measures(scene_.settings.iterations) == 0; }
 
-  /// Replays steps. Each kind of step (sorts trees or not, measures forces or not) has a recording. A decision on the
-  /// device would cost each step the time of ten launches. The host counts steps between sorts as BeginStep does.
+  /// Replays steps. Each kind of step (sorts trees or not, measures forces or not) has a recording. The host counts the
+  /// steps between sorts, as BeginStep does, because a decision on the device would cost each step the time of ten
+  /// launches.
   void replay(int count) {
     for (int since = since_sort_, done = 0; done < count;) {
       const std::int64_t next = step_number_ + done + 1;

@@ -104,9 +104,9 @@ class Step {
   /// Returns r plus the contact margin [m].
   float detection_radius() const { return settings_.detection_radius; }
 
-  /// Enqueues one step. Equal arguments give the same calls each time, until a list grows. `group`: number of
-  /// iterations between two decisions whether a detection is due. `group` and `sorting` change the time only.
-  /// `measures`: whether the step's row gets the forces that are left at the end of the step.
+  /// Enqueues one step. Equal arguments enqueue the same launches, until a list grows. `group`: number of iterations
+  /// between two decisions whether a detection is due. `group` and `sorting` change the time only. `measures`: whether
+  /// the step's row gets the forces that are left at the end of the step.
   void enqueue(int group, Sorting sorting = Sorting::asked, bool measures = false) {
     if (observer_ != nullptr) observer_->begin();
     clock_.time(StepStage::begin, [&] { begin(sorting); });
@@ -259,8 +259,8 @@ class Step {
 
   /// Enqueues iterations `first` to `first` + `count` − 1, and a detection after each iteration that requires one. A
   /// conditional node (`when`, `repeat`) costs a device as much as ten launches that do nothing. So all iterations are
-  /// enqueued at once; those after an iteration that requires a detection do nothing. Then `repeat` detects and runs
-  /// the remaining iterations, as long as a detection is due.
+  /// enqueued at once. If one requires a detection, the later ones do nothing. Then `repeat` detects and runs the later
+  /// ones, as long as a detection is due.
   void iterate(int first, int count) {
     const int last = first + count - 1, *due = flag(&StepControl::detect);
     const auto end = [&](int i) { return EndIteration{control(), settings_.control, count > 1 ? i : -1}; };
@@ -345,7 +345,7 @@ class Step {
                                     .free_vertices = sweep_.slots()});
   }
 
-  /// Checks the certificate and adds `sums`, with the sums of rods.
+  /// Checks the certificate, and adds the terms of `sums` and the terms of rods.
   template <class Sums>
   void check_and_add(const Sums& sums) {
     StepState<Backend>& s = state_;

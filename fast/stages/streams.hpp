@@ -48,7 +48,7 @@ HostStream<Kind> host_stream(const RestState& rest, const Colouring& colouring) 
   return stream;
 }
 
-/// Copies the rows of a kind into the vertices, at the kind's row_in_vertex.
+/// Copies the rows of a kind into the vertices, if its row_in_vertex is ≥ 0.
 template <class Kind>
 void put_rows(const HostStream<Kind>& stream, std::vector<SweepVertex>& vertices) {
   if constexpr (Kind::row_in_vertex >= 0) {
@@ -57,7 +57,7 @@ void put_rows(const HostStream<Kind>& stream, std::vector<SweepVertex>& vertices
   }
 }
 
-/// Returns the free vertices by slot. A vertex stores its rows of the kinds with row_in_vertex ≥ 0.
+/// Returns the free vertices by slot. Vertices store the rows of kinds with row_in_vertex ≥ 0.
 template <class... All>
 std::vector<SweepVertex> sweep_vertices(KindList<All...>, const RestState& rest, const Colouring& colouring,
                                         double time_step, const HostStream<All>&... streams) {

@@ -41,7 +41,7 @@ template <class... All>
 unsigned kinds_of(KindList<All...> list, const RestState& rest) {
   return ((at_rest<All>(rest).elements().empty() ? 0u : list.template bit<All>) | ...);
 }
-/// Returns the kinds whose vertices have few elements, one bit each.
+/// Returns the kinds that form curves, one bit each. Their vertices have few elements.
 template <class... All>
 constexpr unsigned curves(KindList<All...> list) {
   return ((All::is_curve ? list.template bit<All> : 0u) | ...);
@@ -116,7 +116,7 @@ class Sweep {
   /// Makes room for the contacts of a detection, and for their incidences. Host only, outside a step.
   void reserve_contacts(int contacts) { contacts_.resize(4 * static_cast<std::size_t>(contacts)); }
 
-  /// Returns the number of free vertices, the items of a launch over contact_rows.
+  /// Returns the number of free vertices; contact_rows() runs once for each.
   int slots() const { return streams_.slots(); }
   /// Returns the contact stream of the last detection, on the backend. Contacts have the indices of their incidences.
   const ContactIncidence* contacts() const { return contacts_.data(); }

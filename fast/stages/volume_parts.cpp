@@ -1,4 +1,4 @@
-// This host code is not in the header for the reason given in fast/stages/surface.cpp.
+// This host code is not in the header, so that only g++ compiles it (fast/stages/surface.cpp explains why).
 #include "fast/stages/volume_parts.hpp"
 
 #include <algorithm>

@@ -34,7 +34,8 @@ struct AskerRows {
   std::vector<int> slot_of;  ///< by vertex: its slot, or −1; empty if no volume is free
 };
 
-/// Returns the rows of a scene; no rows if the scene has no volumes. `order`: the scene's free vertices by slot.
+/// Returns the askers of a scene by row; no rows if the scene has no volumes. `order`: the scene's free vertices by
+/// slot.
 AskerRows asker_rows(const compare::Scene& scene, const compare::Topology& topology, const std::vector<int>& order);
 
 /// The arrays of SolidView, on the host.

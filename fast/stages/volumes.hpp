@@ -215,7 +215,7 @@ class Volumes {
     return {capacity_, corner_capacity_};
   }
   /// Host only: sets the capacities of the rows, which are empty until the next detection. Throws std::invalid_argument
-  /// if the number of capacities differs from that of capacities(), or if a capacity is out of range.
+  /// if `capacities` and capacities() differ in length, or if a capacity is out of range.
   void reserve(std::span<const std::int64_t> capacities) {
     if (capacities.size() != this->capacities().size()) throw std::invalid_argument("capacities of other lists");
     for (const std::int64_t capacity : capacities)

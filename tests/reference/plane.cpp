@@ -33,7 +33,8 @@ int sheet_of(const Vertices& vertices) {
   return lower == 0 ? 1 : (upper == 0 ? 0 : -1);
 }
 
-/// The sheets at z = 0 and z = gap. Each vertex has one plane for each pair between the sheets that contains it.
+/// The sheets at z = 0 and z = gap. For each pair of primitives of different sheets, every vertex of the pair has one
+/// plane.
 struct TwoSheets {
   Surface surface = together(grid(side), grid(side, gap));
   compare::Topology topology = surface.topology();

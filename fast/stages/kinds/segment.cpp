@@ -39,7 +39,7 @@ RestFrame turn_between(const RestVector& a, const RestVector& b) {
   return normal({axis.x, axis.y, axis.z, real});
 }
 
-/// The segments that meet at a vertex: number of the segment, number of its end at this vertex.
+/// The segments that meet at a vertex: index of the segment, index of its end at this vertex.
 using Ends = std::vector<std::pair<int, int>>;
 
 /// Finds the neighbours of segments. Computes rest frames by the walks along rods that compare/stages/rest_state.hpp

@@ -1,4 +1,5 @@
-// Triangles at rest. Triangles without energy are left out: those of fixed bodies, and those without a membrane model.
+// Holds the triangles at rest. Triangles without energy are left out: those of fixed bodies, and those without a
+// membrane model.
 #pragma once
 
 #include "fast/stages/kinds/at_rest.hpp"

@@ -54,7 +54,7 @@ void add_block(Scene& scene, const Vec3& corner, const compare::Material& materi
               tests::block_mesh(side, spacing, corner));
 }
 
-/// Moves the vertices of a body for which `is` returns true with a velocity [m/s].
+/// Prescribes a velocity [m/s] for those vertices of a body at whose positions `is` returns true.
 template <class Is>
 void drive(Scene& scene, std::size_t body, const Vec3& velocity, Is is) {
   compare::PrescribedMotion motion;

@@ -27,7 +27,8 @@ struct Four {
     }
     return packed;
   }
-  /// Returns one bit per lane: whether its weights have the same bits as those of its contact computed alone.
+  /// Returns one bit per lane: whether the lane's weights have the same bits as the weights of its contact computed
+  /// alone.
   unsigned alike(ContactKind kind, const ContactWeightsOf<Pack>& weights) const {
     unsigned all = 0;
     for (int k = 0; k < Pack::width; ++k) {

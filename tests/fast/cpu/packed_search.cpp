@@ -23,8 +23,8 @@ Pack separations(const Scripted& query, const Search&, const int* primitive) {
   return Pack::of_each([&](int k) { return query.apart[static_cast<std::size_t>(primitive[k])]; });
 }
 
-/// Returns the limit after these primitives have been offered. A number k ≥ 100 offers primitive k − 100 as idle
-/// (is_idle).
+/// Returns the search's limit after these primitives have been offered. An entry k ≥ 100 means primitive k − 100,
+/// offered as idle (is_idle).
 float limit_after(const Scripted& query, const std::vector<int>& offered) {
   NotedPair room[1];
   int count = 0;

@@ -11,7 +11,7 @@ using namespace ogc::fast;
 
 namespace {
 
-/// Holds segments whose neighbours are other segments. A third of the segments are in an unusual case.
+/// Holds the segments of one colour, so no segment is a neighbour of another. spoil() makes a third of them unusual.
 struct Colour {
   static constexpr int count = 43;
   std::mt19937 random;

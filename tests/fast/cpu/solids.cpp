@@ -91,8 +91,8 @@ TEST_CASE("a vertex inside a block has no bound, and all others have one", "[uni
 }
 
 TEST_CASE("a bar whose ends are stretched takes the closed-form length and width in between", "[property]") {
-  // Without lateral force ∂ψ/∂b = 0, with ψ = μ/2 (a² + 2b² − 3) − μ (J − 1) + (λ + μ)/2 (J − 1)² and J = ab². Hence J
-  // − 1 = μ (a − 1)/((λ + μ) a).
+  // The bar is stretched by a, and its width by b. Without lateral force ∂ψ/∂b = 0, with ψ = μ/2 (a² + 2b² − 3) − μ (J
+  // − 1) + (λ + μ)/2 (J − 1)² and J = ab². Hence J − 1 = μ (a − 1)/((λ + μ) a).
   compare::Scene scene = empty_scene();
   scene.gravity = {};
   const double a = 1.3, mu = 1e4, lambda = 3e4, b = std::sqrt((1 + mu * (a - 1) / ((lambda + mu) * a)) / a);
@@ -214,7 +214,7 @@ TEST_CASE("the work of a sweep counts a tetrahedron once for each of its free co
   CHECK(damping > 200 * stencils);
   scene.bodies[0].fixed = true;
   CHECK(sweep_work(scene).flop == one.flop + damping);
-  // A prescribed vertex needs no work, because no element computes its force on this vertex.
+  // A prescribed vertex needs no work, because the sweep computes no forces on it.
   scene.bodies[0].fixed = false;
   scene.bodies[1].material.solid_damping = 0;
   scene.motions.resize(1);

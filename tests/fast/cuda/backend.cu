@@ -80,9 +80,9 @@ struct TwoOfRow {
   OGC_HD void operator()(int i, float smallest, float after_rank) const { least[i] = smallest, after[i] = after_rank; }
 };
 
-// After a sum, searches a row for the first number below 20, for the next one if the row's count is even, and for the
-// minimum of 45 and all numbers of the row. Teams of one warp search different numbers of times, so that their control
-// flow diverges.
+// After a sum, searches a row for its first number below 20, and for the second one if the row's count is even. Also
+// computes the minimum of 45 and the row's numbers. Teams of one warp search different numbers of times, so that their
+// control flow diverges.
 struct AskRow {
   static constexpr int parts = 1;
   const int* offsets;
@@ -351,8 +351,8 @@ TEST_CASE("when decides at its turn, both at once and in a replay", "[gpu]") {
   CudaBuffer<int> flag, count;
   flag.resize(1);
   count.resize(1);
-  // With flag 0 nothing runs. With flag 1 the body counts, sorts and scans inside the condition, and clears the flag.
-  // So the third body does not run.
+  // The flag is 0 for the first body, which does not run. It is 1 for the second body, which counts, sorts, scans and
+  // clears the flag. So the third body does not run.
   std::vector<std::uint64_t> keys{3, 1, 2};
   CudaBuffer<std::uint64_t> device_keys;
   CudaBuffer<int> values, sums, sums_again;

@@ -1,4 +1,5 @@
-// Tests the order of the trees. The judge tests that searches find all that is near, in any order.
+// Tests the order of the trees. The judge tests whether searches find all that is near; this does not depend on the
+// order.
 #include "fast/kernels/bvh.hpp"
 
 #include <algorithm>
@@ -97,7 +98,7 @@ TEST_CASE("keys keep vertices, edges and facets apart, and follow the middles of
   CHECK(keys == std::vector<std::uint64_t>{key_of(0, 0, 0, 0), key_of(0, last, 0, 0), key_of(0, 0, last, 0),
                                            key_of(0, last, last, last), key_of(1, half, 0, 0),
                                            key_of(1, half, half, half), key_of(2, half, half, 0)});
-  // If only some primitives are searched, they are in the order of their list.
+  // If only some primitives are searched, keys and values have the order of the list `searched`.
   const std::vector<int> searched{3, 1, 1, 0};
   SurfaceView some = surface;
   some.searched = searched.data(), some.searched_vertices = 2, some.searched_edges = 1;

@@ -21,7 +21,8 @@ struct Counts {
   int pairs = 0, rejected = 0, contacts = 0, wrong = 0;
 };
 
-/// Counts the pairs of edges without a common vertex. Decides about each pair as if the pair were nearer than r.
+/// Counts the pairs of edges without a common vertex: all pairs, rejected pairs, contacts, and contacts that were
+/// rejected. Contacts are decided as if each pair were nearer than r.
 Counts count(const tests::TestMesh& mesh) {
   const compare::Topology topology = mesh.topology();
   Surface<CpuBackend> surface(topology, {});

@@ -68,8 +68,8 @@ struct Counts {
   int planes = 0, without = 0, wrong = 0, meeting = 0, broken = 0, met = 0, off_way = 0;
 };
 
-/// Returns whether x is between `from` and `to`. The tolerance is 8 · 2⁻²⁴ of the largest coordinate along each axis,
-/// for the rounding of x and three steps of one unit in the last place.
+/// Returns whether x lies on the segment from `from` to `to`. The tolerance along each axis is 8 · 2⁻²⁴ of the largest
+/// coordinate, for the rounding of x and three steps of one unit in the last place.
 bool is_on_way(const Vec& from, const Vec& to, const Vec& x) {
   const auto wide = [](const Vec& a) { return Vector<double>{a.x, a.y, a.z}; };
   const Vector<double> way = wide(to) - wide(from), gone = wide(x) - wide(from);

@@ -194,7 +194,7 @@ WatchedBackend::Replayed replayed(const compare::Scene& scene, int frames, int c
   return noted;
 }
 
-/// Returns the number of different recordings.
+/// Returns the number of different recordings in `noted`.
 std::size_t kinds(const WatchedBackend::Replayed& noted) { return std::set(noted.begin(), noted.end()).size(); }
 
 }  // namespace

@@ -129,7 +129,7 @@ TEST_CASE("closed surface: the block of a nearest face is outward exactly where 
   std::mt19937 random(9);
   std::size_t inside = 0, outside = 0, on_surface = 0;
   for (const Surface& surface : bodies()) {
-    // Skips overlapping cubes, whose nearest face may lie inside the body.
+    // Skips the two overlapping cubes: the face nearest to a point may lie inside the body.
     if (surface.triangles.size() == overlapping_cubes().triangles.size() && surface.positions[8].x == 1.25f) continue;
     const Body body(surface);
     const ClosedSurface closed(body.mesh());
@@ -177,7 +177,7 @@ TEST_CASE("closed surface: a ridge has its outward block, a dent only its own po
   // The point is outside, but no normal of the dent points to it.
   CHECK_FALSE(closed.in_outward_block(dent, {1.5f, 1.5f, 1.5f}, 4));
   CHECK(reference::in_block(body.mesh(), dent, {0.25f, 0.5f, 0.25f}, 4));
-  // a normal points to the point, but the point is inside
+  // The point is in the dent's block, but inside the cube.
   CHECK_FALSE(closed.in_outward_block(dent, {0.25f, 0.5f, 0.25f}, 4));
 }
 

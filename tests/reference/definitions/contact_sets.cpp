@@ -123,7 +123,8 @@ TEST_CASE(
     // Both slopes are equally near, so the argmin that defines the paper's SDF set is not unique.
     CHECK(reference::sdf_face_set(mesh, mesh.at(4), 1) == std::vector<Index>{0, 1});
     const Vec3f beside{0, 0x1p-20f, 0.5f};
-    // One slope is nearer. Over the ridge the nearest point is still on the crest, which belongs to both slopes.
+    // Over the valley, one slope is nearer than the other. Over the ridge, the nearest point is still on the crest,
+    // which belongs to both slopes.
     CHECK(reference::sdf_face_set(mesh, beside, 1) == (height < 0 ? std::vector<Index>{0, 1} : std::vector<Index>{0}));
     if (height < 0) {
       REQUIRE(contacts.size() == 1);

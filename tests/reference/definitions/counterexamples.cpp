@@ -147,8 +147,8 @@ TEST_CASE(
 TEST_CASE(
     "counterexample to \"detected exactly twice\" (§4.2): Algorithm 2 as printed enters a pair from one side only",
     "[unit]") {
-  // Edge 1 continues edge 0 at vertex 1. Edge 2 (vertices 3, 4) crosses beyond vertex 1, where edge 1 is nearer to it
-  // than edge 0.
+  // Edge 1 continues edge 0 at vertex 1. Edge 2 (vertices 3, 4) passes above edge 1, so it is nearer to edge 1 than to
+  // edge 0.
   const Surface bend{{{-2, 0, 0}, {0, 0, 0}, {2, 0, 0.5f}, {1, -2, 1}, {1, 2, 1}}, {}, {{0, 1}, {1, 2}, {3, 4}}, {}};
   const auto topology = bend.topology();
   const Complex mesh{topology, bend.positions};

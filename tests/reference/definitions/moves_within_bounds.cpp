@@ -38,7 +38,7 @@ TEST_CASE("Eq. 27: moves within the bounds never make an intersection", "[proper
       auto after = before;
       for (std::size_t v = 0; v < after.size(); ++v) {
         const double x = normal(random), y = normal(random), z = normal(random), length = std::hypot(x, y, z);
-        // leaves a millionth of the bound, far more than the sums' rounding error
+        // The step is a millionth shorter than the bound, which is far more than the rounding error of the sums.
         const double step = 0.999999 * static_cast<double>(bounds[v]) / length;
         after[v] = {after[v].x + step * x, after[v].y + step * y, after[v].z + step * z};
       }

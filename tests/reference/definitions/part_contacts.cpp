@@ -230,8 +230,8 @@ TEST_CASE("ridges, valleys and corners: the side is that of the dihedral, not of
   REQUIRE(corner.size() == 1);
   CHECK(corner[0].face.kind == FaceKind::vertex);
   CHECK(!corner[0].inside);
-  // The corner of an inverted cube has its inner side outside the cube. No point outside a part's bounding box is
-  // inside.
+  // At a corner of an inverted cube, the inner side faces away from the cube. Still, a point outside a part's bounding
+  // box is never inside.
   Surface inner = cube();
   for (compare::Triangle& t : inner.triangles) std::swap(t[1], t[2]);
   CHECK(Body(inner).ask({2.25f, 2.25f, 2.25f}, 0.5f).empty());

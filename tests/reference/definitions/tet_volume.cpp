@@ -79,8 +79,8 @@ double euclidean(const Vec3f& x, const std::array<double, 3>& y) {
   return std::hypot(x.x - y[0], x.y - y[1], x.z - y[2]);
 }
 
-/// Returns the distance by the closest features of Algorithm 1, which share no formula with the rational closest
-/// points.
+/// Returns the distance of x from a boundary triangle, by its closest feature (Algorithm 1). This shares no formula
+/// with the closest points in rational numbers.
 double triangle_distance(const Body& body, const reference::BoundaryTriangle& side, const Vec3f& x) {
   const auto corner = [&](std::size_t k) { return body.positions[static_cast<std::size_t>(side.vertices[k])]; };
   const std::array<Vec3f, 3> corners{corner(0), corner(1), corner(2)};
@@ -163,7 +163,8 @@ TEST_CASE(
     "[unit]") {
   const Body body = overlapping_ring();
   const TetVolume volume(body.positions, body.tetrahedra);
-  // The point is 0.02 of a cell before the bar's end. The second sheet ends there, the first one 36 cells later.
+  // The point is 0.02 of a cell before the bar's end, which belongs to the second sheet. The first sheet goes on for 36
+  // cells.
   const double angle = 2 * std::numbers::pi * (ring_cells - ring_turn - 0.02) / ring_turn;
   const Vec3f x{static_cast<float>(2 * std::cos(angle)), static_cast<float>(2 * std::sin(angle)), 1.0f};
   const auto sheets = volume.sheets(x);
@@ -270,7 +271,7 @@ TEST_CASE(
   CHECK(depths({0.75f, 1.25f, 1.875f}) == std::vector<double>{0.625});
   CHECK(depths({0.75f, 1.25f, 2.5f}).empty());
   CHECK(depths({2.25f, 2, 1}).size() == 1);  // beside the middle of a ridge
-  // A vertex of the body has no contact with its own sheet and its own faces.
+  // A vertex of the body has no contact with the sheet and the faces to which it belongs.
   const Vec3f corner = body.positions.back();
   CHECK(reference::volumetric_contacts(volume, surface, corner, 0.5f, static_cast<Index>(body.positions.size()) - 1)
             .empty());

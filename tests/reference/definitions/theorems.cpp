@@ -103,8 +103,8 @@ void examine_edges(const Complex& mesh, const std::set<Face>& blocks, const Vec3
   }
 }
 
-/// Checks each face a of a triangle t if the block of a holds x: a must be the closest face of t. Then dis(x, a) ≤
-/// dis(x, b) for all faces b of t, with < if b ⊂ a. Also counts triangles with two faces whose blocks hold x.
+/// Checks for each triangle t: if the block of its face a holds x, a is the closest face of t. Then dis(x, a) ≤ dis(x,
+/// b) for all faces b of t, with < if b ⊂ a. Also counts triangles with two faces whose blocks hold x.
 void examine_triangles(const Complex& mesh, const std::set<Face>& blocks, const Vec3f& x, Findings& findings) {
   for (std::size_t i = 0; i < mesh.topology.triangles.size(); ++i) {
     const auto t = static_cast<Index>(i);
@@ -152,7 +152,7 @@ Answer answer(const Surface& surface, float r) {
       reference::bound({&topology, facets.d_min_vertex, edges.d_min_edge, facets.d_min_triangle, 0.5f}).exact.bound};
 }
 
-/// Contacts as the vertices of their faces, which do not depend on the numbers of edges and triangles.
+/// Contacts by the vertices of their faces, because renumbering changes the indices of edges and triangles.
 using Named = std::set<std::vector<std::vector<Index>>>;
 
 Named named(const Surface& surface, const Answer& given, const std::vector<Index>& name) {

@@ -118,9 +118,9 @@ TEST_CASE("the reference's hinge exerts no net force and no net torque", "[prope
       }
       scale += answer.force_scale;
     }
-    // The angle depends only on the four points, so only rounding in double remains: some tens of 2⁻⁵³ on arms shorter
-    // than 2 m. In the isometric model, force_scale contains less than a quarter of the elastic force's Σ |∂f/∂q| |q|
-    // over its inputs q.
+    // The energy depends only on the relative positions of the four points, so only rounding in double remains: some
+    // tens of 2⁻⁵³ on arms shorter than 2 m. In the isometric model, force_scale contains less than a quarter of the
+    // elastic force's Σ |∂f/∂q| |q| over its inputs q.
     CHECK(norm(force) < 1e-13 * scale);
     CHECK(norm(torque) < 1e-13 * scale);
   }
@@ -199,8 +199,8 @@ TEST_CASE(
       const compare::ForceAnswer hinge = reference::bending(c)[0];
       const double apart = std::hypot(quadratic.force.x - hinge.force.x, quadratic.force.y - hinge.force.y,
                                       quadratic.force.z - hinge.force.z);
-      // Forces are at most c w θ, with c = 3 (`stiffness`) and the largest weight w = 2. The two models' forces differ
-      // by θ² times this. Rounded coordinates add a few c w² 2⁻²⁴.
+      // Forces of both models are at most c w θ, with c = 3 (`stiffness`) and the largest weight w = 2. They differ by
+      // about θ² c w θ. Rounded coordinates add a few c w² 2⁻²⁴.
       if (theta < 0.1) CHECK(apart <= 1e-5);
     }
   }

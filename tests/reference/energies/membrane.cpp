@@ -235,8 +235,8 @@ TEST_CASE(
     double largest = 0;
     for (std::size_t k = 0; k < 6; ++k)
       raised[k] = block[k] - second[k], largest = std::max(largest, std::abs(raised[k]));
-    // Energies are as large as the block's entries. Second differences with steps of 10⁻⁴ have errors of 2⁻⁵³/10⁻⁸ by
-    // rounding and of 10⁻⁸ times fourth derivatives.
+    // Energies have the size of the block's entries. Second differences with steps of 10⁻⁴ have a rounding error of
+    // 2⁻⁵³/10⁻⁸ of the energy, and a truncation error of 10⁻⁸ times fourth derivatives.
     CHECK(smallest_quadratic(raised, draw) >= -1e-4 * size);
     if (smallest_quadratic(second, draw) < 1e-3 * size) continue;
     ++definite;

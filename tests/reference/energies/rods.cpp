@@ -131,8 +131,8 @@ TEST_CASE("the reference's force of a rod is minus the slope of its energy, its 
       const compare::ForceAnswer exact = reference::rod(c);
       const Point x = point(c.vertex[static_cast<std::size_t>(own)]),
                   by_differences = slope([&](const Point&at) { return energy(c, at); }, x, 1e-3);
-      // The energy is quadratic in x, so differences have no truncation error. Energies of 200 J have a rounding error
-      // of 2⁻⁵³ · 200 J, which the difference divides by the step. Quaternions have length 1 up to 2⁻²³, which changes
+      // The energy is quadratic in x, so differences have no truncation error. Energies of 200 J are rounded by 2⁻⁵³ ·
+      // 200 J; the difference divides this error by the step. Quaternions have length 1 up to 2⁻²³, which changes
       // forces of at most 300 N.
       CHECK(std::abs(exact.force.x + by_differences[0]) <= 1e-4);
       CHECK(std::abs(exact.force.y + by_differences[1]) <= 1e-4);
@@ -200,8 +200,8 @@ TEST_CASE("from a near old q it minimises the energy of stretch, shear, bend and
     if (std::abs(again[0] - q[0]) + std::abs(again[1] - q[1]) + std::abs(again[2] - q[2]) + std::abs(again[3] - q[3]) >
         1e-5)
       continue;
-    // Skips cases in which the rotation angle θ to a neighbour is near π. Beyond π the sign changes, and the energy may
-    // be lower.
+    // Skips cases in which the rotation angle θ to a neighbour is near π. Beyond π the sign of the neighbour's term
+    // changes, and the energy may be lower.
     if (std::max(angle_to(c, c.orientation, false), angle_to(c, c.orientation, true)) > 2.9) continue;
     ++compared;
     const double least = physical_energy(c, c.orientation);

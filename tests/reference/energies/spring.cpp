@@ -54,7 +54,8 @@ TEST_CASE("the reference's spring force is minus the slope of the energy, along 
     if (norm(minus(point(c.vertex[0]), point(c.vertex[1]))) < 0.1) continue;
     const Point force = force_of(reference::spring(c)),
                 fallen = slope([&](const Point&x) { return energy(x, c); }, point(c.vertex[0]), 1e-5);
-    // Energies are about 100 J, with third derivatives below 10⁵ for lengths above 0.1 m.
+    // Third derivatives are below 10⁵ for lengths above 0.1 m, so truncation gives 10⁻¹⁰/6 · 10⁵. Energies of 100 J are
+    // rounded: 100 · 2⁻⁵³/10⁻⁵.
     for (std::size_t k = 0; k < 3; ++k) CHECK(std::abs(force[k] + fallen[k]) < 1e-4);
     CHECK(norm(outer(force, minus(point(c.vertex[0]), point(c.vertex[1])))) < 1e-13 * (1 + norm(force)));
     std::swap(c.vertex[0], c.vertex[1]);
@@ -174,8 +175,8 @@ TEST_CASE("what a lost length leaves of a stitch's block is accepted, no block i
     c.rest_length = rest_length;
     const compare::ForceAnswer answer = reference::spring(c);
     const double accepted = compare::spring_block_tolerance * compare::unit_roundoff * answer.block_scale;
-    // If rounding makes the length 0, the block has no multiple of I − n nᵀ, with n = e₂. `missing` is the norm of this
-    // multiple, from the entries xx and zz.
+    // If rounding makes the length 0, an answer's block lacks the multiple of I − n nᵀ, with n = e₂. `missing` is the
+    // norm of this multiple, from its entries xx and zz.
     const double missing = std::sqrt(answer.block[0] * answer.block[0] + answer.block[5] * answer.block[5]);
     CHECK((missing <= accepted) == (rest_length > 0));
     CHECK(std::sqrt(missing * missing + answer.block[3] * answer.block[3]) > accepted);

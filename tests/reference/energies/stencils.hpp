@@ -31,8 +31,8 @@ class Draw {
   std::mt19937 engine_;
 };
 
-/// Returns central differences of an energy by one point. With step s the truncation error is s²/6 times a third
-/// derivative, the rounding error is 2⁻⁵³ E/s.
+/// Returns the gradient of an energy with respect to one point, by central differences. With step s the truncation
+/// error is s²/6 times a third derivative, the rounding error is 2⁻⁵³ E/s.
 template <class Energy>
 Point slope(Energy energy, const Point& at, double step) {
   Point result{};

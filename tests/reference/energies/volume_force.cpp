@@ -72,7 +72,7 @@ TEST_CASE("the reference's force of a volume is minus the slope of its energy", 
         above[static_cast<std::size_t>(own)][axis] += step;
         below[static_cast<std::size_t>(own)][axis] -= step;
         // Third derivatives of μ λ f₀ are at most 2 μ λ/ε², with μ λ ≤ 10 N, so truncation gives 2e5 step². Energies of
-        // 10 J have a rounding error of 2⁻⁵² · 10 J, which the difference divides by the step.
+        // 10 J are rounded by 2⁻⁵² · 10 J; the difference divides this error by the step.
         REQUIRE(std::abs(force[axis] + (energy(c, above) - energy(c, below)) / (2 * step)) <= 1e-6);
       }
     }

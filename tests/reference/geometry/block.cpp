@@ -28,8 +28,8 @@ Point operator+(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y, 
 Point operator*(double s, const Point& a) { return {s * a.x, s * a.y, s * a.z}; }
 double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/// Collects the conditions of a block as margins that must be ≥ 0; the smallest margin decides. `inside` returns
-/// nothing if this margin is too small for double.
+/// Keeps the smallest margin of a block's conditions, which must all be ≥ 0. `inside` returns nothing if rounding in
+/// double may decide the sign of this margin.
 class Printed {
  public:
   void need(double margin) { least_ = std::min(least_, margin); }

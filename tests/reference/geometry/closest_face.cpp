@@ -52,7 +52,7 @@ const std::vector<Case> cases{
     {{1, 1, 0}, TriangleFeature::interior, 0, {0.5, 0.25, 0.25}},
 };
 
-/// Returns the feature of the permuted triangle (t[order[0]], …) with the same points.
+/// Returns the feature of the permuted triangle (t[order[0]], …) that has the same points as `feature` of t.
 TriangleFeature renamed(TriangleFeature feature, const std::array<std::size_t, 3>& order) {
   const auto place = [&](std::size_t corner) {
     return static_cast<int>(std::find(order.begin(), order.end(), corner) - order.begin());

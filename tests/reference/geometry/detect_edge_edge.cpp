@@ -59,7 +59,7 @@ Face face_of(const compare::Topology& topology, Index e, EdgeFeature feature) {
   return vertex_face(topology.edges[static_cast<std::size_t>(e)][static_cast<std::size_t>(feature)]);
 }
 
-/// Decides Eq. 15 for a closest point in double, by a margin instead of a sign; uses no exact predicate.
+/// Checks Eq. 15 for the closest point c in double, without exact predicates.
 bool in_vertex_block(const compare::Topology& topology, const Surface& surface, Index v,
                      const std::array<double, 3>& c) {
   const auto& x = surface.positions[static_cast<std::size_t>(v)];
@@ -129,7 +129,7 @@ bool accepted(const compare::DetectEdgeEdgeTruth& truth, const std::vector<EdgeE
 
 Surface two_edges(Vec3f a, Vec3f b, Vec3f c, Vec3f d) { return {{a, b, c, d}, {}, {{0, 1}, {2, 3}}, {}}; }
 
-/// Returns whether no vertex of the face lies on the rim of a sheet of n × n vertices.
+/// Returns whether all vertices of the face are inner vertices of a sheet of n × n vertices.
 bool inner(const reference::Complex& mesh, Face face, int n) {
   const auto vertices = mesh.vertices(face);
   return std::all_of(vertices.span().begin(), vertices.span().end(), [&](Index v) {

@@ -166,7 +166,7 @@ TEST_CASE("detect_vertex_facet: d = r is no contact, and d_min counts faces whos
   const Surface sheet = grid(3, 0, 4);
   CHECK(detect(with_vertex(sheet, {1, 1, 2}), 2, 3).exact.contacts.empty());
   CHECK(detect(with_vertex(sheet, {1, 1, std::nextafter(2.0f, 0.0f)}), 2, 3).exact.contacts.size() == 1);
-  // Above the saddle's vertex only faces of its neighbours can be contacts, but the distance to the vertex counts.
+  // All faces are beyond r. A triangle is nearer than the saddle's vertex, whose distance is 0.5.
   const Surface saddle{{{0, 0, 0}, {2, 0, 1}, {0, 2, -1}, {-2, 0, 1}, {0, -2, -1}},
                        {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}},
                        {},
@@ -259,7 +259,8 @@ TEST_CASE("detect_vertex_facet: pairs inside one rigid group are neither contact
   CHECK(rigid.pairs == 0);
   surface.groups[9] = 1;
   CHECK(detect(surface, 0.5f, 1).exact.contacts.size() == 1);
-  // The vertex below is in the group, but some triangles around it are not; these still generate the contact.
+  // Vertex 4, below vertex 9, is in the group, but vertex 5 is not. Triangles with vertices 4 and 5 still generate the
+  // contact.
   surface.groups.assign(10, 0);
   surface.groups[5] = -1;
   CHECK(detect(surface, 0.5f, 1).exact.contacts == std::vector<VertexFacetContact>{{9, vertex_face(4), 1}});
@@ -276,8 +277,9 @@ TEST_CASE("detect_vertex_facet: loose edges are no faces of triangles, coincidin
   CHECK(contacts_of(truth, 3).size() == 1);
   CHECK(truth.exact.d_min_vertex[3] == 0.5f);
   CHECK(truth.exact.d_min_vertex[4] == 0);
-  // Corners 1 and 2 of triangle 0 coincide, so both are closest to vertex 3. The exact answer takes corner 1, the lower
-  // number. Vertex 3 is not in the block of corner 1, because of neighbour 4. With corner 2 there would be a contact.
+  // Corners 1 and 2 of triangle 0 coincide, so both are closest to vertex 3. The exact answer takes corner 1, which has
+  // the lower index. Because of neighbour 4, the block of corner 1 does not contain vertex 3. Corner 2 would give a
+  // contact.
   Surface coinciding{
       {{4, 0, 0}, {0, 0, 0}, {0, 0, 0}, {-1, 0, 1}, {-1, 0, 2}, {-1, 1, 2}}, {{0, 1, 2}, {1, 4, 5}}, {}, {}};
   const auto tie = detect(coinciding, 2, 3);

@@ -125,7 +125,7 @@ TEST_CASE("truncate: the half-space decides exactly, and within the slack of dou
   in.position = {{3, 0, std::nextafter(1.0f, 2.0f)}};
   CHECK(reference::truncate(in).cut[0] == 1);
   CHECK(reference::truncate(in).grey[0] == 0);
-  // n·x = 0.3f − 3 · 0.1f = 7·10⁻⁹ > 0. The grey zone is that of double, not of single precision.
+  // n·x = 0.3f − 3 · 0.1f = 7·10⁻⁹ > 0. This exceeds the rounding error of double, though not of single precision.
   in.half_spaces.items = {{{0.1f, 0.2f, 0.3f}, 0}};
   in.position = {{-3, 0, 1}};
   CHECK(reference::truncate(in).cut[0] == 1);

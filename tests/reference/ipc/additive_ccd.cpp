@@ -14,8 +14,7 @@ namespace {
 
 ContactSides sides_of(bool edges) { return edges ? ContactSides::edge_edge : ContactSides::point_triangle; }
 
-/// Returns the number of cases. The documented size is a million: OGC_CCD_CASES=1000000 build/…/tests_reference "CCD:
-/// no meeting*".
+/// Returns the number of cases: OGC_CCD_CASES if this variable is set, else 6000.
 int ladder_cases() {
   const char* text = std::getenv("OGC_CCD_CASES");
   return text ? std::atoi(text) : 6000;
@@ -107,7 +106,7 @@ TEST_CASE("CCD: a long slide at a hair's breadth, away from a triangle, and a co
 }
 
 /// The first safe step ends where the gap is smaller than its rounding error. There the vector between the closest
-/// points is only rounding error. That the edges move apart along this vector proves nothing.
+/// points is only rounding error. The edges move apart along this vector, but this proves nothing.
 TEST_CASE("CCD: two nearly parallel edges that meet after 2e-12 of their way are stopped before", "[unit]") {
   const Points4 x{{{0.80323611859320732, -0.19054859758035292, 0.28876038511262969},
                    {0.80187377197897902, -0.19347845971359057, 0.28876038511262969},

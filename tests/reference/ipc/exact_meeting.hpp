@@ -1,8 +1,8 @@
-// Decides without rounding whether two primitives meet on a straight motion. The four points lie in one plane at a root
-// of a cubic of the time, and they meet there if polynomials of degree four have the right signs. After scaling, all
-// polynomials have integer coefficients. A polynomial in Bernstein form whose coefficients do not change sign has no
-// root, and additions alone halve an interval. Halves without a root, or with wrong signs, are discarded. An interval
-// that survives all halvings holds a meeting, or a miss by less than 2⁻ᵈᵉᵖᵗʰ of the motion.
+// Decides without rounding whether two primitives meet during a straight motion. The four points lie in one plane at
+// the roots of a cubic polynomial of time. At a root they meet if polynomials of degree four have the right signs.
+// After scaling, all polynomials have integer coefficients in Bernstein form. If the coefficients of a polynomial do
+// not change sign, it has no root. Additions alone halve an interval. Halves without a root, or with wrong signs, are
+// discarded. An interval that survives all halvings holds a meeting, or a miss by less than 2⁻ᵈᵉᵖᵗʰ of the motion.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ inline Integer scaled(double value) {
   return shift >= 0 ? Integer(Integer(mantissa) << shift) : Integer(Integer(mantissa) >> -shift);
 }
 
-/// Bernstein coefficients times binomials, which multiply like ordinary coefficients.
+/// Bernstein coefficients times binomials. In this form, polynomials multiply like polynomials in powers.
 struct Scaled {
   std::vector<Integer> c;  ///< binomial(n, k) · Bernstein coefficient
   friend Scaled operator*(const Scaled& a, const Scaled& b) {

@@ -317,8 +317,8 @@ TEST_CASE(
     const compare::StepMetrics row = full.step();
     REQUIRE(row.status == compare::step_clean);
     REQUIRE_FALSE(full.intersects());
-    // The start of a step makes one broad phase, and so does each bound of a step length. The guard makes all others.
-    // If their number is that of the accepted states, the guard has rejected no state.
+    // The start of a step and each bound of a step length make one broad phase each. The guard makes all others, one
+    // per tested state. If the guard tested only accepted states, it rejected none.
     const std::int64_t bounds = row.continuous_detections / 2, guards = row.broad_phases - 1 - bounds;
     CHECK(guards == accepted);
     REQUIRE(partial.step().status == compare::step_clean);

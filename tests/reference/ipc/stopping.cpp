@@ -1,4 +1,4 @@
-// Tests which bodies define the length that a step's tolerance is relative to.
+// Tests which bodies define the length to which the tolerance of a step is relative.
 #include "reference/ipc/stopping.hpp"
 
 #include <cmath>

@@ -46,8 +46,8 @@ inline compare::Scene two_sheets() {
   return scene;
 }
 
-/// Returns a triangle, 1 cm wide, `height` above the interior of a fixed triangle, 3 m wide. It can have exactly three
-/// contacts, each of a vertex with a plane.
+/// Returns a triangle, 1 cm wide, `height` above the interior of a fixed triangle, 3 m wide. Only three contacts are
+/// possible: between a vertex of the first triangle and the interior of the second.
 inline compare::Scene triangle_on_plane(double height, const compare::Material& material) {
   compare::Scene scene;
   scene.name = "triangle_on_plane";

@@ -233,7 +233,8 @@ TEST_CASE("with inertia ahead of stiffness every sweep lowers the energy until n
   for (int sweep = 0; sweep < 60; ++sweep) {
     q.old = q.swept().position;
     const double after = energy(q, q.old);
-    // Rounding positions by 2⁻²⁴ can raise the energy by 2⁻²⁴ times its slope. The remaining energy limits this slope.
+    // Rounding positions by 2⁻²⁴ can raise the energy by 2⁻²⁴ times its slope. The slope is bounded by the remaining
+    // energy.
     CHECK(after <= before + 1e-6 * start);
     before = after;
   }

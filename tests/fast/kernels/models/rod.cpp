@@ -92,7 +92,7 @@ TEST_CASE("a neighbour asks for the frame that stands to its own as at rest, its
       // Each product errs by 8 u (u = 2⁻²⁴), normalising by 4 u.
       CHECK(size(sum(0, relative, elsewhere) - weight * now) <= 20 * u * weight);
       CHECK(size(sum(damping, relative, beside(own_start)) - weight * (1 + damping) * now) <= 80 * u * weight);
-      // Damping alone: the pull towards the relative rotation at rest is subtracted.
+      // The difference contains only the pull of damping, without the pull towards the relative rotation at rest.
       const Quat twin = sum(damping, elsewhere, beside(own_start)) - sum(0, elsewhere, elsewhere);
       CHECK(size(twin - weight * damping * now) <= 80 * u * weight);
     }
@@ -118,8 +118,8 @@ TEST_CASE("where nothing decides the old orientation does", "[unit]") {
   // neighbours only
   const Quat alone = rod_orientation(1, {0, 0, 0}, axis, {0, 3, 4, 0}, old);
   CHECK(size(alone - Quat{0, 0.6f, 0.8f, 0}) <= 4 * u);
-  // Neighbours pull towards a reversed director, but less than the stretch: the twist stays that of the old
-  // orientation.
+  // The neighbours' pull towards a reversed director is weaker than the stretch, so the twist of the old orientation
+  // stays.
   const Quat held = rod_orientation(1, {0, 0, 1}, axis, {0.1f, 0, 0, 0}, {0, 0, 0.6f, 0.8f});
   CHECK(std::abs(size(held) - 1) <= 4 * u);
   CHECK(held.z / held.w == Approx(0.75));

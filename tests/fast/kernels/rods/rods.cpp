@@ -78,9 +78,9 @@ TEST_CASE("a frame is turned by the smallest rotation between two directions, wh
     const Quat turned = turned_along(from, to, q);
     REQUIRE(std::abs(size(turned) - 1) <= 8 * u);
     const double cosine = dot(wide(from), wide(to)) / (length(from) * length(to));
-    // Errors in units of 2⁻²⁴; θ is the angle between `from` and `to`:
-    //  two unit vectors, 4 each, and their product, 6: 14, relative to 2 cos θ/2, the length of `twice` in turned_along
-    //  two products of quaternions and normalising: 40
+    // Errors in units of 2⁻²⁴, with the angle θ between `from` and `to`:
+    // - 14: two unit vectors (4 each) and their product (6), over 2 cos θ/2, the length of `twice` in turned_along
+    // - 40: two products of quaternions, and normalising
     // A rotation doubles these errors.
     const double tolerance = 2 * (14 / std::sqrt(2 * (1 + cosine)) + 40) * u;
     for (const D3& v : {D3{1, 0, 0}, D3{0, 1, 0}, D3{0, 0, 1}})
@@ -180,7 +180,8 @@ TEST_CASE("a row has the energies of segments and joints, each joint once, whate
       stretched += length(apart) - 1;
       CHECK(ratios[e] == Approx(length(apart)).epsilon(8 * u));
     }
-    // A joint has the energy w/2 ‖q̄₀ q₁ − p‖², with w = 4 k_b/l̄ and the sign of p that makes it smaller.
+    // A joint has the energy w/2 ‖q̄₀ q₁ − p‖², with w = 4 k_b/l̄. The sign of p is the one that gives the smaller
+    // energy.
     const Quat relative = conjugate(q[0]) * q[1];
     const double apart = std::min(size(relative - p), size(relative + p));
     energy += 0.5 * w * apart * apart;

@@ -59,8 +59,8 @@ Matrix<N> with_eigenvalues(Draw& draw, const std::array<double, N>& values) {
   return 0.5 * (h + h.transpose());
 }
 
-/// Returns a matrix of the given kind: arbitrary, with equal moduli of eigenvalues, over many orders of magnitude, of
-/// low rank, diagonal, or without coupling between even and odd rows.
+/// Returns a matrix by `kind`: arbitrary (0), with eigenvalues ±1 (1), with eigenvalues over many orders of magnitude
+/// (2), of rank one (3), diagonal (4), or without coupling between even and odd rows (5).
 template <std::size_t N>
 Matrix<N> matrix_of_kind(Draw& draw, int kind) {
   std::array<double, N> values;
@@ -149,7 +149,8 @@ TEST_CASE("stencils side by side have the derivatives of each alone, to the bit,
       std::vector<Corners<3>> triangles;
       std::vector<Corners<4>> folds;
       for (std::size_t i = 0; i < batch_width; ++i) {
-        // In every third round some stencils take another branch at random; in other rounds all take the same one.
+        // In every third round, some stencils at random get another model, shape or damping, so that they take other
+        // branches.
         const auto other = [&] { return round % 3 == 2 && draw.between(0, 1) < 0.3; };
         const bool neo_hookean = (round % 2 == 0) != other();
         membranes.push_back(membrane(

@@ -37,9 +37,9 @@ Matrix hessian_of(const StencilDerivatives& d) {
   return h;
 }
 
-/// Compares the gradient with differences of the energy, and the Hessian with differences of the gradient. The energy
-/// changes by its own size over `length`. With steps of 10⁻⁵ `length`, truncation gives about 10⁻¹⁰ of the third
-/// derivative, and rounding 10⁻¹⁶/10⁻⁵ of the value.
+/// Compares the gradient with differences of the energy, and the Hessian with differences of the gradient. `length`:
+/// distance over which the energy changes by its own size. With steps of 10⁻⁵ `length`, truncation errs by about 10⁻¹⁰
+/// of the third derivative, rounding by 10⁻¹⁶/10⁻⁵ of the value.
 template <std::size_t N, class Energy>
 void check_against_differences(const Corners<N>& x, double length, Energy energy) {
   const StencilDerivatives at = stencil_derivatives<N>(x, HessianProjection::none, energy);
@@ -78,7 +78,7 @@ void check_structure(const Corners<N>& x, bool turns_freely, Energy energy) {
     moduli += tests::norm(g);
   }
   CHECK(tests::norm(force) <= 1e-13 * moduli);
-  // Gradients contain roundings of coordinate differences, amplified in slender stencils.
+  // Gradients contain the rounding errors of coordinate differences, which slender stencils amplify.
   if (turns_freely) CHECK(tests::norm(torque) <= 1e-9 * moduli * tests::norm(x[0] - x[N - 1]));
   const Matrix h = hessian_of<N>(at);
   CHECK((h - h.transpose()).cwiseAbs().maxCoeff() <= 1e-14 * h.cwiseAbs().maxCoeff());
@@ -194,8 +194,8 @@ TEST_CASE(
     };
     const Mollifier<double> mollifier(x[1] - x[0], x[3] - x[2], side * side, side * side);
     acted += mollifier.acts();
-    // The mollifier changes by its own size if the sine of the edges' angle changes by its own size. If the edges are
-    // parallel, the sine must reach the mollifier's limit 0.03.
+    // The mollifier changes by its own size if the sine of the edges' angle does. For parallel edges, it does so if the
+    // sine reaches the mollifier's limit 0.03.
     check_all<4>(x, 1e-3 * side, form.kind != FormKind::fixed_weights, energy);
   }
   CHECK(acted > 20);

@@ -77,7 +77,8 @@ TEST_CASE("Newton: a free block comes out of another and both fly apart with equ
   CHECK(auditor.audit(compare::to_double(newton->snapshot().positions)).vertices_inside == 0);
   const Vec3 low = mean_velocity(newton->snapshot(), mass, 0), high = mean_velocity(newton->snapshot(), mass, 1);
   CHECK(high.y > 0.1);
-  // Positions near 0.1 m are rounded to single precision, by 2⁻²⁸ m per coordinate in each of ten steps h: 2⁻²⁸/h each.
+  // Positions near 0.1 m are rounded by up to 2⁻²⁸ m per coordinate. In each of ten steps h, this changes a velocity by
+  // 2⁻²⁸/h.
   const double rounded = 10 * 0x1p-28 / scene.settings.time_step;
   CHECK(low.x == Approx(-high.x).margin(rounded));
   CHECK(low.y == Approx(-high.y).margin(rounded));

@@ -269,7 +269,8 @@ TEST_CASE("Newton at convergence conserves momentum in a collision, friction inc
                lost = std::hypot(after.x - before.x, after.y - before.y, after.z - before.z);
   double mass = 0;
   for (const double m : potential.mass()) mass += m;
-  // Each step rounds positions of a few centimetres to 2⁻²⁹ m, and each velocity comes from two of them.
+  // Each step rounds positions of a few centimetres by up to 2⁻²⁹ m. A velocity is the difference of two positions,
+  // divided by the step.
   const double rounding = mass * 3 * 2 * 0x1p-29 / 0.01;
   CHECK(lost <= 1e-6 * whole + rounding);
   CHECK(std::abs(double{result.end.velocities[14].y} + 0.4) > 0.05);  // they did collide
@@ -334,8 +335,8 @@ TEST_CASE("Newton: friction solves go on until one changes nothing, and end with
   once->restore(before.end);
   once->advance(1);
   const double lagged = meter.at(once->snapshot().positions).share;
-  // The settled state has only the error of stored positions. After one solve, friction still depends on the state of
-  // the previous step, so its force differs.
+  // The residual of the settled state comes only from rounded positions. After one solve, friction still depends on the
+  // state of the previous step, so its force differs.
   CHECK(settled < 1e-4);
   CHECK(lagged > 10 * settled);
 }

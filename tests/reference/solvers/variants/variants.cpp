@@ -99,7 +99,8 @@ TEST_CASE(
     "field, and sideways by one contact of each pair of primitives",
     "[property]") {
   const Asked asked(level_sheets());
-  // Directions are differences of closest points in double, with coordinates below 0.1 m, over a distance of 2 mm.
+  // Directions of forces are differences of closest points, divided by the distance 2 mm. Coordinates below 0.1 m are
+  // rounded in double.
   const double rounding = 64 * 0x1p-53 * 0.1 / 2e-3;
   CHECK(tangential_share(asked, reference::ContactSet::ogc) < rounding);
   CHECK(tangential_share(asked, reference::ContactSet::distance) < rounding);
