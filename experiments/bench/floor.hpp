@@ -25,8 +25,8 @@ inline std::optional<MachineLimits> limits_of(const std::string& device) {
   return MachineLimits{132 * 128 * 2 * 1.98e9, 40e6, 7.1e12, 4.4e12, 0.43e-6};
 }
 
-/// Returns the floor of one iteration of the sweep [s]: the larger of the times for its arithmetic and its bytes, plus
-/// one gap between kernels for each colour.
+/// Returns the floor of one iteration of the sweep [s]. It is the time for the arithmetic or the time for the bytes,
+/// whichever is larger, plus one gap between kernels for each colour.
 inline double sweep_floor(const MachineLimits& machine, const fast::SweepWork& work, double flop, double bytes) {
   const double rate = bytes <= machine.cache_bytes ? machine.cache_bytes_per_second : machine.memory_bytes_per_second;
   return std::max(flop / machine.flop_per_second, bytes / rate) + work.colours * machine.seconds_between_colours;

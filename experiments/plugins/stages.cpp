@@ -352,8 +352,8 @@ std::size_t groups(const OutputInfo& info, const QuestionSizes& sizes, const Lis
   return static_cast<std::size_t>(of_each() * lists[static_cast<std::size_t>(info.list)]);
 }
 
-// Returns the capacities of lists at the first call: estimates for contacts and planes; for events and detections the
-// most that Algorithm 3 needs, with a detection before each round and each iteration.
+// Returns the capacities of the lists at the first call. For contacts and planes they are estimates. For events and
+// detections they suffice for Algorithm 3 with a detection before each round and each iteration.
 ListSizes first_capacities(const QuestionSizes& sizes) {
   const std::int64_t contacts = 64 + 4 * (std::int64_t{sizes.vertices} + sizes.edges),
                      rounds = sizes.settings.guess_rounds + sizes.settings.iterations;
@@ -369,15 +369,15 @@ ListSizes first_capacities(const QuestionSizes& sizes) {
           64 + 4 * sizes.cases};
 }
 
-// Returns for each list its first capacity plus the largest number of entries of each detection, in all at most 2^40.
-// Largest numbers of entries of a detection:
+// Returns the largest length of each list: its first capacity plus the number of entries that all detections together
+// can add, at most 2^40. Largest number of entries per detection:
 //
 // - contacts: all vertices with all triangles, and all ordered pairs of edges
 // - contacts with a volume: all points with all faces
 // - planes: one for each vertex of each pair
 //
-// The first capacities leave room for contacts that are listed twice in a small mesh, so that the judge recognises
-// them. Products of two sizes fit into 64 bits, because each size fits into 31 bits.
+// The first capacities are added because a plug-in may list contacts of a small mesh twice. The judge then recognises
+// this mistake. Products of two sizes fit into 64 bits, because each size fits into 31 bits.
 ListSizes most_entries(const QuestionSizes& sizes) {
   constexpr std::int64_t most = std::int64_t{1} << 40;
   ListSizes entries = first_capacities(sizes);

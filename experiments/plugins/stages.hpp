@@ -29,7 +29,7 @@ struct QuestionSizes {
 /// `Element` is the type of an output's elements. An output has one group of elements per unit of `Per`.
 enum class Element : std::uint8_t { number, byte, index, real };
 enum class Per : std::uint8_t { one, item, vertex, edge, triangle, two_bodies };
-/// Outputs whose length the plug-in determines.
+/// Lists of outputs whose length the plug-in determines.
 enum class List : std::uint8_t {
   none,
   vertex_facet,
@@ -43,7 +43,7 @@ enum class List : std::uint8_t {
   volume_contacts
 };
 inline constexpr std::size_t list_count = 10;
-/// Number of entries of each list, or its capacity; 1 for `none`.
+/// Length or capacity of each list; 1 for `none`.
 using ListSizes = std::array<std::int64_t, list_count>;
 
 /// Describes one output array of a stage.
@@ -51,8 +51,8 @@ struct OutputInfo {
   std::string_view name;   ///< name in compare/plugin.h
   Element element;         ///< type of the array
   std::size_t elements;    ///< number of elements per group
-  Per per;                 ///< unit that has one group of elements
-  List list = List::none;  ///< if not `none`: the output has these groups for each entry of this list
+  Per per;                 ///< the output has one group per case, vertex, …
+  List list = List::none;  ///< if not `none`: each entry of this list has such groups
 };
 
 /// Returns the size of one element [bytes]. `group_bytes` returns the size of one group [bytes].

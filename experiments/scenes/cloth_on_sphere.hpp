@@ -5,8 +5,7 @@
 
 namespace ogc::experiments {
 
-/// Holds the sizes; defaults: the paper's. The contact radius is proportional to the spacing, so that the contact
-/// regime is always that of r = 5 mm on 70 × 70.
+/// Holds the sizes; defaults: the paper's. The contact radius is proportional to the spacing: 5 mm on 70 × 70.
 struct ClothOnSphereSizes {
   compare::Index vertices_a_side = 70;  ///< along each side of the cloth
   int sphere_subdivisions = 3;          ///< divisions of an icosahedron's triangles into four

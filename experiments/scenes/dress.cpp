@@ -202,8 +202,8 @@ Vec3 without_dust(const Vec3& v) {
   return {swept(v.x), swept(v.y), swept(v.z)};
 }
 
-/// Appends the triangles and vertices of panel `number` in their order. Stores the vertices' indices in the scene in
-/// `renumbered`.
+/// Appends the triangles and vertices of panel `number` in their order. Sets `renumbered` to the index in the scene for
+/// each vertex of the panel.
 void append_panel(Scene& scene, const DressData& data, Index number, std::vector<Index>& renumbered) {
   const auto first = static_cast<Index>(scene.mesh.positions.size());
   std::vector<bool> is_in(data.pattern.size());

@@ -51,8 +51,8 @@ std::vector<Vec3> control_points() {
   return points;
 }
 
-/// A centripetal Catmull–Rom curve: consecutive knots differ by the square root of the chord. One more point is added
-/// at each end of the curve: its neighbour, reflected in the end point.
+/// A centripetal Catmull–Rom curve: consecutive knots differ by the square root of the chord. At each end one point is
+/// added: the reflection of the last point but one in the last point.
 class Curve {
  public:
   explicit Curve(const std::vector<Vec3>& through) {

@@ -5,8 +5,7 @@
 
 namespace ogc::experiments {
 
-/// Holds the sizes; defaults: the paper's. The contact radius is proportional to the spacing (0.995 edges), so that the
-/// regime is always that of r = 5 mm on 200 × 200.
+/// Holds the sizes; defaults: the paper's. The contact radius is always 0.995 edges: 5 mm on 200 × 200.
 struct LargeRadiusTwistSizes {
   compare::Index vertices_a_side = 200;  ///< along each side of the cloth
   std::int64_t steps = 1200;             ///< 4 s, in which one end rotates by 180° relative to the other

@@ -6,7 +6,7 @@
 namespace ogc::experiments {
 
 /// Holds the sizes; defaults: the paper's, as far as the paper gives them. Thickness and contact radius are
-/// proportional to the spacing along x, so that the contact regime is always that of 8.333 mm and r = 2 mm on 88 × 87.
+/// proportional to the spacing along x: 8.333 mm and 2 mm on 88 × 87.
 struct MatTwistSizes {
   /// number of vertices along x (the axis of the twist) and along z; along y, through the thickness, there are two
   compare::Index along = 88, across = 87;

@@ -17,16 +17,16 @@ compare::Mesh grid(compare::Index count, double side, double height);
 /// has index i · `columns` + j.
 std::vector<compare::Triangle> cross_diagonals(compare::Index rows, compare::Index columns);
 
-/// Returns a ground of 4 m × 4 m at `height` [m] for a cloth of 1 m with `vertices_a_side`. Its triangles are at most a
-/// hundred times as large as the cloth's.
+/// Returns a square ground of 4 m × 4 m at y = `height` [m]. Its triangles have at most a hundred times the area of the
+/// triangles of a cloth of 1 m × 1 m with `vertices_a_side` vertices along each side.
 compare::Mesh ground(compare::Index vertices_a_side, double height);
 
 /// Returns an icosahedron after `subdivisions` divisions of every triangle into four. All 10 · 4ⁿ + 2 vertices (n =
 /// `subdivisions`) lie on the sphere. Normals point outward.
 compare::Mesh icosphere(int subdivisions, double radius, const compare::Vec3& centre);
 
-/// Holds the resolution of a closed cylinder: `around` vertices in each ring, `along` rings from end to end, `cap`
-/// rings inside each end besides the centre.
+/// Holds the resolution of a closed cylinder: `around` vertices in each ring, `along` rings from one rim to the other,
+/// and `cap` rings around the centre of each end disc, besides the rim.
 struct CylinderCells {
   compare::Index around = 47, along = 16, cap = 5;  ///< number of vertices: around (along + 2 cap) + 2, here 1,224
 };

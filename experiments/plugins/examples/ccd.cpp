@@ -1,5 +1,6 @@
 // A correct plug-in in double precision for the stage ccd, by conservative advancement (Li et al. 2021, Algorithm 1).
-// Each advance is 0.9 of the longest of three safe times: by the faces' speeds, or by one of two slabs between them.
+// Each advance is 0.9 of the longest of three safe times. One follows from the speeds of the faces, the others from two
+// slabs between the faces.
 //
 //     g++ -O2 -shared -fPIC -I INCLUDE ccd.cpp -o ccd.so
 //     ogc compare ccd --plugin ./ccd.so

@@ -19,7 +19,7 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Returns F = Σ (x_k − x₀) ∇N_kᵀ.
+/// Returns the deformation gradient F = Σ (x_k − x₀) ∇N_kᵀ.
 Matrix deformation(const ogc_tetrahedron_case& c, const ogc_vec3 (&x)[4]) {
   Matrix f{};
   for (int k = 0; k < 3; ++k)

@@ -13,15 +13,15 @@ using namespace museum;
 
 constexpr int slots = 4;
 
-// Describes the closest point of a triangle to a vertex: the triangle's corner or edge that contains it (-1: none), and
-// its distance.
+// Describes the point of a triangle that is closest to a vertex: the corner or edge that contains this point (-1:
+// none), and its distance from the vertex.
 struct Nearest {
   int corner = -1, edge = -1;
   double distance = INFINITY;
 };
 
-// Decides faces and blocks. One function decides for all faces on which side of a plane a point lies. So rounding can't
-// place the point between two blocks.
+// Decides in which block a point lies. One function decides for all faces on which side of a plane the point lies. So
+// rounding can't place the point between two blocks.
 struct Question {
   const ogc_detect_in& in;
   const ogc_topology& mesh;

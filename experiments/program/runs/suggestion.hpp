@@ -24,8 +24,8 @@ struct Suggestion {
   SuggestedNumber contact_stiffness;  ///< k_c [N/m]
   SuggestedNumber time_step;          ///< h [s]
   SuggestedNumber iterations;         ///< sweeps in each step [1]
-  /// relative excess of the mesh's extension after these sweeps, if it hangs by one end under its weight (method.md
-  /// §7.7)
+  /// relative excess of the extension after `iterations` sweeps, if the mesh hangs by one end under its weight
+  /// (method.md §7.7)
   double excess_extension = 0;
 };
 

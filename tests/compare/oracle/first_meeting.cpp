@@ -138,7 +138,8 @@ TEST_CASE(
 }
 
 TEST_CASE("first meeting: an irrational time lies between two neighbouring doubles", "[unit]") {
-  // The vertex falls by 2t while the triangle's plane rotates. They meet at the irrational root of 128 − 288t + 3t².
+  // The vertex falls by 2t while the triangle's plane rotates. The vertex meets the triangle at the irrational root of
+  // 128 − 288t + 3t².
   const MovingPair pair = with_delta(vertex, {{{0.25, 0.25, 1}, {0, 0, 0}, {4, 0, 0}, {0, 4, 0}}},
                                      {{{0, 0, -2}, {0, 0, 0}, {0, 0, 3}, {0.5, 0, 1}}});
   const auto time = first_meeting(pair);
