@@ -224,8 +224,8 @@ std::vector<T> part(const std::vector<T>& all, std::size_t k, std::size_t length
   return {first, first + static_cast<std::ptrdiff_t>(length)};
 }
 
-/// Returns the contacts of detection k, from the end of detection k − 1 in `all` to ends[k], in the canonical order
-/// that sweeps require.
+/// Returns the contacts of detection k in the canonical order that sweeps require: those of `all` from the end of
+/// detection k − 1 to ends[k].
 template <class Contact, class Plain>
 std::vector<Contact> contacts_of(const std::vector<Plain>& all, const std::vector<Index>& ends, std::size_t k) {
   const std::int64_t begin = k == 0 ? 0 : ends[k - 1], end = ends[k];

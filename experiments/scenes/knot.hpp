@@ -15,8 +15,8 @@ struct KnotSizes {
 
 /// Returns the scene: a strip of 961.3 cm × 4.5 cm along a centripetal Catmull–Rom curve, with rows at equal distances.
 /// The rest shape is flat in the xz plane. There is no gravity; the first and last row move at ∓0.10 m/s along x. At
-/// the registered sizes the start has no intersections, although its outer edge is stretched up to 7.5 times. At the
-/// paper's size its smallest gap is 0.51 mm.
+/// the registered sizes the start has no intersections, although the strip's outer edge is stretched up to 7.5 times.
+/// At the paper's size the smallest gap at the start is 0.51 mm.
 compare::Scene knot(const KnotSizes& sizes = {});
 
 }  // namespace ogc::experiments

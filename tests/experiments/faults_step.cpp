@@ -112,8 +112,8 @@ void ignore_partners(GuessContacts&, const Places& previous, Places& target, std
   target[v] = own;
 }
 
-/// Reverses the move of v, removes friction, and treats other vertices as at rest. held_wrongly then reverses the
-/// remaining move back, so that the contacts remove the part of the move that leads away from them.
+/// Reverses the move of v, removes friction, and treats other vertices as at rest. If its `sign` is −1, held_wrongly
+/// reverses the result again. So contacts remove the part of the move that leads away from them.
 void take_leaving(GuessContacts& contacts, const Places& previous, Places& target, std::size_t v) {
   for (reference::GuessContact& contact : contacts) contact.friction = 0;
   ignore_partners(contacts, previous, target, v);

@@ -28,7 +28,7 @@ double height(const VolumeForceCase& c) {
   return c.weights[0] * along(1) + c.weights[1] * along(2) + c.weights[2] * along(3);
 }
 
-/// Returns the weight w of the case's vertex `own`.
+/// Returns the weight of the case's vertex `own`: 1 for the point, else the weight of this corner of the triangle.
 float weight(const VolumeForceCase& c) { return c.own == 0 ? 1 : c.weights[static_cast<std::size_t>(c.own) - 1]; }
 
 /// Moves the point x₀ deeper along the normal by `step`, both now and at the start of the time step. Its motion is

@@ -316,7 +316,7 @@ Totals totals_of(const std::vector<State>& states) {
   return totals;
 }
 
-/// Returns one line for each thing that was not checked.
+/// Returns one warning for each kind of event that the audit could not see.
 std::vector<std::string> unseen(const Audits& audits) {
   std::vector<std::string> lines;
   for (std::string line : {unseen_ways(audits), audits.ways ? "" : unseen_curves(audits.states)})

@@ -256,8 +256,8 @@ bool RunSession::one_chunk() {
   const std::string broken = rows.empty() ? "the simulation did no step; please report it" : step_failure(rows.back());
   if (broken.empty()) {
     step_ = rows.back().step;
-    // If another state still waits for its verdict, no state is offered for a due checkpoint. The waiting state is
-    // saved when its verdict arrives.
+    // If another state still waits for its verdict, a due checkpoint does not cause a further audit: the waiting state
+    // is saved when its verdict arrives.
     if (is_planned(step_) || (is_checkpoint_due() && offered_.empty())) offer_state(any_step);
   } else if (!rows.empty()) {
     // A failed step may or may not be committed, so the state after it is not offered.

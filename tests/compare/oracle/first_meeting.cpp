@@ -95,9 +95,9 @@ TEST_CASE(
   CHECK(culled > (asked - met) / 2);
 }
 
-/// Coordinates are a few small integers. They give collapsed triangles, edges that are points, motions in one plane or
-/// along one line, and faces that touch at the start or the end of the motion. At dyadic times positions are doubles,
-/// and rational arithmetic decides whether the faces meet.
+/// Coordinates are small integers, so that many triangles collapse, edges are points, motions lie in one plane or along
+/// one line, and faces touch at the start or the end of the motion. At dyadic times positions are doubles, and rational
+/// arithmetic decides whether the faces meet.
 TEST_CASE(
     "first meeting: degenerate motions on a grid agree with rational arithmetic at 17 times, and with themselves "
     "backwards and in any order of vertices",
