@@ -39,7 +39,7 @@ double tie_sum(std::span<const double> before, std::span<const double> after) {
 /// computes shares, not numbers, so that nothing overflows.
 double share_up_to(std::size_t n, std::size_t m, std::size_t u) {
   const std::size_t most = n * m;
-  // by_second[j][u]: share of the orders that give exactly u, for i values in the first set and j in the second
+  // by_second[j][u]: share of the orders of i values of the first set and j values of the second for which U = u
   std::vector<std::vector<double>> by_second(m + 1, std::vector<double>(most + 1, 0));
   for (auto& shares : by_second) shares[0] = 1;
   for (std::size_t i = 1; i <= n; ++i) {

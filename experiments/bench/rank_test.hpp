@@ -14,12 +14,12 @@ namespace ogc::experiments {
 /// the normal approximation with corrections for ties and continuity.
 double mann_whitney(std::span<const double> before, std::span<const double> after);
 
-/// Returns the smallest probability that mann_whitney can return for sets of these sizes: 2 / (n + m choose n), at most
-/// 1.
+/// Returns the smallest probability that mann_whitney can return for sets of n = `before` and m = `after` values: 2 /
+/// (n + m choose n), at most 1.
 double smallest_probability(std::size_t before, std::size_t after);
 
-/// Applies Holm's correction for several tests: comparing each result with a level keeps the chance of any false alarm
-/// below that level. Results are in the order of the input and at most 1.
+/// Returns the probabilities with Holm's correction for several tests, at most 1, in the order of the input. If each
+/// result is compared with a level, the chance of any false alarm is below this level.
 std::vector<double> holm(std::span<const double> probabilities);
 
 /// Returns the median of all quotients after / before (Hodges and Lehmann's estimate, for logarithms); not-a-number if

@@ -79,7 +79,7 @@ double mean(const Rows& rows, const std::function<double(const StepMetrics&)>& o
   return rows.empty() ? 0 : sum / static_cast<double>(rows.size());
 }
 
-/// Selects which counted work a step, or a part of a step, contains.
+/// Work that is counted in a measured step or part of a step.
 enum class Counted { nothing, sweep, searches, both };
 
 Counted counted_of(std::string_view stage) {

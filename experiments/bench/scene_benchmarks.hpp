@@ -1,7 +1,7 @@
-// Measures steps of whole scenes and their parts on the resident simulation, so that times include no transfer and no
-// setup. One repetition is a window of steps from a fixed state. Times are those of steps.csv (CPU: steady clock, CUDA:
-// device events). Parts are measured with a synchronisation around each (`--profile`). On a device these times are
-// therefore upper bounds, and their sum exceeds the time of a step.
+// Measures whole steps of scenes and parts of steps on the resident simulation, so that times include no transfer and
+// no setup. One repetition is a window of steps from a fixed state. Times are those of steps.csv (CPU: steady clock,
+// CUDA: device events). A part is measured with a synchronisation before and after it (`--profile`). On a device these
+// times are therefore upper bounds, and their sum exceeds the time of a step.
 //
 //   step/twist/small/cuda    part/sweep/twist/small/cuda    step/twist@1200/cuda (from a state)
 #pragma once

@@ -16,7 +16,7 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
 
 /// Time between two checks whether the other process is still running [ms].
 constexpr int look_again = 50;
-/// Number of bytes by which a block grows while it arrives. Memory thus follows the bytes that arrived, not the
+/// A block grows by this number of bytes at a time while it arrives. So memory follows the received bytes, not the
 /// announced length.
 constexpr std::uint64_t piece = 16u << 20;
 
@@ -89,8 +89,7 @@ Transfer Channel::receive(std::vector<std::byte>& block, BlockLength allowed, co
 
 Transfer Channel::wait(short until, const Patience& patience, const Deadline& deadline) const {
   for (;;) {
-    // The process is checked before the socket, because the socket may still hold what the process sent before it
-    // ended.
+    // The process is checked before the socket. If it has ended, the socket may still hold data that it sent.
     const bool runs = !patience.other_runs || patience.other_runs();
     const int left = milliseconds_until(deadline), soon = left < 0 ? look_again : std::min(left, look_again);
     const int turn = patience.other_runs ? soon : left;

@@ -108,7 +108,7 @@ BoundOut ask_bound(PluginProcess& plugin, const BoundIn& in) {
   return out;
 }
 
-/// Sorts planes, which are in the plug-in's order, into rows by vertex.
+/// Sorts planes by vertex; `all` has them in the plug-in's order.
 VertexPlanes planes_of(const std::vector<ogc_vertex_plane>& all, const std::vector<double>& offsets, Index vertices) {
   std::vector<std::pair<Index, VertexPlane>> planes;
   for (std::size_t i = 0; i < all.size(); ++i) {

@@ -59,7 +59,7 @@ bool holds_pattern(Bytes zone) {
 class HostMemory final : public PluginMemory {
  public:
   const void* input(Bytes content) override {
-    // 16 bytes: the alignment that a compiler may assume for vector loads.
+    // Rounds up to 16 bytes, the alignment that a compiler may assume for vector loads.
     const std::size_t bytes = (content.size() + 15) / 16 * 16;
     Pages& pages = inputs_.emplace_back(bytes);
     std::byte* const data = pages.end() - bytes;

@@ -35,8 +35,8 @@ constexpr const char* lost_socket =
 
 std::string in_seconds(unsigned seconds) { return std::to_string(seconds) + (seconds == 1 ? " second" : " seconds"); }
 
-/// Starts `program plugin-worker file`, which gets one end of a socket as its worker_descriptor. Returns the process;
-/// `channel` gets the other end of the socket.
+/// Starts `program plugin-worker file` with one end of a socket as its descriptor worker_descriptor. Sets `channel` to
+/// the other end. Returns the process.
 pid_t spawn(const PluginOptions& options, Channel& channel) {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)

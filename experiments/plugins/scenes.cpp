@@ -205,7 +205,7 @@ std::vector<Vec3f> prescribed_of(const Scene& scene) {
   return target;
 }
 
-/// Holds the outputs of stage step that follow the outputs of the rest state.
+/// Holds the outputs of the stage `step` that follow its rest state: events and detections.
 struct Trace {
   std::vector<float> query_radius;
   std::vector<Index> kind, cut;
@@ -217,7 +217,7 @@ struct Trace {
   std::vector<ogc_edge_edge_contact> edge_edge;
 };
 
-/// Returns the elements from k · length to (k + 1) · length − 1.
+/// Returns the k-th group of `length` consecutive elements.
 template <class T>
 std::vector<T> part(const std::vector<T>& all, std::size_t k, std::size_t length) {
   const auto first = all.begin() + static_cast<std::ptrdiff_t>(k * length);

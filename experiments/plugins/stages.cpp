@@ -376,8 +376,8 @@ ListSizes first_capacities(const QuestionSizes& sizes) {
 // - contacts with a volume: all points with all faces
 // - planes: one for each vertex of each pair
 //
-// The first capacities leave room for contacts that are listed twice in a small mesh, so that the judge recognises
-// them. Products of two sizes fit into 64 bits, because each size fits into 31 bits.
+// The first capacities are added because a plug-in may list contacts of a small mesh twice. The judge then recognises
+// this mistake. Products of two sizes fit into 64 bits, because each size fits into 31 bits.
 ListSizes most_entries(const QuestionSizes& sizes) {
   constexpr std::int64_t most = std::int64_t{1} << 40;
   ListSizes entries = first_capacities(sizes);

@@ -30,7 +30,7 @@ struct QuestionSizes {
 /// case (`item`), each vertex, …, each pair of bodies (`two_bodies`).
 enum class Element : std::uint8_t { number, byte, index, real };
 enum class Per : std::uint8_t { one, item, vertex, edge, triangle, two_bodies };
-/// Outputs whose length the plug-in determines.
+/// Lists of outputs whose length the plug-in determines.
 enum class List : std::uint8_t {
   none,
   vertex_facet,

@@ -213,8 +213,8 @@ bool answer(Channel& channel, Library& library, const CallRequest& request,
   return all;
 }
 
-/// Reads a question; returns nothing if `ogc` has closed the socket. Throws MalformedBlock if bytes are missing. The
-/// plug-in itself has then read from the socket.
+/// Reads a question; returns nothing if `ogc` has closed the socket. Throws MalformedBlock if bytes are missing because
+/// the plug-in itself has read from the socket.
 std::optional<std::pair<CallRequest, std::vector<std::vector<std::byte>>>> next_question(Channel& channel) {
   std::vector<std::byte> block;
   CallRequest request;

@@ -16,7 +16,8 @@ inline constexpr int worker_descriptor = 3;
 
 /// Result of loading a library.
 enum class LoadStatus : std::uint8_t {
-  /// followed by a block with the name and a block with one byte for each of plugin_stages(): 1 if the library has it
+  /// followed by a block with the plug-in's name, and a block with one byte for each of plugin_stages(): 1 if the
+  /// library has this stage
   loaded,
   refused,  ///< wrong file, version or memory; followed by a block with the reason
   failed,   ///< missing device; followed by a block with the reason

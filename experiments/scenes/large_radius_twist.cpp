@@ -1,6 +1,6 @@
-// The size, the radius and the rotation by 180° are from the paper's caption. The speed, the time step and the number
-// of iterations are those of twist and dress (our choice). The tolerance of the solver IPC is that of Codimensional
-// IPC's scripts.
+// The size, the radius and the rotation by 180° are from the paper's caption. Our choice: half of twist's angular
+// velocity, twist's time step, and as many iterations as dress. The tolerance of the solver IPC is that of
+// Codimensional IPC's scripts.
 #include "experiments/scenes/large_radius_twist.hpp"
 
 #include "experiments/scenes/twist.hpp"

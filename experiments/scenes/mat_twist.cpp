@@ -1,6 +1,6 @@
 // r, k_c, friction, steps and h are from the paper's Table 1 and Fig. 19. Size and material are from IPC's mat scene
-// (Li et al. 2020). The angular velocity of each end is our choice, because the paper does not say what its π/2 is
-// relative to.
+// (Li et al. 2020). The angular velocity of each end is our choice: the paper does not say whether its π/2 belongs to
+// each end or to one end relative to the other.
 #include "experiments/scenes/mat_twist.hpp"
 
 #include <numbers>

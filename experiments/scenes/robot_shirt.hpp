@@ -28,11 +28,11 @@ struct RobotShirtSizes {
 /// down, fold over, open and withdraw (6 s). The pinch narrows the jaws to 2.2 r, which presses the two layers, because
 /// at rest each layer is r away from its neighbours. While they hold the shirt, jaws move at most at 0.35 m/s, 0.3 r
 /// per step. Jaws are volumes with the paper's γ_e = 0.01; the table is a surface.
-/// As surfaces (`--set body_contact=surface`) jaws obey bounds, up to γ_p r_q = 3.6 mm in one detection. Cloth that a
-/// jaw lifts is closer than r, so both move by less than r/2. With a lift at 1 m/s and γ_e = 0.01 the few vertices
-/// between jaws and shirt trigger no detection. Distances then fall below the spacing of single precision, and the
-/// lower jaws never catch up; they lag by 0.83 m at paper scale. So one cut vertex triggers a detection (γ_e = 0, our
-/// choice), as in `dress`.
+/// As surfaces (`--set body_contact=surface`) jaws obey bounds: a jaw moves at most γ_p r_q = 3.6 mm per detection.
+/// Cloth that a jaw lifts is closer than r, so jaw and cloth each move less than r/2. With a lift at 1 m/s and γ_e =
+/// 0.01 the few vertices between jaws and shirt trigger no detection. Their distances then fall below the spacing of
+/// single precision. The lower jaws never catch up; they lag by 0.83 m at paper scale. So one cut vertex triggers a
+/// detection (γ_e = 0, our choice), as in `dress`.
 ///
 /// The material is that of `fifty_layers`, with Table 1's friction. Stitches have 100 N/m: where a seam bears 2.6 N/m,
 /// half of the weight on a shoulder of 0.3 m, they open by 0.2 mm, a tenth of r. This stiffness and the whole

@@ -65,8 +65,8 @@ void add_ring(Mesh& mesh, Index count, double radius, const Vec3& centre, double
   }
 }
 
-/// Adds two triangles for each cell between two rings of `count` vertices, which begin at `from` and `to`. Normals
-/// point outward if the second ring lies towards +z, or inside the first ring.
+/// Adds two triangles for each cell between two rings of `count` vertices, whose first vertices are `from` and `to`.
+/// Normals point outward if the second ring lies towards +z, or inside the first ring.
 void join_rings(Mesh& mesh, Index count, Index from, Index to) {
   for (Index i = 0; i < count; ++i) {
     const Index next = (i + 1) % count;
@@ -75,8 +75,8 @@ void join_rings(Mesh& mesh, Index count, Index from, Index to) {
   }
 }
 
-/// Adds the triangles between the pole and the ring that begins at `ring`. `up`: whether the pole lies on the positive
-/// side of the ring along its axis.
+/// Adds the triangles between the pole and the ring whose first vertex is `ring`. `up`: whether the pole lies on the
+/// positive side of the ring along its axis.
 void add_fan(Mesh& mesh, Index count, Index ring, Index pole, bool up) {
   for (Index i = 0; i < count; ++i) {
     const Index a = ring + i, b = ring + (i + 1) % count;
@@ -84,7 +84,8 @@ void add_fan(Mesh& mesh, Index count, Index ring, Index pole, bool up) {
   }
 }
 
-/// Adds the disc inside the ring that begins at `rim`. `up`: whether the disc's normal is +z; otherwise it is −z.
+/// Adds the disc inside the ring whose first vertex is `rim`. `up`: whether the disc's normal is +z; otherwise it is
+/// −z.
 void add_cap(Mesh& mesh, const CylinderCells& cells, double radius, const Vec3& centre, double z, Index rim, bool up) {
   Index outer = rim;
   for (Index k = 1; k <= cells.cap; ++k) {
@@ -113,7 +114,7 @@ class BoxSurface {
   BoxSurface(const std::array<Index, 3>& cells, const Vec3& low, const Vec3& high)
       : cells_(cells), low_(low), high_(high) {}
 
-  /// Adds the two sides perpendicular to `axis`, with axes u, v so that (u, v, axis) is right-handed.
+  /// Adds the two faces of the box that are perpendicular to `axis`.
   void add_sides(int axis) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     for (const bool far : {false, true}) {

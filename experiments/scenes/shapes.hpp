@@ -17,8 +17,8 @@ compare::Mesh grid(compare::Index count, double side, double height);
 /// has index i · `columns` + j.
 std::vector<compare::Triangle> cross_diagonals(compare::Index rows, compare::Index columns);
 
-/// Returns a ground of 4 m × 4 m at `height` [m] for a cloth of 1 m with `vertices_a_side`. Its triangles are at most a
-/// hundred times as large as the cloth's.
+/// Returns a square ground of 4 m × 4 m at y = `height` [m]. Its triangles have at most a hundred times the area of the
+/// triangles of a cloth of 1 m × 1 m with `vertices_a_side` vertices along each side.
 compare::Mesh ground(compare::Index vertices_a_side, double height);
 
 /// Returns an icosahedron after `subdivisions` divisions of every triangle into four. All 10 · 4ⁿ + 2 vertices (n =

@@ -9,7 +9,7 @@ namespace ogc::experiments {
 /// of 100 × 100 vertices.
 struct TwistSizes {
   compare::Index vertices_a_side = 100;  ///< along each side of the cloth
-  std::int64_t steps = 9600;             ///< 8 rotations of one end relative to the other, 4 s each
+  std::int64_t steps = 9600;             ///< 32 s: 8 rotations of one end relative to the other
 };
 
 /// Returns the scene: the cloth lies flat in the xz plane, without gravity. The columns at x = ±0.5 m rotate about the

@@ -32,8 +32,9 @@ double speed(double t) {
                     2 * depth * std::sin(2 * t));
 }
 
-/// Returns the parameters of `segments_a_loop` + 1 points at equal arcs of a loop. Simpson's rule computes the length
-/// on a grid so fine that its error is below the rounding of single precision. Newton's method inverts the length.
+/// Returns the parameters of `segments_a_loop` + 1 points at equal arc lengths along a loop. Simpson's rule computes
+/// the arc length on a grid so fine that its error is below the rounding of single precision. Newton's method inverts
+/// the arc length.
 std::vector<double> equal_arcs() {
   constexpr int cells = 4096;
   const double cell = 2 * pi / cells;

@@ -42,7 +42,8 @@ Diagnosis diagnosis_of(Stage stage, const Contestant& contestant, const Authorit
 
 bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// Returns whether the diagnosis has this name, or lists the name among those that its cases do not distinguish.
+/// Returns whether the diagnosis has this name, or lists it among the names that its cases do not distinguish from its
+/// own.
 bool names(const Diagnosis& diagnosis, const std::string& name) {
   return diagnosis.name == name ||
          std::find(diagnosis.as_well.begin(), diagnosis.as_well.end(), name) != diagnosis.as_well.end();
@@ -168,7 +169,8 @@ TEST_CASE("planted faults that are known wrong forms are named, and others are n
 TEST_CASE("a form that fits too few of the failing cases is not named", "[agreement]") {
   const Authority authority = reference::authority();
   const auto right = tests::exact_contestant(authority).activation;
-  // A third of the cases use the printed formula, the others are 37 % too stiff. So neither form fits enough cases.
+  // In a third of the cases the answer uses the printed formula. In the others it is 37 % too stiff. So no form fits
+  // enough cases.
   Contestant mixed = tests::exact_contestant(authority);
   mixed.activation = [right](const ActivationIn& in) {
     ActivationIn other = in;

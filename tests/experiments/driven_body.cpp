@@ -13,8 +13,8 @@ using namespace ogc::tests;
 
 namespace {
 
-/// Returns a plate that rises by 0.5 m at 10 m/s into a cloth 5 cm above it. Its motion is 0.1 m in each step, but the
-/// bounds allow 36 mm between two detections, and less near the cloth.
+/// Returns a plate that rises by 0.5 m at 10 m/s into a cloth 5 cm above it. Its prescribed motion is 0.1 m per step.
+/// Bounds allow 36 mm from one detection to the next, and less near the cloth.
 compare::Scene plate_into_cloth() {
   compare::Scene scene;
   scene.name = "plate";
@@ -71,7 +71,7 @@ TEST_CASE("keys that begin away from their body get a word with the distance and
   for (auto p = keys.positions.begin(); p != keys.positions.begin() + vertices; ++p) p->y -= 0.25f;
   REQUIRE(warnings(scene).size() == 1);
   CHECK(contains(warnings(scene)[0], {"motion 'rise'", "0.25 m away from body 'plate'", "vertex 144"}));
-  // The start, t = 0, divides the time between the keys at −0.25 s and 0.5 s in the ratio 1 : 2.
+  // The start, t = 0, is a third of the way from the key at −0.25 s to the key at 0.5 s.
   keys.times = {-0.25, 0.5};
   CHECK(warnings(scene).empty());
   keys.times = {-0.25, 0.25};

@@ -85,8 +85,8 @@ struct Speeds {
   std::vector<double> first, second;
 };
 
-/// Returns a fault with wrong offsets. If displacements divide a pair's gap, the first side gets the share
-/// `share_of_first`.
+/// Returns a fault with wrong offsets: where displacements divide a pair's gap, the first side gets the share
+/// `share_of_first(speeds)`.
 Fault divided_otherwise(const std::string& name, const std::function<double(const Speeds&)>& share_of_first) {
   return plane_fault(name, [share_of_first](const PlaneIn& in, Index v, VertexPlane& plane) {
     if (in.displacement.empty()) return;
@@ -242,8 +242,8 @@ Fault balls_beside_planes() {
           }};
 }
 
-/// Returns a fault that treats fixed vertices as free: they get planes, and the other vertices may use only γ_p of the
-/// gap.
+/// Returns a fault that treats fixed vertices as free: they get planes, and vertices opposite them may use only γ_p of
+/// the gap.
 Fault fixed_as_free() {
   return {"plane: fixed vertices taken for free ones", Stage::plane, [](Contestant& contestant, const Authority&) {
             contestant.plane = [right = contestant.plane](const PlaneIn& in) {

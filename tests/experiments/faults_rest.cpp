@@ -106,7 +106,7 @@ void close_edge_ends(const BlockIn& in, const BlockQuestion& question, std::uint
   if (along(x, a, b) == 0 || along(x, b, a) == 0) inside = 1;
 }
 
-/// Returns a fault that takes the edge's first end for the point of the edge that is closest to a vertex.
+/// Returns a fault that uses the first end of an edge in place of the edge's point that is closest to the vertex.
 Fault end_for_closest_point() {
   return {"block: first end taken for an edge's closest point", Stage::block,
           [](Contestant& contestant, const Authority&) {

@@ -121,8 +121,9 @@ struct OverlapEnd {
   bool in_blocks = false;
 };
 
-/// Returns the ends of the overlap, computed in double. The line between exactly parallel edges is perpendicular to
-/// both. Its product with an edge is 0 except for rounding, so the block test allows slightly more than 0.
+/// Returns the ends of the overlap, computed in double. Between exactly parallel edges, the line from an end to the
+/// other edge is perpendicular to both edges. Its scalar product with an edge is 0 except for rounding, so the block
+/// test allows slightly more than 0.
 std::vector<OverlapEnd> ends_of_overlap(const DetectIn& in, const Edge& e, const Edge& f) {
   const auto at = [&](Index v) { return Vec3{in.positions[v].x, in.positions[v].y, in.positions[v].z}; };
   const auto in_block = [&](Index v, const Vec3& c) {

@@ -17,7 +17,7 @@ using reference::operator+, reference::operator-, reference::operator*;
 
 namespace {
 
-/// Returns a fault that computes the right step of a scene changed by `change(scene)`.
+/// Returns a fault that computes the right step of a wrong scene: `change(scene)` changes a copy of the scene.
 Fault asked_wrongly(const std::string& name, const std::function<void(Scene&)>& change) {
   return {"step: " + name, Stage::step, [change](Contestant& contestant, const Authority&) {
             contestant.step = [right = contestant.step, change](const StepIn& in) {
@@ -45,7 +45,8 @@ Fault shown_by(const std::string& generator, Fault fault) {
   return fault;
 }
 
-/// Lowers the threshold of cut vertices from ⌈γ_e K⌉ to max(1, ⌊γ_e K⌋) by setting γ_e slightly above (⌊γ_e K⌋ − 1)/K.
+/// Lowers the re-detection count from ⌈γ_e K⌉ to max(1, ⌊γ_e K⌋), where K is the number of moving vertices. Sets γ_e to
+/// (⌊γ_e K⌋ − 1/2)/K.
 void round_threshold_down(Scene& scene) {
   const std::vector<Index> groups = rigid_groups(scene);
   const auto moving = static_cast<double>(
@@ -74,8 +75,8 @@ using GuessContacts = std::vector<reference::GuessContact>;
 /// A wrong rule for the move that contacts leave to vertex v: it changes the contacts or the targets y.
 using Wrong = std::function<void(GuessContacts&, const Places& previous, Places& target, std::size_t v)>;
 
-/// Returns a fault that applies the wrong rule to the moves of the first round, only with bounds=ball. The rest of the
-/// step is right. If `sign` is −1, the remaining move is reversed.
+/// Returns a fault that applies `wrong` to the moves of the guess loop's first round if bounds=ball. The rest of the
+/// step is right. If `sign` is −1, the move that contacts leave is reversed.
 Fault held_wrongly(const std::string& name, const Wrong& wrong, double sign = 1) {
   return spoiled(name, [wrong, sign](const StepIn& in, StepOut& out) {
     const Settings& settings = in.scene->settings;
@@ -111,16 +112,15 @@ void ignore_partners(GuessContacts&, const Places& previous, Places& target, std
   target[v] = own;
 }
 
-/// Reverses the move of v, removes friction, and treats other vertices as at rest. held_wrongly then reverses the
-/// remaining move back, so that the contacts remove the part of the move that leads away from them.
+/// Reverses the move of v, removes friction, and treats other vertices as at rest. If its `sign` is −1, held_wrongly
+/// reverses the result again. So contacts remove the part of the move that leads away from them.
 void take_leaving(GuessContacts& contacts, const Places& previous, Places& target, std::size_t v) {
   for (reference::GuessContact& contact : contacts) contact.friction = 0;
   ignore_partners(contacts, previous, target, v);
   target[v] = previous[v] - (target[v] - previous[v]);
 }
 
-/// Makes cut vertices slide along their half-spaces in the first round. With bounds=dat, their moves must be scaled
-/// instead.
+/// Makes cut vertices slide along their half-spaces in the first round, although bounds=dat must scale their moves.
 void slide_with_dat(const StepIn& in, StepOut& out) {
   if (in.scene->settings.bounds != Bounds::dat) return;
   const StepEvent& detection = out.events[0];
@@ -160,7 +160,7 @@ void stop_beside_the_way(const StepIn& in, StepOut& out) {
   }
 }
 
-/// Divides the gaps in proportion to y − x in detections between iterations, too.
+/// In detections between iterations, too, divides each gap in proportion to the predicted motion y − x of its sides.
 void divide_by_prediction(const StepIn& in, StepOut& out) {
   const Settings& settings = in.scene->settings;
   if (settings.bounds != Bounds::dat) return;
@@ -176,7 +176,7 @@ void divide_by_prediction(const StepIn& in, StepOut& out) {
   }
 }
 
-/// Finds contacts with volumes at the volumes' positions at the start of the step.
+/// Finds contacts with volumes where the volumes were at the start of the step.
 void ask_volumes_of_before(const StepIn& in, StepOut& out) {
   const reference::SceneVolumes volumes(*in.scene, *in.topology);
   const std::vector<Vec3f> start = to_single(in.scene->mesh.positions);
@@ -190,7 +190,7 @@ void ask_volumes_of_before(const StepIn& in, StepOut& out) {
   }
 }
 
-/// Uses the contacts with volumes of the first detection in all other detections.
+/// Uses the first detection's contacts with volumes in all other detections.
 void keep_contacts_with_volumes(const StepIn&, StepOut& out) {
   for (StepEvent& event : out.events)
     if (is_detection(event)) event.volumes = out.events.front().volumes;

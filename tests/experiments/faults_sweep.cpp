@@ -48,7 +48,7 @@ struct SweepCopy {
   SweepCopy& operator=(const SweepCopy&) = delete;
 };
 
-/// Returns a fault that answers an input changed by `change(copy)`.
+/// Returns a fault that sweeps a wrong input correctly: `change(copy)` changes a copy of the input.
 Fault asked_wrongly(const std::string& name, const std::function<void(SweepCopy&)>& change) {
   return {"sweep: " + name, Stage::sweep, [change](Contestant& contestant, const Authority&) {
             contestant.sweep = [right = contestant.sweep, change](const SweepIn& in) {
@@ -129,7 +129,7 @@ Fault about_free_volumes(Fault fault) {
   return fault;
 }
 
-/// Leaves out the reaction of contacts with volumes on the triangles' corners.
+/// Leaves out the force that contacts with volumes exert on the corners of the volumes' triangles.
 void forget_corners(reference::SweepStencils& stencils) {
   for (auto& own : stencils.volumes) std::erase_if(own, [](const auto& element) { return element.second > 0; });
 }

@@ -28,10 +28,11 @@ double height(const VolumeForceCase& c) {
   return c.weights[0] * along(1) + c.weights[1] * along(2) + c.weights[2] * along(3);
 }
 
-/// Returns the weight w of the case's vertex `own`.
+/// Returns the weight of the case's vertex `own`: 1 for the point, else the weight of this corner of the triangle.
 float weight(const VolumeForceCase& c) { return c.own == 0 ? 1 : c.weights[static_cast<std::size_t>(c.own) - 1]; }
 
-/// Moves x₀ deeper along n by `step`, both now and at the start, so that its motion is unchanged.
+/// Moves the point x₀ deeper along the normal by `step`, both now and at the start of the time step. Its motion is
+/// unchanged.
 void lower(VolumeForceCase& c, double step) {
   for (auto* points : {&c.vertex, &c.start}) {
     Vec3f& x = (*points)[0];
@@ -63,7 +64,7 @@ Fault each_spoiled(const std::string& name, Change change) {
   });
 }
 
-/// Returns a fault that lacks the contacts for which `is_lost(contact, in)` holds.
+/// Returns a fault that omits the contacts for which `is_lost(contact, in)` holds.
 template <class Lost>
 Fault lost(const std::string& name, Lost is_lost) {
   return depth_spoiled(name, [is_lost](const VolumeDepthIn& in, VolumeDepthOut& out) {
@@ -85,7 +86,7 @@ std::pair<Vec3, double> plane_of(const VolumeDepthIn& in, Index triangle, const 
   return {{n.x / length, n.y / length, n.z / length}, (n.x * w.x + n.y * w.y + n.z * w.z) / length};
 }
 
-/// Moves the contact from outside the surface to inside, or back.
+/// Changes a contact outside the surface into a contact inside it, or the reverse.
 void turn_over(VolumeContact& c, float radius) {
   c.depth = 2 * radius - c.depth;
   c.direction = {-c.direction.x, -c.direction.y, -c.direction.z};
@@ -117,7 +118,7 @@ bool meets_edge(const VolumeContact& c, const VolumeDepthIn& in) {
       constexpr std::array<std::array<std::size_t, 2>, 6> edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
       const Vec3f& a = in.positions[static_cast<std::size_t>(t[edges[k][0]])];
       const Vec3 e = from_to(a, in.positions[static_cast<std::size_t>(t[edges[k][1]])]), u = from_to(a, x);
-      // The closest points of both lines are x + s way and a + r e.
+      // The points of the path and of the edge's line that are closest to each other are x + s way and a + r e.
       const double ee = inner(e, e), ew = inner(e, way), ww = inner(way, way), det = ee * ww - ew * ew;
       if (!(det > 1e-6 * ee * ww)) continue;
       const double s = (ew * inner(u, e) - ee * inner(u, way)) / det, r = (inner(u, e) + s * ew) / ee;

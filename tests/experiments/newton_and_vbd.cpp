@@ -108,7 +108,7 @@ class Pair {
     return a.facets.exact.contacts == b.facets.exact.contacts && a.edges.exact.contacts == b.edges.exact.contacts;
   }
 
-  /// Returns whether the Hessian at this state minus m/(2h²) is positive definite.
+  /// Returns whether the Hessian at this state stays positive definite if m/(2h²) is subtracted from its diagonal.
   bool positive_definite(const End& end) {
     const reference::State x = reference::widened(end.x),
                            start = reference::widened(compare::to_single(scene_.mesh.positions));

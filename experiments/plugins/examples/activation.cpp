@@ -1,4 +1,4 @@
-// A correct plug-in on the host: the contact energies over distance (Eq. 18 to 20, and the variants), in single
+// A correct plug-in on the host: contact energies as functions of distance (Eq. 18 to 20, and variants), in single
 // precision throughout.
 //
 //   g++ -O2 -shared -fPIC -I INCLUDE activation.cpp -o activation.so

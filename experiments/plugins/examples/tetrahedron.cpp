@@ -1,5 +1,6 @@
-// A correct plug-in in double precision for the stage tetrahedron: stable Neo-Hookean energy of one corner, with
-// damping of strain or by vertex. If a library has this stage, its other stages also get scenes with solids.
+// A correct plug-in in double precision for the stage tetrahedron: force and block of the stable Neo-Hookean energy at
+// one corner, with damping of strain or by vertex. If a library has this stage, its other stages also get scenes with
+// solids.
 //
 //     g++ -O2 -shared -fPIC -I INCLUDE tetrahedron.cpp -o tetrahedron.so
 //     ogc compare tetrahedron --plugin ./tetrahedron.so
@@ -19,7 +20,7 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Returns F = Σ (x_k − x₀) ∇N_kᵀ.
+/// Returns the deformation gradient F = Σ (x_k − x₀) ∇N_kᵀ.
 Matrix deformation(const ogc_tetrahedron_case& c, const ogc_vec3 (&x)[4]) {
   Matrix f{};
   for (int k = 0; k < 3; ++k)

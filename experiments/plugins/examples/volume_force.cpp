@@ -10,7 +10,8 @@ int ogc_volume_force(const ogc_volume_force_in* in, ogc_force_out* out) {
   for (int64_t i = 0; i < in->n; ++i) {
     const ogc_volume_force_case& c = in->cases[i];
     const double n[3] = {c.direction[0], c.direction[1], c.direction[2]};
-    // vector from the closest point to the point, and their relative motion since the start of the step
+    // vector from the closest point of the triangle to the point, and relative motion of the two since the start of the
+    // step
     double apart[3] = {}, moved[3] = {};
     const auto add = [](double(&sum)[3], double w, const ogc_vec3& a, const ogc_vec3& b) {
       sum[0] += w * (double(a.x) - b.x), sum[1] += w * (double(a.y) - b.y), sum[2] += w * (double(a.z) - b.z);

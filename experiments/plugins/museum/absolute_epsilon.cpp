@@ -1,5 +1,5 @@
-// An absolute epsilon: distances below 1e-5 m count as 1e-5 m, so that nothing divides by zero. Cloth with a contact
-// radius of a centimetre never shows the mistake; a radius of 20 micrometres, or a mesh in other units, does.
+// Raises distances below 1e-5 m to 1e-5 m, so that nothing divides by zero. Cloth with a contact radius of a centimetre
+// never shows the mistake. A radius of 20 micrometres, or a mesh in other units, does.
 #include <algorithm>
 
 #include "experiments/plugins/museum/activation.h"

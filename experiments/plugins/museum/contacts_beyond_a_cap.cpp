@@ -13,8 +13,8 @@ using namespace museum;
 
 constexpr int slots = 4;
 
-// Describes the closest point of a triangle to a vertex: the triangle's corner or edge that contains it (-1: none), and
-// its distance.
+// Describes the point of a triangle that is closest to a vertex: the corner or edge that contains this point (-1:
+// none), and its distance from the vertex.
 struct Nearest {
   int corner = -1, edge = -1;
   double distance = INFINITY;

@@ -1,5 +1,5 @@
-// Damping that acts only on approach: it is left out while the two ends move apart, so that only half of each
-// oscillation is damped.
+// Damps only while the two ends approach each other, not while they move apart. So only half of each oscillation is
+// damped.
 #include "experiments/plugins/museum/spring.h"
 
 OGC_PLUGIN("damping on approach alone", OGC_HOST_MEMORY)

@@ -1,5 +1,5 @@
-// Eq. 19 of the paper as printed: k'_c = tau k_c (tau - r)^2 has one factor of length too many. In metres the
-// logarithmic branch is then weaker by the factor r/2, so that contacts closer than tau = r/2 are hardly held.
+// Uses Eq. 19 as printed in the paper: k'_c = tau k_c (tau - r)^2, which has one factor of length too many. In metres
+// the logarithmic branch is then weaker by the factor r/2, so that contacts closer than tau = r/2 are hardly held.
 #include "experiments/plugins/museum/activation.h"
 
 OGC_PLUGIN("Eq. 19 as printed", OGC_HOST_MEMORY)

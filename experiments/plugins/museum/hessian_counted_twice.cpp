@@ -1,5 +1,5 @@
-// A Hessian that is counted twice: the block is added at the beginning of the solve and again at its end, the force
-// only once. Updates are half as long and convergence is slow; nothing else shows the mistake.
+// Counts the Hessian twice: adds the block at the beginning of the solve and again at its end, but the force only once.
+// Updates are half as long and convergence is slow; nothing else shows the mistake.
 #include "experiments/plugins/museum/spring.h"
 
 OGC_PLUGIN("Hessian counted twice", OGC_HOST_MEMORY)

@@ -1,5 +1,5 @@
-// Correct weights in the wrong order: for the corners 1, 2, 0 in place of 0, 1, 2. A quantity that is distributed by
-// these weights, such as a force, goes to the wrong corners.
+// Returns correct weights in the wrong order: for the corners 1, 2, 0 in place of 0, 1, 2. A quantity that is
+// distributed by these weights, such as a force, goes to the wrong corners.
 #include "experiments/plugins/museum/triangle.h"
 
 OGC_PLUGIN("weights of the next corner", OGC_HOST_MEMORY)

@@ -106,7 +106,7 @@ class SequenceSource : public AuditSource {
   }
 
  private:
-  /// Logs the remarks about the first frame that has any. Other frames most likely have the same ones.
+  /// Logs the remarks about the first frame that has any. Other frames most likely have the same remarks.
   void say(const compare::LoadedMesh& loaded) {
     if (has_spoken_) return;
     const std::vector<std::string> words = words_about(loaded, "judged as they stand");

@@ -49,7 +49,7 @@ class AuditSource {
   virtual void judge(AuditedState& state) const = 0;
   /// Returns the scene of the states; null if they are meshes.
   virtual const compare::Scene* scene() const { return nullptr; }
-  /// Describes the proof besides `ogc audit` that covers the motion between the states; empty if there is none.
+  /// Describes what proves the motion between the states safe, if something other than `ogc audit` does; else empty.
   virtual std::string proof_of_ways() const { return ""; }
   /// Returns the pairs that the audit leaves out.
   virtual compare::ExclusionView exclusions() const { return {}; }

@@ -13,8 +13,8 @@ namespace ogc::experiments {
 
 namespace {
 
-/// Number of states that may wait while another state is judged. With two the simulation rarely waits, and memory holds
-/// only a few states.
+/// Number of states that may wait while another state is judged. With this number the simulation rarely waits, and
+/// memory holds only a few states.
 constexpr std::size_t most_waiting = 2;
 
 constexpr std::array<std::string_view, 4> audit_names{"every", "frame", "end", "off"};  // by AuditMode

@@ -30,8 +30,8 @@ std::string name_of(AuditMode mode);
 /// Returns the mode with this name. Throws compare::InputError if there is none.
 AuditMode audit_mode(const std::string& name);
 
-/// Describes what audits of the scene leave out besides pairs inside fixed and rigidly moved bodies; empty if they
-/// leave out nothing else.
+/// Describes the pairs that audits of the scene leave out; empty if there are none. Pairs inside fixed and rigidly
+/// moved bodies are always left out and not described.
 std::string left_out_of_audits(const compare::Scene& scene);
 
 /// Holds the exact findings about one state.
@@ -68,7 +68,7 @@ class StateJudge {
   /// Returns a sentence with the number of vertices inside volumes, the deepest one, and the number of edges that meet
   /// a surface.
   std::string describe(const compare::VolumePenetration& penetration) const;
-  /// Judges a state, and the certificate of the motion to it since the last detection.
+  /// Judges a state, and the certificate of the motion from the last detection to this state.
   Verdict judge(const compare::Snapshot& snapshot) const;
   /// Returns one line for each violation, with the names of the primitives; empty if there is none.
   std::string describe(const Verdict& verdict) const;

@@ -256,7 +256,7 @@ std::string csv(const std::vector<std::vector<std::string>>& rows) {
   return text;
 }
 
-/// Holds the results so far: ablation.csv, ablation_medians.csv, ablation_findings.txt.
+/// Holds the contents of ablation.csv, ablation_medians.csv and ablation_findings.txt so far.
 struct Results {
   std::vector<std::vector<std::string>> runs;
   std::vector<SettingRows> settings;  ///< settings with at least one run
@@ -264,7 +264,7 @@ struct Results {
   std::vector<std::string> sentences;
 };
 
-/// Returns the results of the first runs of `planned`, whose rows are `done`.
+/// Returns the results of the finished runs. `done` has the rows of the first runs of `planned`.
 Results results_of(const std::vector<Axis>& axes, const std::vector<Point>& points,
                    const std::vector<PlannedRun>& planned, const std::vector<RunRow>& done, bool has_seeds) {
   Results results;
@@ -353,8 +353,8 @@ std::string counted_run(const std::string& name, std::size_t i, std::size_t coun
   return name + " (" + std::to_string(i + 1) + " of " + std::to_string(count) + ")";
 }
 
-/// Makes the missing runs of the grid in `folder`, each in a separate process. A run that fails in its process is
-/// continued by this process when it tabulates the grid, or fails again.
+/// Makes the missing runs of the grid in `folder`, each in a separate process. If such a process fails, this process
+/// continues its run when it tabulates the grid. The run may then fail again.
 void make_side_by_side(const AblateOptions& options, const std::vector<PlannedRun>& planned, const CLI::App& command,
                        const std::string& folder) {
   std::vector<OwnCommand> commands;

@@ -273,8 +273,8 @@ std::string unseen_curves(const std::vector<State>& states) {
          "--audit-meetings)";
 }
 
-/// Describes findings that the rounding of printed coordinates may have caused: in words for the first such state, then
-/// the number of further states. Empty if there is none.
+/// Describes the first state with findings that the rounding of printed coordinates may have caused, and counts the
+/// further states with such findings. Empty if no state has any.
 std::string in_doubt(const std::vector<State>& states) {
   const auto has = [](const State& state) { return !state.doubt.empty(); };
   const auto first = std::ranges::find_if(states, has);
@@ -316,7 +316,7 @@ Totals totals_of(const std::vector<State>& states) {
   return totals;
 }
 
-/// Returns one line for each thing that was not checked.
+/// Returns one warning for each kind of event that the audit could not see.
 std::vector<std::string> unseen(const Audits& audits) {
   std::vector<std::string> lines;
   for (std::string line : {unseen_ways(audits), audits.ways ? "" : unseen_curves(audits.states)})

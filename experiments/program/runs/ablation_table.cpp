@@ -132,7 +132,7 @@ std::array<double, stale_residuals.size()> stale_residuals_of(const std::filesys
 
 std::string text(double value) { return number(value, 3); }
 
-/// Returns a ratio as text. A ratio near 1 gets more digits, so that it is not printed as 1.
+/// Returns a ratio as text, with more digits if it is near 1, so that it is not printed as 1.
 std::string ratio(double value) { return number(value, std::abs(value - 1) < 0.01 ? 6 : 3); }
 
 std::string with_unit(double value, const Metric& metric) {

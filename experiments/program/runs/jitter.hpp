@@ -20,10 +20,11 @@ struct Jitter {
 /// the start reports all other cases.
 void check_jitter(const Jitter& jitter, const compare::Settings& settings);
 
-/// Adds an offset to each coordinate of each free vertex; fixed and prescribed vertices stay. Offsets are uniform on
-/// multiples of 2⁻⁵² `largest` in [−1, 1) `largest` and are rounded to single precision. `positions`: by vertex [m]. An
-/// offset depends only on the seed, the vertex's number and the coordinate, and has the same bits on every machine: its
-/// only product is rounded before the sum, so that no compiler contracts the two operations.
+/// Adds an offset to each coordinate of each free vertex; fixed and prescribed vertices stay. Offsets are uniformly
+/// distributed multiples of 2⁻⁵² `largest`, at least −`largest` and less than `largest`, and are rounded to single
+/// precision. `positions`: by vertex [m]. An offset depends only on the seed, the vertex's number and the coordinate.
+/// It has the same bits on every machine, because its only product is rounded before the sum, so that no compiler
+/// contracts the two operations.
 void add_jitter(const Jitter& jitter, const compare::Scene& scene, std::vector<compare::Vec3f>& positions);
 
 }  // namespace ogc::experiments

@@ -14,7 +14,7 @@
 namespace ogc::experiments {
 namespace {
 
-/// indexed by compare::Verdict
+/// names of verdicts, indexed by compare::Verdict
 constexpr std::array<std::string_view, 3> verdict_names{"holds", "limit", "broken"};
 std::string name_of(compare::Verdict verdict) { return std::string(verdict_names[static_cast<std::size_t>(verdict)]); }
 

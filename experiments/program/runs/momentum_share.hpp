@@ -10,9 +10,9 @@
 
 namespace ogc::experiments {
 
-/// Converts the loss in a step's row into a share of the step's momentum. A row's loss is relative to ‖Σ m (y − xᵗ)‖,
-/// which vanishes if vertices move against each other. This class remembers the starts of steps and returns the loss
-/// relative to Σ m ‖y − xᵗ‖.
+/// Rescales the loss of momentum in a step's row. The row's loss is relative to ‖Σ m (y − xᵗ)‖, which vanishes if
+/// vertices move against each other. This class remembers the starts of steps and returns the loss relative to Σ m ‖y −
+/// xᵗ‖.
 class MomentumShare {
  public:
   /// Takes a valid scene, which need not outlive this object.

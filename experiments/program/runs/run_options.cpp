@@ -64,7 +64,7 @@ compare::SceneFile load_scene(const RunOptions& options, std::string& scale) {
   return {make_scene(options.scene, parse_scale(scale), data), {}, {}};
 }
 
-/// Sets the named model for every body that has such a model. Returns false if `key` is not `wanted_key`.
+/// Sets the model named `value` for every body whose model is not `none`. Returns false if `key` is not `wanted_key`.
 template <class Model>
 bool set_model(compare::Scene& scene, const std::string& key, std::string_view wanted_key, const std::string& value,
                std::span<const std::string_view> names, Model compare::Material::*model) {

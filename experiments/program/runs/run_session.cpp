@@ -30,7 +30,7 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 
 constexpr std::int64_t any_step = std::numeric_limits<std::int64_t>::max();
 
-/// Returns the number of steps between frames. Unless the scene sets it, a second of the scene's time has 60 frames.
+/// Returns the number of steps between frames. If the scene does not set it, a simulated second has about 60 frames.
 std::int64_t frame_steps(const compare::Settings& settings) {
   if (settings.frame_steps > 0) return settings.frame_steps;
   return std::max<std::int64_t>(1, std::llround(1 / (60 * settings.time_step)));
@@ -174,8 +174,8 @@ void RunSession::reopen_folder() {
   log_line("goes on after step " + std::to_string(step_) + " of " + std::to_string(settings_.steps));
 }
 
-/// Reads the start velocities of those steps whose loss of momentum is measured: steps after a stored frame whose guess
-/// loop did all its rounds (MomentumShare). Reading every frame would take long.
+/// Reads the velocities at the start of each step that follows a stored frame and did all guess rounds. Only in these
+/// steps is the loss of momentum measured (MomentumShare). Reading every frame would take long.
 void RunSession::remember_starts(const std::vector<StepMetrics>& rows) {
   const compare::RunReader reader(request_.folder);
   for (std::size_t i = 0; i < reader.frame_count(); ++i) {
@@ -256,8 +256,8 @@ bool RunSession::one_chunk() {
   const std::string broken = rows.empty() ? "the simulation did no step; please report it" : step_failure(rows.back());
   if (broken.empty()) {
     step_ = rows.back().step;
-    // If another state still waits for its verdict, no state is offered for a due checkpoint. The waiting state is
-    // saved when its verdict arrives.
+    // If another state still waits for its verdict, a due checkpoint does not cause a further audit: the waiting state
+    // is saved when its verdict arrives.
     if (is_planned(step_) || (is_checkpoint_due() && offered_.empty())) offer_state(any_step);
   } else if (!rows.empty()) {
     // A failed step may or may not be committed, so the state after it is not offered.
@@ -326,8 +326,8 @@ void RunSession::offer(Snapshot snapshot) {
   offered_.push_back(std::move(snapshot));
 }
 
-/// Submits a state for its audit. On the CPU the audit is complete when this function returns. Beside a device the
-/// function may wait for an earlier audit.
+/// Submits a state for its audit. On the CPU the audit is complete when this function returns. If the simulation runs
+/// on a device, the function may wait for an earlier audit.
 void RunSession::submit(const Snapshot& snapshot) {
   const Clock::time_point begin = Clock::now();
   auditor_->submit(snapshot);

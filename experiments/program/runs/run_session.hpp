@@ -27,7 +27,7 @@ namespace ogc::experiments {
 /// Largest computing time that an interruption may lose, apart from the steps in progress [s].
 inline constexpr double default_checkpoint_seconds = 60;
 
-/// Divides the duration of a run into parts [s].
+/// Holds the duration of a run and of its parts [s].
 struct RunSeconds {
   double whole = 0;    ///< since the command began
   double start = 0;    ///< until the first step: scene, its audit, device, folder
@@ -110,7 +110,8 @@ struct RunSummary {
 Json to_json(const RunSummary& summary);
 /// Returns the summary as text.
 std::string describe(const RunSummary& summary);
-/// Returns the value of `guarantee_kept` in run.json: "yes", "no", "not checked", "but for 12 pairs, 3 still open".
+/// Returns in words whether the guarantee was kept: "yes", "no", "not checked", or for example "but for 12 pairs of
+/// vertices that met at the start, 3 still open" (not yet apart).
 std::string guarantee_text(const RunSummary& summary);
 
 /// Runs one simulation and writes its folder.

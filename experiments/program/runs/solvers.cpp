@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::array<std::string_view, 5> names{"vbd", "newton", "reference_vbd", "ipc", "penalty"};
 
-/// Returns the colours of the fast path, from the trace of a step with one iteration. With them the reference's VBD
-/// visits the vertices in the same order.
+/// Returns the colours of the fast path, from the trace of a step with one iteration. With these colours the
+/// reference's VBD visits the vertices in the same order.
 std::vector<compare::Index> fast_colours(const compare::Scene& scene) {
   compare::Scene once = scene;
   once.settings.iterations = once.settings.guess_rounds = 1;

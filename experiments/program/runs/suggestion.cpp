@@ -38,9 +38,9 @@ constexpr double most_excess = 0.01;
 constexpr double least_rate = 0.9;
 /// Number of sweeps per step that a resting stack needs for each layer: `sweeps_a_layer_and_radius` · g h²/r, at most
 /// `most_sweeps_a_layer`. A step begins after all layers have fallen by g h², and each sweep transmits the ground's
-/// support upwards. Stacks of 10 to 50 aligned sheets were run with g h² from r/64 to r/4. With 16 instead of 20 they
-/// keep their gaps; with 12 they are compressed until they tremble. If a layer falls by r or more, contacts stop it at
-/// the start of the step. Then 8 sweeps per layer suffice (tests/experiments/stacks.cpp).
+/// support upwards. Stacks of 10 to 50 aligned sheets were run with g h² from r/64 to r/4. With 16 in place of 20 the
+/// sheets keep their gaps; with 12 the stack is compressed until it trembles. If a layer falls by r or more, contacts
+/// stop it at the start of the step. Then 8 sweeps per layer suffice (tests/experiments/stacks.cpp).
 constexpr double sweeps_a_layer_and_radius = 20, most_sweeps_a_layer = 8;
 
 struct Measures {
@@ -113,7 +113,7 @@ double gradients(double size, const std::array<double, n>& opposite) {
   return sum;
 }
 
-/// Returns the stiffness of a vertex with fixed neighbours over its mass, averaged over directions [1/s²]: q = Σ size
+/// Returns a vertex's stiffness divided by its mass, with fixed neighbours, averaged over directions [1/s²]: q = Σ size
 /// ‖∇N‖² (μ + (λ + μ)/dimension) / mass, with the Lamé constants μ and λ. Stiffness and mass are summed over all
 /// vertices before the division, because sweeps average a smooth mode in this way.
 double stiffness_by_mass(const compare::Mesh& mesh, const compare::Material& material) {
@@ -153,8 +153,7 @@ Measures measure(const compare::Mesh& mesh, const compare::Material& material, d
   const compare::Topology topology = compare::build_topology(mesh);
   std::vector<double> lengths;
   for (const auto& [a, b] : topology.edges) lengths.push_back(distance(at(a), at(b)));
-  // If a tenth of the edges is far shorter than the others, as around a can's rim, these edges decide which distances
-  // are small.
+  // If a tenth of the edges is far shorter than the others, as at the rim of a can, the length of these edges counts.
   std::ranges::sort(lengths);
   const double middle = lengths[lengths.size() / 2], shortest = 2 * lengths[lengths.size() / 10];
   const compare::SmallestDistances gaps = compare::smallest_distances(topology, mesh.positions);
@@ -253,7 +252,7 @@ SuggestedNumber time_step_of(const Measures& mesh, double contact_radius, double
               " m/s, the end of the fall, a step is not longer than 4 γ_p r_q, what four detections let a vertex move"};
 }
 
-/// Holds D and 1 + h² ω² of method.md §7.7.
+/// Holds two numbers of method.md §7.7: `block` is D, `mode` is 1 + h² ω².
 struct Sweeping {
   double block, mode;
   Sweeping(const Measures& mesh, double step)

@@ -17,15 +17,16 @@ struct SuggestedNumber {
 /// Holds the suggested values. They are rounded to two digits or to 1, 2 or 5 times a power of ten, and lie within the
 /// ranges of `setting_table` and `material_table`.
 struct Suggestion {
-  /// length from which all numbers are derived [m]: the median edge, or twice the tenth percentile if that is less
+  /// length from which all numbers are derived [m]: the median edge, or twice the tenth percentile of the edges if this
+  /// is less
   double edge_length = 0;
   SuggestedNumber contact_radius;     ///< r [m]
   SuggestedNumber query_radius;       ///< cap of r_q [m]
   SuggestedNumber contact_stiffness;  ///< k_c [N/m]
   SuggestedNumber time_step;          ///< h [s]
   SuggestedNumber iterations;         ///< sweeps in each step [1]
-  /// relative excess of the mesh's extension after these sweeps, if it hangs by one end under its weight (method.md
-  /// §7.7)
+  /// relative excess of the extension after `iterations` sweeps, if the mesh hangs by one end under its weight
+  /// (method.md §7.7)
   double excess_extension = 0;
 };
 

@@ -15,8 +15,8 @@ namespace {
 
 using compare::Vec3;
 
-/// The warning suggests a tolerance. With it, IPC ends a step only when no vertex moves faster than this share of the
-/// speed that gravity adds in the step. The value is a rough choice.
+/// The warning suggests a tolerance with which IPC ends a step only when every vertex is slower than this share of the
+/// speed that gravity adds per step. The value is a rough choice.
 constexpr double share_of_gravity = 0.1;
 
 double norm(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }

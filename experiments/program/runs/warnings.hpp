@@ -24,16 +24,15 @@ inline constexpr double most_radii_from_keys = 0.01;
 /// Largest share of a step's motion that truncation may take without a warning (MomentumShare).
 inline constexpr double most_momentum_lost = 0.5;
 
-/// Number of consecutive steps that causes a warning if bounds cut every free vertex in each of them.
+/// If bounds cut every free vertex in this many consecutive steps, the run warns.
 inline constexpr std::int64_t most_held_steps = 10;
 
 /// Largest residual of the median step that causes no warning. The residual is the share of the force that is left on
 /// free vertices (Eq. 29).
 inline constexpr double most_force_left = 0.1;
 
-/// Collects the residuals (Eq. 29) that the steps of a run leave. A step counts only if the part of its residual that
-/// rounded positions may cause does not exceed most_force_left. In other steps there was hardly any force, as in free
-/// fall.
+/// Collects the residuals (Eq. 29) that the steps of a run leave. A step counts only if rounded positions can cause a
+/// residual of at most most_force_left. In other steps there was hardly any force, as in free fall.
 class ForcesLeft {
  public:
   /// Adds the residual and the number of held vertices of a step, if the step counts.
@@ -83,7 +82,7 @@ class Warnings {
   double radius_ = 0;
   std::int64_t guess_rounds_ = 0, iterations_ = 0;
   std::int64_t free_ = 0;  ///< number of vertices that only forces move
-  /// current and longest number of consecutive steps that end with all free vertices cut
+  /// number of consecutive steps up to now that ended with all free vertices cut, and the largest such number
   std::int64_t held_ = 0, longest_held_ = 0;
   std::optional<Worst> momentum_, lag_;
   ForcesLeft forces_left_;

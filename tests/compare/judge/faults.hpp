@@ -55,7 +55,7 @@ compare::Stage stage_of(const std::string& fault);
 template <class Out, class In>
 using Answering = std::function<Out(const In&)> compare::Contestant::*;
 
-/// Returns a fault that changes the question by `change(in)` and answers it correctly.
+/// Returns a fault that answers a wrong question correctly: `change(in)` changes a copy of the question.
 template <class Out, class In, class Change>
 Fault asked_wrongly(const std::string& name, Answering<Out, In> stage, Change change) {
   return {name, stage_of(name), [stage, change](compare::Contestant& contestant, const compare::Authority&) {
@@ -79,7 +79,7 @@ Fault spoiled(const std::string& name, Answering<Out, In> stage, Spoil spoil) {
           }};
 }
 
-/// Returns a fault that changes every case of the question by `change(case)` and answers it correctly.
+/// Returns a fault that answers wrong cases correctly: `change(case)` changes a copy of each case.
 template <class Out, class In, class Change>
 Fault cases_asked_wrongly(const std::string& name, Answering<Out, In> stage, Change change) {
   return asked_wrongly(name, stage, [change](In& in) {

@@ -55,9 +55,9 @@ std::vector<Rational> basic_solution(const std::vector<Row>& rows, std::size_t c
   return solution;
 }
 
-/// Returns whether two proper simplices share a point outside of the hull of their common vertices. At such a point a
-/// vertex of the first simplex that is not common has a positive weight. If any solution has such a weight, a basic
-/// solution has one.
+/// Returns whether two proper simplices share a point outside of the hull of their common vertices. At such a point, a
+/// vertex that only `first` has gets a positive weight. If any solution has this property, a basic solution has it, so
+/// only basic solutions are tried.
 bool meet_beyond(const Simplex& first, const Simplex& second, const std::vector<Vec3>& x) {
   std::vector<Row> rows(5);
   const std::size_t columns = first.size() + second.size();

@@ -14,8 +14,8 @@ namespace {
 using Segment = std::array<Vec3, 2>;
 using Corners = std::array<Vec3, 3>;
 
-/// Returns whether segment and triangle meet. Checks that the answer does not depend on the order of points and axes,
-/// and that it equals that of brute force.
+/// Returns whether segment and triangle meet. Checks that the answer equals that of hulls_meet for every order of
+/// points and axes.
 bool answer(const Segment& s, const Corners& t) {
   const bool expected = hulls_meet(s, t);
   constexpr std::array<std::array<std::size_t, 3>, 6> orders{

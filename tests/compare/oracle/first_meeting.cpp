@@ -95,9 +95,9 @@ TEST_CASE(
   CHECK(culled > (asked - met) / 2);
 }
 
-/// Coordinates are a few small integers. They give collapsed triangles, edges that are points, motions in one plane or
-/// along one line, and faces that touch at the start or the end of the motion. At dyadic times positions are doubles,
-/// and rational arithmetic decides whether the faces meet.
+/// Coordinates are small integers, so that many triangles collapse, edges are points, motions lie in one plane or along
+/// one line, and faces touch at the start or the end of the motion. At dyadic times positions are doubles, and rational
+/// arithmetic decides whether the faces meet.
 TEST_CASE(
     "first meeting: degenerate motions on a grid agree with rational arithmetic at 17 times, and with themselves "
     "backwards and in any order of vertices",
@@ -138,7 +138,8 @@ TEST_CASE(
 }
 
 TEST_CASE("first meeting: an irrational time lies between two neighbouring doubles", "[unit]") {
-  // The vertex falls by 2t while the triangle's plane rotates. They meet at the irrational root of 128 − 288t + 3t².
+  // The vertex falls by 2t while the triangle's plane rotates. The vertex meets the triangle at the irrational root of
+  // 128 − 288t + 3t².
   const MovingPair pair = with_delta(vertex, {{{0.25, 0.25, 1}, {0, 0, 0}, {4, 0, 0}, {0, 4, 0}}},
                                      {{{0, 0, -2}, {0, 0, 0}, {0, 0, 3}, {0.5, 0, 1}}});
   const auto time = first_meeting(pair);

@@ -26,8 +26,8 @@ inline void add_ring(std::vector<Vec3>& positions, std::vector<Edge>& loose, Ind
   }
 }
 
-/// Returns the linking number of two rings whose projections along z are in general position: the sum of the signed
-/// crossings of the first ring's edges over the second ring's.
+/// Returns the linking number of two rings of n edges each: the sum of the signs of the crossings, seen along z, at
+/// which the first ring passes above the second. The projections along z must be in general position.
 inline int linking_number(const std::vector<Vec3>& x, Index n) {
   const auto side = [&](Index a, Index b, Index c) {
     const Vec3 &p = x[ring_place(a)], &q = x[ring_place(b)], &r = x[ring_place(c)];

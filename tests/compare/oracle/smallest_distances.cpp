@@ -20,10 +20,10 @@ using Point = std::array<Rational, 3>;
 Rational dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
-/// Returns the squared distance from the origin to the nearest point of offset + span(directions). The first
-/// `first_group` directions and the others are the edges of two simplices. Returns nothing if the nearest point is
-/// outside of these simplices: a coefficient is negative, or the coefficients of a simplex add up to more than 1. Also
-/// returns nothing if the directions are dependent.
+/// Returns the squared distance from the origin to offset + span(directions). The first `first_group` directions are
+/// edges of one simplex, the others are edges of another simplex. Returns nothing if the nearest point lies outside a
+/// simplex: a coefficient is negative, or the coefficients of a simplex add up to more than 1. Also returns nothing if
+/// the directions are dependent.
 std::optional<Rational> nearest_inside(const std::vector<Point>& directions, std::size_t first_group,
                                        const Point& offset) {
   const std::size_t n = directions.size();
@@ -52,8 +52,8 @@ std::optional<Rational> nearest_inside(const std::vector<Point>& directions, std
   return dot(nearest, nearest);
 }
 
-/// Returns the squared distance of two convex hulls: the least over all pairs of their faces. No cases are
-/// distinguished.
+/// Returns the squared distance of two convex hulls: the least distance over all pairs of their faces. Special cases
+/// get no separate treatment.
 Rational hull_distance(const std::vector<Point>& first, const std::vector<Point>& second) {
   std::optional<Rational> least;
   for (unsigned a = 1; a < 1u << first.size(); ++a) {

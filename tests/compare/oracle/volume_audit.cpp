@@ -27,7 +27,8 @@ Mesh open_box(const Vec3& corner) {
   return mesh;
 }
 
-/// Returns a scene of a cloth of one triangle, then volumes with these surfaces.
+/// Returns a scene whose first body is a cloth of one triangle; each further body is a fixed volume with one of the
+/// surfaces.
 Scene scene_of(const std::array<Vec3, 3>& cloth, const std::vector<Mesh>& volumes) {
   Scene scene;
   scene.name = "volumes";
@@ -111,8 +112,8 @@ TEST_CASE("a scene without volumes lets nothing in, and positions must be the sc
 
 namespace {
 
-/// Returns two cubes of 1 m with six tetrahedra each, as one free volume, or as two if `apart`. The second cube reaches
-/// `back` into the first.
+/// Returns two cubes of 1 m with six tetrahedra each, as one free volume, or as two if `apart`. `back`: length by which
+/// the second cube reaches into the first [m].
 Scene free_cubes(double back, bool apart) {
   Mesh mesh = ogc::tests::block_mesh(2, 1);
   const Mesh other = ogc::tests::block_mesh(2, 1, {1 - back, 0.25, 0.25});

@@ -42,8 +42,8 @@ TEST_CASE("coordinates with millimetres come back to their digits through single
   }
   CHECK(in_file(origin, to_single(local)) == positions);
   CHECK(in_file({}, to_single(local)) == to_double(to_single(local)));
-  // Relative to the origin, an edge of 5 cm keeps its length up to 2⁻²³ of a box of 100 m, which is 1.2e-5 m. Single
-  // precision at 512 km, where an ulp is 0.03 m, loses the length.
+  // Relative to the origin, the length of an edge of 5 cm changes by at most 2⁻²³ of a box of 100 m, 1.2e-5 m. At 512
+  // km an ulp of single precision is 0.03 m, so the length would be lost.
   const std::vector<Vec3f> edge = to_single(relative_to(origin, {{512345.1, 0, 0}, {512345.15, 0, 0}}));
   CHECK(std::abs(double{edge[1].x} - double{edge[0].x} - 0.05) < 100 * 0x1p-23);
   CHECK(std::abs(static_cast<double>(512345.15f) - static_cast<double>(512345.1f) - 0.05) > 0.01);

@@ -20,7 +20,7 @@ Mesh chain(int count, double height = 0.5) {
   return mesh;
 }
 
-/// Returns a scene of a sheet of one triangle, then a rod.
+/// Returns a scene of two bodies: a sheet of one triangle, then the mesh as yarn, with a rod's material if `is_rod`.
 Scene scene_of(const Mesh& mesh, bool is_rod = true) {
   Scene scene;
   scene.name = "rods";

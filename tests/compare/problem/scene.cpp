@@ -22,8 +22,8 @@ double distance(const Vec3f& a, const Vec3f& b) {
   return std::hypot(static_cast<double>(a.x) - b.x, static_cast<double>(a.y) - b.y, static_cast<double>(a.z) - b.z);
 }
 
-// The largest distance that two roundings cause: each is half an ulp in each of three coordinates, which are below 1 m
-// in modulus.
+// Largest distance by which two roundings move a point. Each rounding moves each coordinate by at most half an ulp,
+// 2⁻²⁵ m, because coordinates are below 1 m in modulus.
 constexpr double rounding = 2 * 1.74 * 0x1p-25;
 
 }  // namespace

@@ -35,7 +35,7 @@ TEST_CASE("what resembles no name is near none; an abbreviation is near what it 
     CHECK(near_name(other, models).empty());
 }
 
-// near_name allows one typing error per three letters. Names of at least five letters thus may have one.
+// near_name allows one typing error per three letters, so the shortest tested names, of five letters, may have one.
 TEST_CASE("a name with one typing error in it is found again among all settings", "[property]") {
   std::vector<std::string_view> names;
   for (const SettingInfo& info : setting_table()) names.push_back(info.name);

@@ -45,7 +45,7 @@ Mesh open_box(const Vec3& corner = {}) {
   return mesh;
 }
 
-/// Returns a scene of a surface of one triangle, then a volume.
+/// Returns a scene of two bodies: a sheet of one triangle, then the mesh as a volume.
 Scene scene_of(const Mesh& mesh, bool fixed = true) {
   Scene scene;
   scene.name = "volumes";
@@ -69,7 +69,7 @@ TEST_CASE("a volume's parts are its connected surfaces, with the edges that have
   CHECK(parts[0].triangles.size() == 12);
   CHECK(parts[0].rims.empty());
   CHECK(parts[1].triangles.size() == 10);
-  // In the open box's own vertex numbers its rim is 1 → 3 → 7 → 5, in the directions of its triangles. In the scene, 11
+  // In the vertex numbers of open_box the rim is 1 → 3 → 7 → 5, in the directions of its triangles. In the scene, 11
   // vertices precede the box: 3 of the sheet and 8 of the cube.
   std::vector<Edge> rims = parts[1].rims;
   std::ranges::sort(rims);
@@ -122,7 +122,7 @@ TEST_CASE("a closed sheet that faces inward within a part is a cavity of it, and
   CHECK((cavities[0][0] >= 11 && cavities[0][0] < 19));
   CHECK((cavities[0][1] >= 3 && cavities[0][1] < 11));
   CHECK(volume_surface(hollow).cavities == cavities);
-  // Neither the order of both shells nor their place matters.
+  // The order and the position of the two shells do not matter.
   CHECK(said(scene_of(joined(void_of(2), cube_of(4)))) == "");
   CHECK(said(scene_of(shifted(joined(cube_of(4), void_of(2)), 1000))) == "");
   CHECK(volume_parts(scene_of(joined(joined(cube_of(4), shifted(void_of(1), -1)), shifted(void_of(1), 1)))).size() ==
@@ -137,7 +137,8 @@ TEST_CASE("an island in a void is a part of its own, and a cavity belongs to the
   CHECK(parts[0].triangles.front() == 1);
   CHECK(parts[0].triangles.back() == 24);
   CHECK(parts[1].triangles.front() == 25);
-  // Another part overlaps the cavity without containing it, so the cavity belongs to the part around it.
+  // A second part overlaps the cavity without containing it. So the cavity belongs to the first part, which surrounds
+  // it.
   CHECK(volume_parts(scene_of(joined(joined(cube_of(4), void_of(2)), shifted(cube_of(1), 1)))).size() == 2);
 }
 

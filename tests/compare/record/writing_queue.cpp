@@ -14,7 +14,7 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-/// Blocks like a slow disk until it is opened.
+/// Makes writers wait, like a slow disk, until it is opened.
 class Gate {
  public:
   void open() { opened_.set_value(); }

@@ -17,7 +17,7 @@ double pairs_won(const std::vector<double>& before, const std::vector<double>& a
   return won;
 }
 
-/// Returns the exact probability. Enumerates all choices of the values that belong to the first set.
+/// Returns the exact result of mann_whitney. Enumerates all choices of the values that belong to the first set.
 double by_enumeration(const std::vector<double>& before, const std::vector<double>& after) {
   const double middle = 0.5 * static_cast<double>(before.size() * after.size()),
                distance = std::abs(pairs_won(before, after) - middle);

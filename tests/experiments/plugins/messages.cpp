@@ -90,7 +90,8 @@ WorkerAnswer read_answer_of(const Question& question, const Stream& stream) {
   return read_stream(stream, [&](const NextBlock& next) { return read_answer(next, *question.stage, question.sizes); });
 }
 
-/// Returns whether the counts are possible for the question, and whether the lengths of the outputs follow from them.
+/// Returns whether a plug-in could give this answer: the counts are possible for the question, and the lengths of the
+/// outputs follow from the counts.
 bool fits(const WorkerAnswer& answer, const Question& question) {
   if (answer.result.status > CallResult::Status::broken || !(answer.result.seconds >= 0)) return false;
   if (answer.result.status != CallResult::Status::answered) return answer.outputs.empty();

@@ -170,8 +170,8 @@ TEST_CASE(
 TEST_CASE("where seams of data meet, vertices stitched to the same one are no contacts, neighbours in a panel are",
           "[unit]") {
   SmallData files;
-  // A third panel is added. One corner is 1 mm from a corner of the second panel, and both corners are stitched to the
-  // same vertex.
+  // A third panel is added. One of its corners is 1 mm from a corner of the second panel, and both corners are stitched
+  // to the same vertex.
   files.stage = replaced(files.stage, "g panel0", "v 0 0 0\nv 0 1 0\nv -1 0 0\nvt 9 0\nvt 9 1\nvt 8 0\ng panel0");
   files.stage += "g panel2\nf 7/7 8/8 9/9\nstitch 6 0 1 0\n";
   files.drape = replaced(files.drape, "v 0 -1 0\n", "v 0 0.001 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\n");

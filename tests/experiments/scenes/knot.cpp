@@ -18,7 +18,7 @@ double length(const Vec3& a, const Vec3& b) { return std::hypot(a.x - b.x, a.y -
 const Vec3& start(const Scene& scene, Index vertex) { return scene.mesh.positions[static_cast<std::size_t>(vertex)]; }
 const Vec3& rest(const Scene& scene, Index vertex) { return scene.rest_positions[static_cast<std::size_t>(vertex)]; }
 
-/// Returns the largest stretch between neighbours along the strip, start length over rest length.
+/// Returns the largest stretch (start length over rest length) between neighbours along the strip.
 double largest_stretch(const Scene& scene, const KnotSizes& sizes) {
   double largest = 0;
   for (Index v = 0; v + sizes.columns < sizes.rows * sizes.columns; ++v)

@@ -84,8 +84,8 @@ TEST_CASE("scales shrink vertices and steps, and keep the radius in units of the
     CHECK(small.settings.steps <= paper.settings.steps);
     const double regime = paper.settings.contact_radius / shortest_edge(paper);
     for (const Scene& scene : {smoke, small}) {
-      // Error of the ratio: each position of up to 0.5 m is rounded to single precision by at most 2⁻²⁵ m. (Layers are
-      // slightly larger, strips are smaller.) Two ratios are compared, each with one edge, so four positions count.
+      // Error of the ratio: single precision rounds each position of up to 0.5 m by at most 2⁻²⁵ m. (Layers are
+      // slightly larger, strips are smaller.) The two compared ratios use one edge each, so four positions are rounded.
       // Edges are longer than 7 mm (2 mm across a strip of 4.5 cm; 1 mm for yarn).
       const double edge = scene.mesh.triangles.empty() ? 0.001 : 0.007;
       CHECK(scene.settings.contact_radius / shortest_edge(scene) == Approx(regime).epsilon(4 * 0x1p-25 / edge));

@@ -30,8 +30,8 @@ inline double largest_gap(const compare::Scene& scene) {
   return largest;
 }
 
-/// Counts the intersections at the start, except intersections inside a rigid group. Partners are stitched or excluded
-/// pairs.
+/// Counts the intersections at the start: between partners (stitched or excluded vertices), and others. Intersections
+/// inside a rigid group do not count.
 struct StitchedStart {
   std::size_t between_partners = 0, others = 0;
 };

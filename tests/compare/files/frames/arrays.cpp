@@ -207,8 +207,8 @@ class MemoryLimit {
   rlimit before_{};
 };
 
-/// Returns the bytes after one to four changes: other bytes, repeated runs, other digits in the header, or a missing
-/// end.
+/// Returns the bytes after one to four changes: changed bytes, repeated runs of bytes, changed digits in the header, or
+/// a missing end.
 std::string damaged(Random& random, std::string bytes) {
   for (int k = 1 + random.below(4); k > 0 && !bytes.empty(); --k) {
     const std::size_t at = random.bits() % bytes.size();

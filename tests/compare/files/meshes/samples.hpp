@@ -33,7 +33,7 @@ std::string square_stl();
 /// Returns the square in binary STL whose header announces `announced` facets.
 std::string binary_stl(std::uint32_t announced);
 
-/// Returns four corners as floats, then two triangles in 16 bits: 60 bytes.
+/// Returns the positions of four corners as floats, then the indices of two triangles as 16-bit numbers: 60 bytes.
 std::string gltf_data();
 /// Returns the "uri" of a buffer with these bytes.
 std::string base64_uri(const std::string& bytes);

@@ -46,12 +46,13 @@ inline std::string numbers(const Seen& seen) {
 
 }  // namespace loose
 
-/// Returns one message for each tolerance that is loose without a reason in MetricInfo::loose_because, or has a reason
-/// without being loose. Reports of one stage count together.
+/// Returns one message for each tolerance that is loose without a reason in MetricInfo::loose_because, or that has a
+/// reason and is not loose. A tolerance is loose if it exceeds loose_factor times the largest error in all reports of
+/// its stage.
 ///
-/// A longer run with the same seed repeats these cases. So a tolerance that is not loose here is not loose in the
-/// longer run either. A tolerance may be loose here only because the run is short. So reports must include the cases of
-/// longer runs with the largest errors (tests/experiments/nearest.txt).
+/// A longer run with the same seed repeats these cases, so a tolerance that is not loose here is not loose there. The
+/// reverse may fail. So reports must include the cases of longer runs with the largest errors
+/// (tests/experiments/nearest.txt).
 inline std::vector<std::string> loose_problems(std::span<const StageReport> reports) {
   std::vector<std::string> problems;
   for (const auto& [name, seen] : loose::seen_in(reports)) {

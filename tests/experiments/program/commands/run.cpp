@@ -311,8 +311,8 @@ TEST_CASE("a run says where its time went, in its summary and in run.json", "[un
     CHECK(seconds.at(part) > 0);
     sum += seconds.at(part).get<double>();
   }
-  // The parts are times of one thread, so they do not overlap. Only the wait for the disk before the first step is
-  // counted twice.
+  // The four times are of one thread, so they do not overlap. Only the wait for the disk before the first step is in
+  // two of them, `start` and `writing`.
   CHECK(sum - seconds.at("start").get<double>() < seconds.at("whole"));
   double rows = 0;
   for (const compare::StepMetrics& row : compare::read_steps(folder / "run").rows) rows += row.wall_ms / 1000;

@@ -19,10 +19,10 @@ std::vector<compare::StepMetrics> rows_of(const compare::Contestant& contestant,
 
 }  // namespace
 
-// Both residuals use the same positions and contact sets. Only f* and rounding differ. They change the residual by at
-// most `left_rounding`, the residual that storing positions in single precision may cause. Scenes are stiff and have
-// few sweeps, so that residuals exceed ten times this limit. An error of a tenth would thus be detected. Contacts of
-// yarn have nearly no stiffness, because the reference detects other contacts in its guess loop. Bounds are off, so no
+// Both residuals use the same positions and contact sets; they differ in f* and rounding. The difference is at most
+// `left_rounding`, the residual that storing positions in single precision may cause. Scenes are stiff and have few
+// sweeps, so that residuals exceed ten times this limit. An error of a tenth would thus be detected. Contacts of yarn
+// have nearly no stiffness, because the reference detects other contacts in its guess loop. Bounds are off, so no
 // vertex is held.
 TEST_CASE("what a step leaves of forces is what the reference finds, but for rounding", "[figure]") {
   struct Case {

@@ -74,8 +74,8 @@ TEST_CASE("what can't be resumed to the same bits is refused, and the message sa
   refused({"steps.csv", "not every row"});
 }
 
-// The simulation, its audits and its files are constructed from the result of resumed_run. So none of them exists yet
-// when resumed_run throws.
+// A run constructs its simulation, audits and files from the result of resumed_run. So none of them exists yet when
+// resumed_run throws.
 TEST_CASE("what can't be resumed is refused before anything is computed, and the folder stays as it is", "[unit]") {
   const TemporaryFolder folder;
   const fs::path run = folder / "run";

@@ -40,7 +40,7 @@ compare::Scene tip_through_floor(double speed) {
   return scene;
 }
 
-/// Returns a tilted sheet that crosses a fixed one and rises.
+/// Returns a tilted sheet that intersects a fixed sheet at the start and rises.
 compare::Scene crossing_sheets() {
   compare::Scene scene;
   scene.name = "crossing";
@@ -83,7 +83,8 @@ TEST_CASE("start pairs are the vertices of what meets, and close where nothing t
   CHECK(pairs.tolerant_scene().excluded_pairs.size() == 9);
   CHECK(!pairs.close_apart(positions_of(scene)));
   scene.mesh.positions[1].y = -0.1;
-  // The first edge at the tip is free, but the opposite edge now intersects, so the pairs of its vertices stay open.
+  // One edge at the tip no longer meets the floor. The edge opposite to the tip does now, so pairs of its vertices stay
+  // open.
   CHECK(!pairs.close_apart(positions_of(scene)));
   scene.mesh.positions[2].y = -0.1;
   CHECK(pairs.close_apart(positions_of(scene)));

@@ -104,8 +104,8 @@ compare::Mesh strip(double edge) {
   return mesh;
 }
 
-/// Returns how far the mesh sinks along x on average [m] when it hangs at rest from its vertices of least x. The
-/// settings are the suggested ones, but with this number of iterations.
+/// Hangs the mesh by its vertices of least x and returns how far it sinks along x on average until it rests [m]. The
+/// settings are the suggested ones except the number of iterations.
 double sunk(const compare::Mesh& mesh, const compare::Material& material, const Suggestion& found,
             std::int64_t iterations) {
   compare::Scene scene;
@@ -129,8 +129,8 @@ double sunk(const compare::Mesh& mesh, const compare::Material& material, const 
   return sum / static_cast<double>(mesh.positions.size());
 }
 
-/// Returns by how much further the mesh sinks than with ten times as many sweeps, relative to the latter. The error
-/// that remains with ten times as many sweeps is negligible: it is the tenth power of the measured error.
+/// Returns the relative excess of the sinking with the suggested sweeps over the sinking with ten times as many. The
+/// error of the latter is negligible: it is the tenth power of the measured error.
 double measured_excess(const compare::Mesh& mesh, const compare::Material& material, const Suggestion& found) {
   const auto iterations = static_cast<std::int64_t>(found.iterations.value);
   return sunk(mesh, material, found, iterations) / sunk(mesh, material, found, 10 * iterations) - 1;

@@ -158,8 +158,8 @@ TEST_CASE("a run without bounds says at its first and last line that nothing is 
   CHECK_THAT(warnings[0], Contains("bounds=off") && Contains("guarantees nothing"));
 }
 
-// In each of 16 rounds the bounds allow γ_p r_q = 0.45 · 40 mm, so at most 0.29 m in a step, or 29 m/s for h = 10 ms.
-// In free flight only truncation removes momentum.
+// In each of 16 rounds bounds let a vertex move by γ_p r_q = 0.45 · 40 mm, so by at most 0.29 m in a step. This is 29
+// m/s for h = 10 ms. In free flight only truncation removes momentum.
 TEST_CASE("a run of a sheet thrown faster than its bounds allow warns; half as fast as they allow it does not",
           "[property]") {
   compare::Scene scene = sheet();

@@ -157,8 +157,8 @@ TEST_CASE("yarn: a figure-eight knot that is pulled tight has no meeting", "[pro
   CHECK(run.at("audit").at("meetings") == 0);
   CHECK(run.at("guarantee_kept") == true);
   // The knot must be tight: its mean stretch has fallen from 3 at the start to below 2, and it touches itself at its
-  // four crossings. It oscillates, because these contacts are elastic. In the last 100 steps a contact becomes deeper
-  // than r/2.
+  // four crossings. It oscillates, because these contacts are elastic. In the last 100 steps the smallest distance of a
+  // contact falls below r/2.
   const std::vector<compare::StepMetrics> rows = compare::read_steps(folder / "run").rows;
   const compare::StepMetrics& last = rows.back();
   CHECK(last.mean_stretch < 2);
