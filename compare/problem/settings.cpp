@@ -53,6 +53,11 @@ constexpr auto problem_table = std::to_array<SettingInfo>({
     {"detection_every", "1",
      "a step detects contacts again after so many iterations at the latest; 0: their number asks for nothing", 0,
      most_count, &Settings::detection_every},
+    {"detection_gap", "1",
+     "vbd, reference_vbd: at least so many iterations lie between two detections of a step, however many vertices "
+     "bounds "
+     "stop; detection_every goes first",
+     1, most_count, &Settings::detection_gap},
     {"guess_rounds", "1",
      "a step moves vertices to where inertia takes them in at most so many rounds, each with a detection; 1 is Eq. 28 "
      "as printed",

@@ -25,6 +25,7 @@ ogc_settings settings_of(const Settings& s) {
           single(s.friction_velocity),
           s.iterations,
           s.detection_every,
+          s.detection_gap,
           s.guess_rounds,
           s.lanes,
           static_cast<std::int64_t>(s.contact_activation),

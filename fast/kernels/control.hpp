@@ -37,6 +37,7 @@ OGC_HD inline float float_from_bits(int bits) {
 struct ControlSettings {
   double redetect_vertices = 1;    ///< γ_e K
   int detection_every = 0;         ///< at most this number of iterations between two detections; 0: no limit
+  int detection_gap = 1;           ///< at least this number of iterations between two detections
   int iterations = 1 << 30;        ///< iterations of a step; no detection follows the last one
   int guess_rounds = 16;           ///< largest number of rounds of a step's guess loop
   int sort_every = 1;              ///< steps between two sorts of the trees
@@ -96,16 +97,17 @@ struct StepControl {
   OGC_HD void count_violation() { atomic_add(&violations, 1); }
 };
 
-/// Returns whether a detection is due because of cuts, and resets the counts. It is due if at least `least_cut`
-/// vertices were cut, or if any vertex was cut while one is deep inside a volume. It is also due if prescribed vertices
-/// lag and one of them has moved since the last detection. If none of them has moved, it is due only once in a step.
-OGC_HD inline bool take_request(StepControl& c, int least_cut) {
-  const bool lag_asks = c.lagging > 0 && (c.advanced > 0 || c.lag_asked == 0),
+/// Returns whether a detection is due because of cuts, and resets the counts. None is due unless `may_detect`. It is
+/// due if at least `least_cut` vertices were cut, or if any vertex was cut while one is deep inside a volume. It is
+/// also due if prescribed vertices lag and one of them has moved since the last detection. If none of them has moved,
+/// it is due only once in a step.
+OGC_HD inline bool take_request(StepControl& c, int least_cut, bool may_detect = true) {
+  const bool lag_asks = may_detect && c.lagging > 0 && (c.advanced > 0 || c.lag_asked == 0),
              asks = c.cut >= least_cut || (c.cut > 0 && c.deep_inside > 0);
   if (lag_asks) c.lag_asked = 1;
   c.cut_last = c.cut + c.lagging;
   c.cut = c.lagging = c.advanced = c.deep_inside = 0;
-  return asks || lag_asks;
+  return (may_detect && asks) || lag_asks;
 }
 
 /// If the step failed, stops the step and all later steps of the frame. A stopped step is not committed.
@@ -182,9 +184,9 @@ struct EndRound {
   }
 };
 
-/// Ends an iteration. A detection follows if enough vertices were cut (Alg. 3 line 29) or `detection_every` iterations
-/// have passed. `number` is the index of this iteration. If it differs from `control->turn`, nothing happens; −1 omits
-/// this check.
+/// Ends an iteration. A detection follows if enough vertices were cut (Alg. 3 line 29) and `detection_gap` iterations
+/// have passed since the last one, or if `detection_every` have passed. `number` is the index of this iteration. If it
+/// differs from `control->turn`, nothing happens; −1 omits this check.
 struct EndIteration {
   StepControl* control;  ///< on the backend
   ControlSettings settings;
@@ -195,7 +197,7 @@ struct EndIteration {
     if (number >= 0 && c.turn != number) return;
     ++c.iterations;
     ++c.since_detection;
-    const bool asked = take_request(c, settings.least_cut());
+    const bool asked = take_request(c, settings.least_cut(), c.since_detection >= settings.detection_gap);
     const bool due = settings.detection_every > 0 && c.since_detection >= settings.detection_every;
     c.detect = c.active != 0 && c.iterations < settings.iterations && (due || asked) ? 1 : 0;
     stop_if_failed(c);

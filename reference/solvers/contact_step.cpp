@@ -141,7 +141,9 @@ bool ContactStep::asks(std::size_t cut, std::int64_t times) {
 }
 
 bool ContactStep::detection_due(std::size_t cut) {
-  return asks(cut) || (settings_.detection_every > 0 && iterations_since_ >= settings_.detection_every);
+  const bool is_early = waits(), asked = !is_early && asks(cut);
+  if (is_early) lagging_ = 0, advanced_ = false;
+  return asked || (settings_.detection_every > 0 && iterations_since_ >= settings_.detection_every);
 }
 
 bool ContactStep::in_contact() const {

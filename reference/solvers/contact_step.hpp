@@ -75,9 +75,11 @@ class ContactStep {
   bool asks(std::size_t cut, std::int64_t times = 1);
   bool nothing_near() const;  ///< whether x certainly has no contacts, without a detection
   std::size_t move_prescribed();
-  /// Returns whether a detection is due after an iteration that cut `cut` vertices: if `asks` returns true, or by the
-  /// setting `detection_every`.
+  /// Returns whether a detection is due after an iteration that cut `cut` vertices: if `detection_gap` iterations have
+  /// passed and `asks` returns true, or by the setting `detection_every`.
   bool detection_due(std::size_t cut);
+  /// Returns whether fewer than `detection_gap` iterations have passed since the last detection.
+  bool waits() const { return iterations_since_ < settings_.detection_gap; }
   void set_residual(double mean_force);  ///< sets the residual of Eq. 29; the first force of a step is f*
   compare::IterationMetrics new_row(bool detects) const;
   StepResult finish(std::uint32_t status);

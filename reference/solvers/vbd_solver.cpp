@@ -77,7 +77,7 @@ void VbdSolver::iterate() {
   ++metrics_.iterations;
   ++iterations_since_;
   const bool is_due = detection_due(cut_);
-  detect_next_ = is_due || (cut_ > 0 && is_deep_inside());
+  detect_next_ = is_due || (!waits() && cut_ > 0 && is_deep_inside());
 }
 
 bool VbdSolver::is_deep_inside() const {

@@ -257,6 +257,7 @@ std::vector<Fault> step_faults() {
   std::vector<Fault> faults{
       asked_wrongly("threshold rounded down", round_threshold_down),
       asked_wrongly("r_q without its cap", [](Scene& scene) { scene.settings.detection_radius_cap = 1000; }),
+      asked_wrongly("detection_gap ignored", [](Scene& scene) { scene.settings.detection_gap = 1; }),
       asked_wrongly("one iteration too few", [](Scene& scene) { --scene.settings.iterations; }),
       asked_wrongly("prescribed targets of the next step",
                     [](Scene& scene) {

@@ -27,6 +27,7 @@ struct StepBuilder {
     constexpr std::array<double, 4> steps{0.01, 0.01, 0x1p-6, 0.001}, caps{1, 1.5, 4, 16}, fractions{0.01, 0.1, 0.5, 1};
     constexpr std::array<std::int64_t, 4> every{0, 0, 1, 2}, lanes{0, 2, 4, 16};
     constexpr std::array<std::int64_t, 3> rounds{1, 2, 16};
+    constexpr std::array<std::int64_t, 6> gaps{1, 1, 1, 1, 2, 3};
     scene.name = "step";
     Settings& s = scene.settings;
     s.time_step = random.pick(std::span<const double>(steps));
@@ -36,6 +37,7 @@ struct StepBuilder {
     s.bounds_relaxation = random.one_in(2) ? 0.45 : random.between(0.1, 0.49);
     s.detection_fraction = random.pick(std::span<const double>(fractions));
     s.detection_every = random.pick(std::span<const std::int64_t>(every));
+    s.detection_gap = random.pick(std::span<const std::int64_t>(gaps));
     s.guess_rounds = random.pick(std::span<const std::int64_t>(rounds));
     s.lanes = random.pick(std::span<const std::int64_t>(lanes));
     s.friction_velocity = speed(random.magnitude(-2, -0.5));

@@ -51,7 +51,7 @@ Settings settings_of(const ogc_settings& s) {
   settings.bounds_relaxation = s.bounds_relaxation, settings.detection_fraction = s.detection_fraction,
   settings.friction_velocity = s.friction_velocity;
   settings.iterations = s.iterations, settings.detection_every = s.detection_every,
-  settings.guess_rounds = s.guess_rounds, settings.lanes = s.lanes;
+  settings.detection_gap = s.detection_gap, settings.guess_rounds = s.guess_rounds, settings.lanes = s.lanes;
   settings.contact_activation = static_cast<ContactActivation>(s.contact_activation),
   settings.damping = static_cast<DampingForm>(s.damping_form);
   return settings;
@@ -260,7 +260,9 @@ class Step {
     std::int64_t since = 0;
     for (std::int64_t i = breaks("one iteration less") ? 1 : 0; i < s.iterations; ++i) {
       if (!found) detect(), since = 0;
-      found = sweep() < threshold(1) && (s.detection_every == 0 || ++since < s.detection_every);
+      const Index cut = sweep();
+      ++since;
+      found = (cut < threshold(1) || since < s.detection_gap) && (s.detection_every == 0 || since < s.detection_every);
     }
   }
 

@@ -188,7 +188,7 @@ TEST_CASE(
   refuses(folder + "/libplugin_anything.so", "", "no function ogc_plugin");
   refuses(folder + "/libplugin_newer.so", "", "built for version 10");
   refuses(folder + "/libplugin_older.so", "",
-          "built for version 8 of compare/plugin.h, and this program takes version 9");
+          "built for version 9 of compare/plugin.h, and this program takes version 10");
   refuses(folder + "/libplugin_odd_memory.so", "", "asks for memory 9");
   refuses(folder + "/libplugin_empty.so", "", "no stage's function");
   refuses(broken, "bound", "no function ogc_bound; its stages: detect_vertex_facet, detect_edge_edge, activation");

@@ -80,6 +80,30 @@ TEST_CASE("an iteration asks for a detection at the threshold or when it is due,
   CHECK(c.iterations == 4);
 }
 
+TEST_CASE("within detection_gap iterations of a detection neither cuts, lags nor deep vertices ask", "[unit]") {
+  ControlSettings settings;
+  settings.detection_gap = 3;
+  StepControl c = running();
+  const int overflow = 0;
+  const auto iterate = [&] {
+    c.cut = 2;
+    c.deep_inside = 1;
+    c.count_lag(false);
+    EndIteration{&c, settings}(0);
+    const int asked = c.detect;
+    if (asked != 0) EndDetection{&c, &overflow}(0);
+    CHECK(c.cut + c.lagging + c.deep_inside == 0);
+    return asked;
+  };
+  CHECK(iterate() + iterate() == 0);
+  CHECK(c.lag_asked == 0);  // a lag that was not heard may still cause its one detection
+  CHECK(iterate() == 1);
+  CHECK(iterate() + iterate() == 0);
+  settings.detection_every = 3;
+  settings.detection_gap = 5;
+  CHECK(iterate() == 1);
+}
+
 TEST_CASE("a prescribed vertex that lags asks alone where it advances, and once a step where it does not", "[unit]") {
   ControlSettings settings;
   settings.redetect_vertices = 5;

@@ -118,6 +118,15 @@ TEST_CASE("detections by count are counted from the last detection", "[unit]") {
         std::vector{find, guess, sweep, find, sweep, sweep, find, sweep, sweep, find, sweep});
 }
 
+TEST_CASE("cut vertices cause no detection within detection_gap iterations of the last one", "[unit]") {
+  compare::Settings rare = settings(5);
+  rare.detection_gap = 2;
+  CHECK(order(rare, 100, {0, 1, 1, 1, 1, 1}) ==
+        std::vector{find, guess, sweep, sweep, find, sweep, sweep, find, sweep});
+  rare.detection_every = 1;
+  CHECK(order(rare, 100, {}) == std::vector{find, guess, sweep, find, sweep, find, sweep, find, sweep, find, sweep});
+}
+
 TEST_CASE("r_q grows with the fastest vertex, a prescribed one included, up to its cap", "[unit]") {
   compare::Scene scene = scene_of(sheet(3, 1), {0, 0, 0});
   scene.gravity = {};
