@@ -184,9 +184,13 @@ struct Reach {
   SurfaceView surface;
   const Vec* positions;       ///< by vertex [m]
   const float* query_radius;  ///< r_q [m], on the backend
+  /// With planes: by vertex, the distance up to which its pairs matter (LimitSearches) [m]. It takes the place of the
+  /// bound above. Null without planes.
+  const float* needed = nullptr;
 
   /// Returns the reach of an edge [m].
   OGC_HD float of_edge(int e) const {
+    if (needed != nullptr) return within(larger(needed[surface.edges[e].a], needed[surface.edges[e].b]));
     Nearest nearest;
     for (const int v : surface.edge_seeds[e].vertex) consider(nearest, v, surface.edges[e].a, surface.edges[e].b);
     return above(nearest);
@@ -194,6 +198,8 @@ struct Reach {
   /// Returns the reach of a facet [m].
   OGC_HD float of_facet(int t) const {
     const Facet& facet = surface.facets[t];
+    if (needed != nullptr)
+      return within(larger(larger(needed[facet.corner[0]], needed[facet.corner[1]]), needed[facet.corner[2]]));
     Nearest nearest;
     for (int k = 0; k < 3; ++k)
       consider(nearest, surface.facet_seeds[t].vertex[k], facet.corner[k], facet.corner[(k + 1) % 3]);
@@ -201,6 +207,7 @@ struct Reach {
   }
   /// Returns the reach of a vertex [m].
   OGC_HD float of_vertex(int v) const {
+    if (needed != nullptr) return within(needed[v]);
     Nearest nearest;
     for (const int e : surface.vertex_seeds[v].edge) {
       if (e >= 0) consider(nearest, v, surface.edges[e].a, surface.edges[e].b);
@@ -212,6 +219,10 @@ struct Reach {
   struct Nearest {
     double squared = infinity, size = 0;
   };
+  /// Returns the smaller of r_q and a needed distance d. The distances of a detection err by up to 6 · 2⁻²⁴ S, S the sum
+  /// of the 1-norms of a pair's differences (separation.hpp). The factor covers this if S ≤ 2,700 d. For larger S
+  /// rounding could choose another pair as a vertex's 17th nearest; its region would still be safe.
+  OGC_HD float within(float distance) const { return smaller(*query_radius, mul(distance, 1 + 0x1p-10F)); }
   OGC_HD void consider(Nearest& nearest, int v, int a, int b) const {
     if (v < 0) return;
     const Real u = difference<Rounded>(positions[v], positions[a]), e = difference<Rounded>(positions[b], positions[a]);

@@ -1,5 +1,7 @@
 // Converts the pairs within r_q that a search noted into half-spaces and a ball for each vertex (method.md §5.6):
 //
+//   LimitSearches    for each pair of the last detection, before the search: limits the searches of its vertices
+//   (the searches)
 //   MeasurePairs     for each pair: its distance, and its place in the row of each of its vertices
 //   (a scan of the rows' lengths)
 //   FillPairRows     for each pair: enters its distance in these rows
@@ -11,10 +13,15 @@
 //
 // No result depends on the order in which pairs were noted: planes are sorted, a threshold is the (N+1)-th of sorted
 // distances, and a ball's radius is a minimum. Fixed vertices have no planes and no row.
+//
+// Pairs beyond δ_v change no result: they have no plane at v, and a pair at distance δ_v limits v's ball more. So a
+// search may stop at any distance within which v has N + 1 pairs. The N + 1 nearest pairs of the last detection give
+// one: the largest of their distances at the new positions is an upper bound of the new δ_v.
 #pragma once
 
 #include "compare/stages/truncate.hpp"
 #include "fast/kernels/bound.hpp"
+#include "fast/kernels/bvh.hpp"
 #include "fast/kernels/control.hpp"
 #include "fast/kernels/lists.hpp"
 #include "fast/kernels/plane.hpp"
@@ -29,13 +36,13 @@ struct RowPlaces {
 /// Holds the arrays that the kernels of this file share.
 struct PlaneListsView {
   SurfaceView surface;
-  PaddedVecs positions;                    ///< x at the detection
+  PaddedVecs positions{};                  ///< x at the detection
   const std::uint8_t* is_fixed = nullptr;  ///< by vertex
   float share = 0;                         ///< γ_p
   const Vec* displacement = nullptr;       ///< w by vertex [m], for ByApproach; null: both sides have half of each gap
   const float* query_radius = nullptr;     ///< r_q [m]
-  const NotedPair* noted = nullptr;        ///< pairs within r_q in any order; a pair's number is its place here
-  float* distance = nullptr;               ///< by noted pair, rounded down [m]
+  NotedPair* noted = nullptr;              ///< pairs in any order; a pair's number is its place here
+  float* distance = nullptr;               ///< by noted pair, rounded down [m]; infinity beyond r_q
   RowPlaces* places = nullptr;             ///< by noted pair
   int* pair_counts = nullptr;              ///< by vertex: number of its pairs
   int* pair_offsets = nullptr;             ///< vertices + 1
@@ -48,12 +55,15 @@ struct PlaneListsView {
   NotedPair* placed_pairs = nullptr;  ///< the pair of each half-space in `placed`
   HalfSpace* rows = nullptr;  ///< half-spaces of each vertex in ascending order of pair; `pairs` holds their pairs
   NotedPair* pairs = nullptr;
+  /// by vertex: distance within which the next search must note all of its pairs [m]; infinity: r_q
+  float* needed = nullptr;
+  float least_needed = 0;  ///< r with the contact margin: contacts need all pairs nearer than this [m]
   int* counts = nullptr;   ///< half-spaces by vertex, at most most_planes
   float* bound = nullptr;  ///< b_v by vertex [m]: γ_p times `unplaned`
 
   /// Returns whether the pair is a vertex and a facet; its first number is then ~vertex.
   OGC_HD bool is_vertex_facet(const NotedPair& pair) const { return pair.first < 0; }
-  /// Returns noted pair i. The search stored its second number inverted if the pair was certainly nearer than r.
+  /// Returns noted pair i. MeasurePairs stored its second number inverted if the pair was certainly nearer than r.
   OGC_HD NotedPair pair(int i) const {
     const NotedPair raw = noted[i];
     return {raw.first, raw.second < 0 ? ~raw.second : raw.second};
@@ -101,6 +111,32 @@ struct PlaneListsView {
   }
 };
 
+/// Raises `needed` of each vertex of a pair to the pair's distance at the new positions, if the pair was among the
+/// vertex's N + 1 nearest pairs at the last detection. Runs once for each pair that the last detection noted.
+struct LimitSearches {
+  PlaneListsView lists;
+  const Vec* positions;  ///< by vertex, of the next detection [m]
+
+  OGC_HD void operator()(int i) const {
+    const float below = lists.distance[i];
+    const PlaneListsView::Vertices of = lists.vertices(lists.pair(i));
+    bool is_near[4], is_any = false;
+    for (int k = 0; k < 4; ++k) {
+      const int v = of.at[k];
+      const float threshold = lists.threshold[v];
+      is_near[k] = lists.is_fixed[v] == 0 && threshold < infinity && below <= threshold;
+      is_any = is_any || is_near[k];
+    }
+    if (!is_any) return;
+    const Vec a = positions[of.at[0]], b = positions[of.at[1]], c = positions[of.at[2]], d = positions[of.at[3]];
+    const Distance now = of.second_from == 1 ? point_triangle_distance(a, {b, c, d})
+                                             : edge_edge_distance({a, b}, {c, d});
+    const float above = round_up(add(now.value, now.slack));
+    for (int k = 0; k < 4; ++k)
+      if (is_near[k]) raise(&lists.needed[of.at[k]], above);
+  }
+};
+
 /// Resets counts and `unplaned` before the pairs are measured. Runs once for each vertex.
 struct PreparePlanes {
   PlaneListsView lists;
@@ -111,8 +147,9 @@ struct PreparePlanes {
   }
 };
 
-/// Computes the distances of noted pairs, rounded down, and their places in the rows of their vertices. Runs once for
-/// each noted pair.
+/// Computes the distance of a noted pair, rounded down, and its places in the rows of its vertices. A pair that is
+/// certainly not within r_q has an infinite distance. The second number of a pair that is certainly nearer than r is
+/// inverted. Runs once for each noted pair.
 struct MeasurePairs {
   PlaneListsView lists;
 
@@ -123,7 +160,9 @@ struct MeasurePairs {
     for (int k = 0; k < 4; ++k)
       places.at[k] = lists.is_fixed[of.at[k]] != 0 ? nowhere : atomic_add(&lists.pair_counts[of.at[k]], 1);
     lists.places[i] = places;
-    lists.distance[i] = lists.at_points(pair, [](const auto& points) { return distance_of(points).below(); });
+    const Distance d = lists.at_points(pair, [](const auto& points) { return distance_of(points); });
+    lists.distance[i] = d.may_be_within(*lists.query_radius) ? d.below() : infinity;
+    if (d.is_surely_within(lists.least_needed)) lists.noted[i].second = ~pair.second;
   }
 
   /// Place of a fixed vertex, which has no row.
@@ -197,6 +236,8 @@ struct SortHalfSpaces {
       lists.bound[v] = lists.surface.is_off_surface(v)
                            ? largest_float
                            : round_down(mul(static_cast<double>(lists.share), static_cast<double>(lists.unplaned[v])));
+    if (k == 0)
+      lists.needed[v] = lists.is_fixed[v] != 0 || lists.threshold[v] < infinity ? lists.least_needed : infinity;
     if (k >= count) return;
     const NotedPair own = lists.placed_pairs[i];
     int before = 0;

@@ -112,9 +112,9 @@ class Detection {
   /// Host only: enlarges each list that was too small and clears the flag. Returns whether a list was too small, so
   /// that the detection has to be repeated.
   bool grow() {
-    const bool grown = lists_.grow();
+    if (!lists_.grow()) return false;
     planes_.reserve(lists_.noted_capacity());
-    return grown;
+    return true;
   }
 
   /// Returns the number of contacts for which the lists have room.
@@ -155,16 +155,19 @@ class Detection {
                                    .d_min_vertex = d_min_vertex_.data(),
                                    .d_min_edge = d_min_edge_.data(),
                                    .d_min_triangle = d_min_triangle_.data()};
-    launches.begin(
-        backend_,
-        BeginDetection{
-            positions, padded_.data(), {lists, surface.vertex_count}, distances, bvh_.refit(positions, query_radius)});
+    planes_.limit_searches(backend_, surface, positions, lists);
+    launches.begin(backend_, BeginDetection{positions,
+                                            padded_.data(),
+                                            {lists, surface.vertex_count},
+                                            distances,
+                                            bvh_.refit(positions, query_radius, planes_.needed())});
     const DetectVertexFacet vertex_facet = vertex_facet_query(contact_radius);
     const DetectEdgeEdge edge_edge = edge_edge_query(contact_radius);
     if (planes_.is_used()) {
-      backend_.search(Searches<NearEdgeEdge>{bvh_.edges(), surface.searched_edges, {edge_edge, query_radius}},
-                      Searches<NearVertexFacet>{bvh_.facets(), facet_searches(), {vertex_facet, query_radius}});
-      planes_.make(backend_, surface, vertex_facet.positions, lists, bounds_relaxation, query_radius, bound_.data());
+      backend_.search(Searches<NearEdgeEdge>{bvh_.edges(), surface.searched_edges, {edge_edge}},
+                      Searches<NearVertexFacet>{bvh_.facets(), facet_searches(), {vertex_facet}});
+      planes_.make(backend_, surface, vertex_facet.positions, lists, contact_radius, bounds_relaxation, query_radius,
+                   bound_.data());
     } else {
       backend_.search(searches_of(edge_edge), searches_of(vertex_facet));
     }

@@ -26,7 +26,7 @@ class Planes {
       counts->fill_zero();
     }
     pair_offsets_.resize(vertices + 1), no_sum_.resize(1);
-    for (Buffer<float>* by_vertex : {&threshold_, &nearest_, &unplaned_}) by_vertex->resize(vertices);
+    for (Buffer<float>* by_vertex : {&threshold_, &nearest_, &unplaned_, &needed_}) by_vertex->resize(vertices);
     for (Buffer<HalfSpace>* planes : {&placed_, &rows_}) planes->resize(vertices * most_planes);
     for (Buffer<NotedPair>* pairs : {&placed_pairs_, &pairs_}) pairs->resize(vertices * most_planes);
   }
@@ -37,9 +37,12 @@ class Planes {
   /// sides' displacements. If null, gaps are halved.
   void divide_by(const Vec* displacement) { displacement_ = displacement; }
 
-  /// Host only: makes room for this number of noted pairs.
+  /// Host only: makes room for this number of noted pairs, and forgets the pairs that limit the next search.
   void reserve(int noted_capacity) {
     if (!is_used()) return;
+    const std::vector<float> all(needed_.size(), infinity);
+    needed_.upload(all.data(), all.size());
+    threshold_.upload(all.data(), all.size());
     distance_.resize(static_cast<std::size_t>(noted_capacity));
     places_.resize(static_cast<std::size_t>(noted_capacity));
     pair_rows_.resize(4 * static_cast<std::size_t>(noted_capacity));
@@ -56,31 +59,25 @@ class Planes {
   /// Returns, by noted pair, a lower bound of its distance [m]; null if bounds are not planes.
   const float* distances() const { return is_used() ? distance_.data() : nullptr; }
 
-  /// Makes planes and balls (`bound`) from the pairs that the searches noted. If some pairs found no room in the list,
-  /// the results must not be used.
-  void make(Backend& backend, const SurfaceView& surface, PaddedVecs positions, const ListsView& noted, float share,
-            const float* query_radius, float* bound) {
-    const PlaneListsView lists{.surface = surface,
-                               .positions = positions,
-                               .is_fixed = is_fixed_.data(),
-                               .share = share,
-                               .displacement = displacement_,
-                               .query_radius = query_radius,
-                               .noted = noted.noted,
-                               .distance = distance_.data(),
-                               .places = places_.data(),
-                               .pair_counts = pair_counts_.data(),
-                               .pair_offsets = pair_offsets_.data(),
-                               .pair_rows = pair_rows_.data(),
-                               .threshold = threshold_.data(),
-                               .nearest = nearest_.data(),
-                               .unplaned = unplaned_.data(),
-                               .placed = placed_.data(),
-                               .placed_pairs = placed_pairs_.data(),
-                               .rows = rows_.data(),
-                               .pairs = pairs_.data(),
-                               .counts = counts_.data(),
-                               .bound = bound};
+  /// Returns, by vertex, the distance within which a search must note all of its pairs [m]; null if bounds are not
+  /// planes.
+  const float* needed() const { return is_used() ? needed_.data() : nullptr; }
+  /// Limits the next search, at `positions` (by vertex, on the backend), by the pairs that the last one noted.
+  void limit_searches(Backend& backend, const SurfaceView& surface, const Vec* positions, const ListsView& noted) {
+    if (!is_used()) return;
+    backend.for_each_counted(noted.noted_count, noted.noted_capacity, LimitSearches{view(surface, noted), positions});
+  }
+
+  /// Makes planes and balls (`bound`) from the pairs that the searches noted. `contact_radius`: r with the margin. If
+  /// some pairs found no room in the list, the results must not be used.
+  void make(Backend& backend, const SurfaceView& surface, PaddedVecs positions, const ListsView& noted,
+            float contact_radius, float share, const float* query_radius, float* bound) {
+    PlaneListsView lists = view(surface, noted);
+    lists.positions = positions;
+    lists.share = share;
+    lists.query_radius = query_radius;
+    lists.least_needed = contact_radius;
+    lists.bound = bound;
     const int vertices = surface.vertex_count, capacity = noted.noted_capacity;
     backend.for_each(vertices, PreparePlanes{lists});
     backend.for_each_counted(noted.noted_count, capacity, MeasurePairs{lists});
@@ -120,13 +117,35 @@ class Planes {
     return {Kind::edge_edge, pair.first, pair.second};
   }
 
+  /// Returns the arrays of this object and the noted pairs.
+  PlaneListsView view(const SurfaceView& surface, const ListsView& noted) {
+    return {.surface = surface,
+            .is_fixed = is_fixed_.data(),
+            .displacement = displacement_,
+            .noted = noted.noted,
+            .distance = distance_.data(),
+            .places = places_.data(),
+            .pair_counts = pair_counts_.data(),
+            .pair_offsets = pair_offsets_.data(),
+            .pair_rows = pair_rows_.data(),
+            .threshold = threshold_.data(),
+            .nearest = nearest_.data(),
+            .unplaned = unplaned_.data(),
+            .placed = placed_.data(),
+            .placed_pairs = placed_pairs_.data(),
+            .rows = rows_.data(),
+            .pairs = pairs_.data(),
+            .needed = needed_.data(),
+            .counts = counts_.data()};
+  }
+
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
 
   compare::BoundsTraits policy_;
   const Vec* displacement_ = nullptr;
   Buffer<std::uint8_t> is_fixed_;
-  Buffer<float> distance_, pair_rows_, threshold_, nearest_, unplaned_;
+  Buffer<float> distance_, pair_rows_, threshold_, nearest_, unplaned_, needed_;
   Buffer<RowPlaces> places_;
   Buffer<int> pair_counts_, pair_offsets_, counts_, no_sum_;
   Buffer<HalfSpace> placed_, rows_;

@@ -1,7 +1,7 @@
-// Defines atomics: integer sums and maxima, and minima of non-negative floats. The final values of their targets do not
-// depend on the order of execution. The values that atomic_add, atomic_compare_exchange and arrives_last return may
-// depend on this order. So kernels use these values only to choose the thread that does a piece of work, or a place in
-// a list whose order has no effect.
+// Defines atomics: integer sums and maxima, and minima and maxima of non-negative floats. The final values of their
+// targets do not depend on the order of execution. The values that atomic_add, atomic_compare_exchange and arrives_last
+// return may depend on it. So kernels use these values only to choose the thread that does a piece of work, or a place
+// in a list whose order has no effect.
 #pragma once
 
 #include <cstdint>
@@ -105,7 +105,7 @@ OGC_HD inline int atomic_load(const int* source) {
 #endif
 }
 
-/// Reads a value that other threads may be lowering at the same time.
+/// Reads a value that other threads may be changing at the same time.
 OGC_HD inline float atomic_load(const float* source) {
 #if defined(__CUDA_ARCH__)
   return *const_cast<const volatile float*>(source);
@@ -136,6 +136,19 @@ OGC_HD inline void lower_together(float* target, float value) {
     atomicMin(reinterpret_cast<int*>(target), least);
 #else
   atomic_min(target, value);
+#endif
+}
+
+/// Sets the target to the maximum of target and value, which must not be negative or NaN. It reads the target first,
+/// because most values do not change it.
+OGC_HD inline void raise(float* target, float value) {
+  if (!(value > atomic_load(target))) return;
+#if defined(__CUDA_ARCH__)
+  atomicMax(reinterpret_cast<int*>(target), __float_as_int(value));
+#else
+  std::atomic_ref<float> shared(*target);
+  float seen = shared.load(std::memory_order_relaxed);
+  while (seen < value && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {}
 #endif
 }
 

@@ -131,6 +131,38 @@ compare::Scene beside_a_wall(double apart) {
 
 }  // namespace
 
+TEST_CASE("planes: a search limited by the last detection's pairs finds the same regions with fewer pairs",
+          "[property]") {
+  std::mt19937 random(20261129);
+  std::uniform_real_distribution<float> step(-0.1F, 0.1F);
+  for (const std::uint32_t seed : {1U, 2U}) {
+    const tests::TestMesh surface = layers(seed);
+    const compare::Topology topology = surface.topology();
+    const auto is_fixed = every_seventh(surface.positions.size());
+    std::vector<compare::Vec3f> positions = surface.positions;
+    CpuBackend backend;
+    Detection<CpuBackend> kept(backend, topology, {}, 1 << 16, compare::Bounds::planes, is_fixed);
+    for (int detection = 0; detection < 6; ++detection) {
+      // The third motion is larger than r_q, so that other pairs become the nearest ones; the others are small.
+      for (compare::Vec3f& x : positions)
+        x.x += (detection == 3 ? 20 : 1) * step(random), x.y += step(random), x.z += step(random);
+      const float r = 0.3F, r_q = detection == 4 ? 0.6F : 1.5F;
+      kept.detect(reinterpret_cast<const Vec*>(positions.data()), r, &r_q, 0.45F);
+      REQUIRE(*kept.overflow() == 0);
+      const Held fresh = detect(topology, positions, is_fixed, r, r_q, 1 << 16);
+      const ContactView view = kept.view();
+      const std::size_t n = positions.size();
+      CHECK(are_equal({kept.download_planes(), {view.bound, view.bound + n}}, fresh.out));
+      CHECK(std::equal(view.d_min_vertex, view.d_min_vertex + n, fresh.nearest.begin()));
+      Detection<CpuBackend> whole(backend, topology, {}, 1 << 16, compare::Bounds::planes, is_fixed);
+      whole.detect(reinterpret_cast<const Vec*>(positions.data()), r, &r_q, 0.45F);
+      CHECK(*kept.view().vertex_facet_count == *whole.view().vertex_facet_count);
+      CHECK(*kept.view().edge_edge_count == *whole.view().edge_edge_count);
+      if (detection > 0 && detection != 4) CHECK(*kept.lists().noted_count < 0.8 * *whole.lists().noted_count);
+    }
+  }
+}
+
 TEST_CASE("planes: each pair within r_q has a plane or is covered by balls, exactly", "[property]") {
   std::size_t separated = 0;
   for (const std::uint32_t seed : {1U, 2U, 3U}) {
