@@ -131,9 +131,13 @@ __global__ void run_decision(cudaGraphConditionalHandle handle, F decide, const 
   cudaGraphSetConditional(handle, *flag != 0 ? 1u : 0u);
 }
 
+/// Returns the number of blocks of SpreadTeams that a multiprocessor should run at once. With six parts, registers
+/// would allow three blocks; four need no second wave in garments (measured: fast/PERFORMANCE.md). 0: no limit.
+constexpr int spread_blocks(int parts) { return parts == 6 ? 4 : 0; }
+
 /// Runs blocks of 32/W teams. Teams beyond the last item compute the last item and write nothing.
 template <int W, class F>
-__global__ void __launch_bounds__(32 * F::parts) run_spread_teams(int n, F f) {
+__global__ void __launch_bounds__(32 * F::parts, spread_blocks(F::parts)) run_spread_teams(int n, F f) {
   const int i = static_cast<int>(blockIdx.x) * (32 / W) + static_cast<int>(threadIdx.x) % 32 / W;
   f(min(i, n - 1), SpreadTeam<W>(i < n));
 }
@@ -146,6 +150,25 @@ __global__ void __launch_bounds__(serial_block_size) run_serial_teams(int n, F f
   const int place = strided ? warp * static_cast<int>(gridDim.x) + block : block * (serial_block_size / 32) + warp;
   const int i = place * (32 / W) + static_cast<int>(threadIdx.x) % 32 / W;
   f(min(i, n - 1), SerialLaneTeam<W>(i < n));
+}
+
+/// Blocks of CompactTeams that a multiprocessor runs at once. Their registers are limited for that (84), which is
+/// faster if a launch has several times as many blocks, and slower otherwise (measured: fast/PERFORMANCE.md).
+inline constexpr int compact_blocks = 6;
+
+/// Whether launches of F that are large enough run CompactTeams of this width: updates of surfaces' vertices with eight
+/// lanes. Others would only add to what is compiled.
+template <int W, class F>
+constexpr bool has_compact_teams() {
+  if constexpr (requires(const F& f) { f.shares_end(); }) return W == 8 && F::parts == 4;
+  return false;
+}
+
+/// Runs blocks of serial_block_size/W CompactTeams.
+template <int W, class F>
+__global__ void __launch_bounds__(serial_block_size, compact_blocks) run_compact_teams(int n, F f) {
+  const int i = (static_cast<int>(blockIdx.x) * serial_block_size + static_cast<int>(threadIdx.x)) / W;
+  f(min(i, n - 1), CompactTeam<W>(i < n));
 }
 
 /// A body recorded as a graph, empty at first. `CudaBackend::replay` records it, and records again if it is stale.
@@ -210,7 +233,8 @@ class CudaBackend {
     follow(typeid(F), run_each_row<F>, blocks(std::int64_t{32} * n), block_threads_, n, offsets, values, f);
   }
 
-  /// Runs SpreadTeams if there are few team lanes, and SerialLaneTeams if team lanes fill the device. With
+  /// Runs SpreadTeams if there are few team lanes, SerialLaneTeams if team lanes fill the device, and CompactTeams if
+  /// they fill it several times. With
   /// Start::overlapping the launch may begin while the previous one still runs.
   template <int W, class F>
   void for_each_team(int n, F f, Start start) {
@@ -220,11 +244,11 @@ class CudaBackend {
     const int teams = (serial ? serial_block_size : 32) / W;  // in a block
     const int blocks = (n + teams - 1) / teams;
     const bool early = start == Start::overlapping;
-    if (serial) {
+    if (!serial) {
+      launch_kernel(current_, early, run_spread_teams<W, F>, blocks, 32 * F::parts, n, f);
+    } else if (!launch_compact<W>(n, f, blocks, early)) {
       launch_kernel(current_, early, run_serial_teams<W, F>, blocks, serial_block_size, n, f,
                     blocks <= multiprocessors_ * strided_blocks_per_multiprocessor);
-    } else {
-      launch_kernel(current_, early, run_spread_teams<W, F>, blocks, 32 * F::parts, n, f);
     }
     check_launch(typeid(F));
     follows_ = true;
@@ -332,6 +356,17 @@ class CudaBackend {
   void synchronize() { OGC_CUDA_CHECK(cudaStreamSynchronize(stream_)); }
 
  private:
+  /// Launches CompactTeams if F has them, the launch has more than two waves of blocks, and one thread can do the work
+  /// after the sum. Returns whether it did.
+  template <int W, class F>
+  bool launch_compact(int n, const F& f, int blocks, bool early) {
+    if constexpr (has_compact_teams<W, F>()) {
+      if (f.shares_end() || blocks <= 2 * compact_blocks * multiprocessors_) return false;
+      launch_kernel(current_, early, run_compact_teams<W, F>, blocks, serial_block_size, n, f);
+      return true;
+    }
+    return false;
+  }
   int blocks(std::int64_t threads) const {
     const std::int64_t most = std::int64_t{multiprocessors_} * threads_per_multiprocessor / block_threads_;
     return static_cast<int>(std::min<std::int64_t>((threads + block_threads_ - 1) / block_threads_, most));

@@ -1,5 +1,5 @@
 // Defines teams of W team lanes, which are neighbouring threads of a warp. Their sums have the bits of SerialTeam<W>.
-// There are two types.
+// There are three types.
 //
 // SpreadTeam: a block has as many warps as a sum has parts. Warp p computes part p of 32/W teams, so no warp waits for
 // the terms of other parts. A small launch takes as long as its chain of dependent instructions; here this is the chain
@@ -11,6 +11,8 @@
 // terms of a pooled part, of all teams, as many at a time as there are threads. Then each team lane adds its own terms
 // from shared memory, in their order. So a team with fifty contacts does not delay the others, and the chain of
 // dependent reads has the block's average length.
+//
+// CompactTeam: SerialLaneTeams whose totals move to the first threads of the block before the solve.
 //
 // The sum of the team lanes is a butterfly: at distance s every team lane adds the number of its partner l xor s. After
 // that round all team lanes with the same l mod s have the same bits: both partners add the same two numbers, in
@@ -177,6 +179,7 @@ class SpreadTeam : public NeighbourLanes<W> {
  public:
   static_assert(W >= 1 && W <= 32 && (W & (W - 1)) == 0, "W is a power of two, at most 32");
   static constexpr int width = W;  ///< W, team lanes
+  static constexpr bool moves_totals = false;
 
   __device__ explicit SpreadTeam(bool present) : present_(present) {}
 
@@ -223,6 +226,7 @@ class SerialLaneTeam : public NeighbourLanes<W> {
  public:
   static_assert(W >= 1 && W <= 32 && (W & (W - 1)) == 0, "W is a power of two, at most 32");
   static constexpr int width = W;  ///< W, team lanes
+  static constexpr bool moves_totals = false;
 
   __device__ explicit SerialLaneTeam(bool present) : present_(present) {}
 
@@ -251,6 +255,9 @@ class SerialLaneTeam : public NeighbourLanes<W> {
   __device__ static bool holds_total() { return true; }
   __device__ bool leader() const { return present_ && lane() == 0; }
 
+ protected:
+  bool present_;
+
  private:
   template <bool begins, class Load, class Add, class Accumulator>
   __device__ static void add(const Part<Load, Add>& part, Accumulator& total) {
@@ -265,8 +272,49 @@ class SerialLaneTeam : public NeighbourLanes<W> {
     detail::add_pooled<W>(part, present_, own);
     total += own;
   }
+};
 
-  bool present_;
+/// A thread that does the work of a vertex after the sum alone.
+struct EndThread : OneLane {
+  bool has_total, present;  ///< whether it has a total; whether it is the total of an item
+
+  __device__ EndThread(bool total, bool item) : has_total(total), present(item) {}
+  __device__ bool holds_total() const { return has_total; }
+  __device__ bool leader() const { return present; }
+};
+
+/// A SerialLaneTeam whose totals move to the first threads of the block, one for each team. The work after the sum is
+/// then done by neighbouring threads, while most warps of the block have ended. In a SerialLaneTeam each warp does it
+/// with one lane in W.
+template <int W>
+class CompactTeam : public SerialLaneTeam<W> {
+  using SerialLaneTeam<W>::present_;
+
+ public:
+  static constexpr bool moves_totals = true;
+
+  using SerialLaneTeam<W>::SerialLaneTeam;
+
+  /// Moves the total of each team to a thread, and replaces `slot` by the slot of the total's item. All threads of the
+  /// block call it together.
+  template <class Accumulator>
+  __device__ EndThread move_total(Accumulator& total, int& slot) const {
+    constexpr int teams = serial_block_size / W;
+    __shared__ unsigned memory[teams][detail::words<Accumulator>()];
+    __shared__ int slots[teams];
+    const int thread = static_cast<int>(threadIdx.x);
+    if (thread % W == 0) {
+      *reinterpret_cast<Accumulator*>(memory[thread / W]) = total;
+      slots[thread / W] = present_ ? slot : ~slot;
+    }
+    __syncthreads();
+    if (thread >= teams) return {false, false};
+    total = *reinterpret_cast<const Accumulator*>(memory[thread]);
+    slot = slots[thread];
+    const bool is_item = slot >= 0;
+    if (!is_item) slot = ~slot;
+    return {true, is_item};
+  }
 };
 
 }  // namespace ogc::fast

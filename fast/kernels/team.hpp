@@ -89,6 +89,9 @@ template <int W>
 struct SerialTeam : OneLane {
   static_assert(W >= 1 && W <= 32 && (W & (W - 1)) == 0, "W is a power of two, at most 32");
   static constexpr int width = W;  ///< W, the number of team lanes
+  /// false: the thread that has the total also does the work after the sum. Some teams of a device move totals to other
+  /// threads (fast/cuda/team.cuh).
+  static constexpr bool moves_totals = false;
 
   /// Does nothing. Teams on a device may load this number of bytes, beginning at this address, into a cache.
   OGC_HD static void prefetch(const void*, int) {}

@@ -40,17 +40,44 @@ struct UpdateVertex {
   OGC_HD void operator()(int i, const Team& team) const {
     const SweepVertex vertex = view.vertices[first_slot + i];
     if (!asks_late && view.is_off(vertex)) return team.leave();
-    const int v = vertex.vertex;
-    const Vec own = view.old[v], target = view.target[v];
-    const Ball ball = view.regions.ball(v);
-    ForceAndBlock total = Gather{}(view, first_slot + i, vertex, own, team);
-    if (!team.holds_total() || (asks_late && view.is_off())) return;
-    add_inertia(vertex.inertia, own, target, total);
+    const Vec own = view.old[vertex.vertex];
+    if constexpr (Team::moves_totals) {
+      ForceAndBlock total = Gather{}(view, first_slot + i, vertex, own, team);
+      int slot = first_slot + i;
+      const auto thread = team.move_total(total, slot);
+      if (!thread.holds_total() || (asks_late && view.is_off())) return;
+      const SweepVertex taken = view.vertices[slot];
+      const int v = taken.vertex;
+      finish(slot, taken, {view.old[v], view.target[v], view.regions.ball(v)}, total, thread);
+    } else {
+      const State state{own, view.target[vertex.vertex], view.regions.ball(vertex.vertex)};
+      ForceAndBlock total = Gather{}(view, first_slot + i, vertex, own, team);
+      if (!team.holds_total() || (asks_late && view.is_off())) return;
+      finish(first_slot + i, vertex, state, total, team);
+    }
+  }
+
+  /// Returns whether the team lanes of a vertex share the work after the sum: they do if regions have half-spaces.
+  OGC_HD bool shares_end() const { return view.regions.has_planes(); }
+
+ private:
+  /// What an update reads of its vertex before the solve: x before the iteration and y [m], and the ball of its region.
+  struct State {
+    Vec own, target;
+    Ball ball;
+  };
+
+  /// Solves for the change of the vertex of a slot, truncates it and writes the new position.
+  template <class Team>
+  OGC_HD void finish(int slot, const SweepVertex& vertex, const State& state, ForceAndBlock& total,
+                     const Team& team) const {
+    add_inertia(vertex.inertia, state.own, state.target, total);
     const Vec change = solve_symmetric(total.block, total.force, 1.0f / vertex.inertia);
-    const Vec x = write_held(view, v, own + change, own, view.regions.region(v, ball),
+    const Vec x = write_held(view, vertex.vertex, state.own + change, state.own,
+                             view.regions.region(vertex.vertex, state.ball),
                              BlockMetric{total.block, 1.0f / vertex.inertia}, team);
     if constexpr (Gather::has_volumes) {
-      if (team.leader() && lies_deep_in_volume(view, first_slot + i, x)) view.control->count_deep_inside();
+      if (team.leader() && lies_deep_in_volume(view, slot, x)) view.control->count_deep_inside();
     }
   }
 };
