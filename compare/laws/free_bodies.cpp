@@ -30,7 +30,7 @@ using namespace law_shapes;
 
 double left_over(const Trajectory& run) { return run.by.is_solved ? 1e-4 : 1e-2; }
 
-/// Sums over steps and vertices of what inner forces exchange: impulses ‖m (vᵗ⁺¹ − vᵗ)‖ and angular impulses ‖m x ×
+/// What inner forces exchange, summed over steps and vertices: impulses ‖m (vᵗ⁺¹ − vᵗ)‖ and angular impulses ‖m x ×
 /// (vᵗ⁺¹ − vᵗ)‖.
 struct Exchange {
   double impulse = 0, turn = 0;

@@ -70,8 +70,8 @@ struct StepTruth {
   /// kinds of the events that Algorithm 3 requires, in order. They depend on the answer's counts of cut vertices (0 for
   /// events that the answer lacks)
   std::vector<StepEventKind> events;
-  /// by event, then by vertex; empty for events other than guess rounds. An answer does not show which part of the move
-  /// contacts removed in earlier rounds. The truth computes this part exactly; `accepted` includes its error
+  /// by event, then by vertex; empty for events other than guess rounds. An answer does not show how much of a move
+  /// contacts removed in earlier rounds. The truth computes this amount; `accepted` includes its error
   std::vector<std::vector<HeldMove>> moves{};
   std::vector<Vec3> velocity;          ///< [m/s]
   std::vector<double> velocity_scale;  ///< ‖xᵗ⁺¹ − xᵗ‖/h [m/s]

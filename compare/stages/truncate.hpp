@@ -55,8 +55,8 @@ struct TruncateIn {
 /// A vertex that violates two or more half-spaces may end anywhere in its region. A vertex that violates one half-space
 /// slides along it to x − H⁻¹n (n·x − o)/(nᵀH⁻¹n), then moves towards X_prev into the ball. It ends there if no other
 /// half-space interferes. A prescribed vertex goes along the straight line from its current position to x, as far as
-/// the region allows. The end of this path is rounded when it is stored. If rounding may violate two or more
-/// half-spaces beside the path, any point of the path is right.
+/// the region allows. The end of this path is rounded when it is stored. If this rounding may violate two or more
+/// half-spaces that the path does not approach, any point of the path is right.
 struct TruncateOut {
   std::vector<Vec3f> position;    ///< x [m]
   std::vector<std::uint8_t> cut;  ///< 1 if x lay outside its region

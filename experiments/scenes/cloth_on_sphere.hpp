@@ -20,7 +20,7 @@ compare::Material sphere_scene_material();
 void append_sphere(compare::Scene& scene, int subdivisions, double radius = 0.262);
 
 /// Returns the scene: a cloth of 1 m × 1 m at y = 0.30 m above a sphere about (−0.15, 0, 0). The solver IPC runs it
-/// with a barrier distance of 1 mm on 70 × 70 and the tolerance of Codimensional IPC's scripts.
+/// with a barrier distance of r/5 (1 mm at 70 × 70 vertices) and the tolerance of Codimensional IPC's scripts.
 compare::Scene cloth_on_sphere(const ClothOnSphereSizes& sizes = {});
 
 }  // namespace ogc::experiments

@@ -1,5 +1,5 @@
-// Numbers are the authors' published curve and parameters. Start positions are rounded to 2⁻²⁰ m, because normals are
-// dominated by rounding where the curve is nearly straight.
+// The curve and the parameters are as the authors published them. Start positions are rounded to 2⁻²⁰ m, because
+// rounding errors dominate the normals where the curve is nearly straight.
 #include "experiments/scenes/knot.hpp"
 
 #include <algorithm>

@@ -14,8 +14,8 @@ namespace ogc::fast {
 inline QuadGaps squared_gaps(const Quad& quad, const Box& box, float limit) {
   const Pack box_lower(Pack::Numbers{box.lower.x, box.lower.y, box.lower.z, 0}),
       box_upper(Pack::Numbers{box.upper.x, box.upper.y, box.upper.z, 0});
-  // Lanes 0 … 2 get the gaps along the axes. Lane 3 gets the larger of the child's reach and minus the primitive's
-  // index read as a float. The latter is at most 0 or NaN, so lane 3 gets the reach.
+  // Lanes 0 … 2 get the gaps along the axes. Lane 3 gets max(child's reach, −f). The float f has the bits of the
+  // primitive's index, so −f is at most 0 or NaN, and lane 3 gets the reach.
   Pack of[4];
   for (int k = 0; k < 4; ++k) {
     const auto [lower, upper] = std::bit_cast<std::array<Pack::Numbers, 2>>(quad.child[k]);

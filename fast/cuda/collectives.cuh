@@ -23,8 +23,8 @@ class Scratch {
       : blocks_(std::exchange(other.blocks_, {})), largest_(std::exchange(other.largest_, 0)) {}
   Scratch& operator=(Scratch&&) = delete;
   ~Scratch();
-  /// Returns at least `bytes` bytes, aligned to 256, valid until the next call; calls of one stream run one after the
-  /// other. Allowed while a graph is recorded.
+  /// Returns at least `bytes` bytes, aligned to 256, valid until the next request; work of one stream runs in order.
+  /// Allowed while a graph is recorded.
   void* request(std::size_t bytes);
 
  private:

@@ -269,8 +269,8 @@ OGC_HD Vec stored_inside(const FeasibleRegion& region, const Point& y, const Lan
   return x;
 }
 
-/// Returns the share of the straight path from `from` to y that lies in the region; `from` is in the region. The path's
-/// point at this share is so far from the region's boundary that storing and `steps` nudges do not leave the region.
+/// Returns the share of the straight path from `from` to y that lies in the region; `from` is in the region. The point
+/// at this share stays in the region even after rounding to single precision and `steps` nudges.
 template <class Lanes>
 OGC_HD double share_inside(const FeasibleRegion& region, const Point& from, const Point& y, int steps,
                            const Lanes& lanes) {

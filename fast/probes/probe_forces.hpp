@@ -35,7 +35,7 @@ struct ForceArrays {
   }
 };
 
-/// Makes room on the backend for n cases. ProbeMemory::fetch copies them to `out`.
+/// Makes room on the backend for the forces and blocks of n cases. ProbeMemory::fetch copies them to `out`.
 template <class Backend>
 ForceArrays force_arrays(ProbeMemory<Backend>& memory, compare::ForceOut& out, std::size_t n) {
   return {memory.template out<Vec>(out.force, n), memory.template out<Symmetric3>(out.block, n)};

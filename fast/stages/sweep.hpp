@@ -106,7 +106,8 @@ class Sweep {
   ContactActivation activation() const { return activation_; }
   const int* colour() const { return colour_.data(); }  ///< by vertex; −1: not free; on the backend
 
-  /// Returns the contact data that records do not have. `previous`: X_prev, the positions of the last detection.
+  /// Returns the data of contacts that the detection's records do not hold: materials, rest lengths, X_prev.
+  /// `previous`: X_prev, the positions of the last detection.
   ContactTables tables(const Vec* previous) const {
     ContactTables tables = tables_;
     tables.previous = previous;

@@ -1,6 +1,6 @@
-// Decides with one edge at a vertex v whether the segment from v to x begins outside. The normals N_v are a convex cone
-// that meets the star of v only in v. So all normals lie on one side of the surface. (A flat vertex has two opposite
-// normals, and each is perpendicular to every edge.)
+// Uses one edge at a vertex v to decide whether the segment from v to x begins outside. The normals at v form a convex
+// cone N_v that meets the star of v only in v. So all normals lie on one side of the surface. (A flat vertex has two
+// opposite normals, and each is perpendicular to every edge.)
 //
 // Choose a normal g in N_v that is perpendicular to an edge at v, and a small ε > 0. The point v + ε g can move
 // parallel to this edge without meeting the star, because g·w > 0 for these points w (relative to v) and g·w ≤ 0 for

@@ -98,7 +98,7 @@ struct MembraneTermOf {
   /// Returns the constants (head of stencil_terms.hpp).
   auto numbers() { return std::tie(gradient, area, lambda, mu, damping, start); }
   auto numbers() const { return std::tie(gradient, area, lambda, mu, damping, start); }
-  /// Returns the properties that stencils evaluated together must share (head of stencil_terms.hpp).
+  /// Returns what must be equal in stencils that are evaluated together (head of stencil_terms.hpp).
   auto kinds() { return std::tie(model); }
   auto kinds() const { return std::tie(model); }
 

@@ -29,7 +29,7 @@ class Slice {
   Complex mesh() const { return {topology_, positions_}; }
   /// Returns the polyline.
   const std::vector<Point2>& polyline() const { return polyline_; }
-  /// Returns the vertex of the polyline's i-th point, in the plane.
+  /// Returns the vertex at the polyline's i-th point, in the plane z = 0.
   Index vertex(int i) const { return middle_ + i; }
   /// Returns the vertex of the i-th extra point.
   Index extra(int i) const { return static_cast<Index>(positions_.size()) - extra_count_ + i; }

@@ -63,8 +63,8 @@ BarrierTerm term_of(const PairMesh& mesh, const PrimitivePair& pair, const Measu
 
 auto order_of(const BarrierTerm& term) { return std::tie(term.count, term.vertex); }
 
-/// Merges equal terms of several pairs (two vertices, or a vertex and an edge) into one, whose weight is their number.
-/// This number is exact, so the order of the terms does not matter.
+/// Merges equal terms (of two vertices, or of a vertex and an edge) from several pairs into one term, weighted by their
+/// number. The weight is exact, so the order of the terms does not matter.
 void merge(std::vector<BarrierTerm>& terms) {
   const auto mergeable = std::stable_partition(terms.begin(), terms.end(),
                                                [](const BarrierTerm& term) { return term.count == 4; });

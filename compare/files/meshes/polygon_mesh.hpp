@@ -49,8 +49,8 @@ struct MeshOptions {
   friend bool operator==(const MeshOptions&, const MeshOptions&) = default;
 };
 
-/// Holds a mesh, the places of its elements in the file, and a sentence for each change. The triangles of a mesh of
-/// tetrahedra are their boundary.
+/// Holds a mesh, the places of its elements in the file, and a sentence for each change made while reading. The
+/// triangles of a mesh of tetrahedra are their boundary.
 struct LoadedMesh {
   Mesh mesh;                       ///< of triangles
   MeshSource source;               ///< places of its elements in the file

@@ -248,8 +248,8 @@ CaseData rods(Random& random) {
   return finished(std::move(scene));
 }
 
-/// Makes rods whose segments nearly reverse the direction of the segment before, or nearly continue it. Symmetries of
-/// the cube map some directions to near −e₃.
+/// Makes rods in which each segment nearly continues or nearly reverses the previous segment. Later a random symmetry
+/// of the cube maps some directions to near −e₃.
 CaseData turned_rods(Random& random) {
   // Least angle between a segment and the reverse of the segment before; exact reversal is refused. Rounding moves ends
   // by 2⁻²⁴ of a few lengths, so it cannot reduce this angle to 0.

@@ -14,8 +14,8 @@
 namespace ogc::compare {
 
 /// Returns the bits of the contestant's answers, one string for each case. Strings are equal if and only if all numbers
-/// are equal, including signs of zeros and payloads of NaNs. The authority computes what a question contains, for
-/// example the contacts of a sweep. All cases must be of one stage.
+/// are equal, including signs of zeros and payloads of NaNs. The authority completes the questions, for example with
+/// the contacts of a sweep. All cases must be of one stage.
 std::vector<std::string> answer_bits(Stage stage, std::span<const TestCase> cases, const Contestant& contestant,
                                      const Authority& authority);
 

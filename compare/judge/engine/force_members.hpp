@@ -16,7 +16,7 @@ namespace ogc::compare {
 // Each function calls visit(name, unit, member) for every member. The unit is "m" for lengths, "1" for pure numbers,
 // and "" for choices and indices of vertices.
 
-/// Visits the members of a triangle with a membrane.
+/// Visits the members of a membrane case.
 template <class Case, class Visit>
 requires std::same_as<std::remove_const_t<Case>, MembraneCase>
 void visit_members(Case& c, Visit visit) {
@@ -32,7 +32,7 @@ void visit_members(Case& c, Visit visit) {
   visit("damping_form", "", c.damping_form);
 }
 
-/// Visits the members of a hinge.
+/// Visits the members of a bending case.
 template <class Case, class Visit>
 requires std::same_as<std::remove_const_t<Case>, BendingCase>
 void visit_members(Case& c, Visit visit) {
@@ -47,7 +47,7 @@ void visit_members(Case& c, Visit visit) {
   visit("damping_form", "", c.damping_form);
 }
 
-/// Visits the members of a spring.
+/// Visits the members of a spring case.
 template <class Case, class Visit>
 requires std::same_as<std::remove_const_t<Case>, SpringCase>
 void visit_members(Case& c, Visit visit) {
@@ -61,7 +61,7 @@ void visit_members(Case& c, Visit visit) {
   visit("damping_form", "", c.damping_form);
 }
 
-/// Visits the members of a tetrahedron.
+/// Visits the members of a tetrahedron case.
 template <class Case, class Visit>
 requires std::same_as<std::remove_const_t<Case>, TetrahedronCase>
 void visit_members(Case& c, Visit visit) {

@@ -39,7 +39,7 @@ struct WrongForm {
 WrongForm form_of(std::string name, std::string meaning, std::function<Authority(const Authority&)> wrong);
 
 /// Returns the forms of a stage. Some have a parameter found from the answers, for example how many contacts a list
-/// keeps. Stages of single cases also have `not_a_number`.
+/// keeps. Stages with independent cases (CaseKind::single) also have `not_a_number`.
 std::vector<WrongForm> wrong_forms(Stage stage, std::span<const Evidence> evidence);
 
 /// Returns a contestant that calls the given one once for each stage, and repeats this first answer to every later

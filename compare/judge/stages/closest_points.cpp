@@ -172,7 +172,8 @@ void judge_points(std::size_t i, const ClosestPointsTruth& truth, const ClosestP
   if (!judge_below(out.distance_below[i], truth.exact.distance_below[i], truth.distance[i],
                    std::max(truth.distance[i], size), 2, tally))
     return;
-  // If the flags differ, the contact points differ, too. Then only distance_below (judged above) can be compared.
+  // If the flags differ, so do the contact points. Then contact_distance is only compared with distance_below (judged
+  // above).
   if (out.nearly_parallel[i] != truth.exact.nearly_parallel[i]) {
     if (!(out.contact_distance[i] >= out.distance_below[i]))
       tally.mismatch(

@@ -5,8 +5,8 @@ namespace ogc::compare {
 
 namespace {
 
-/// Returns false, because no contacts exclude each other. Nearly parallel edges make a contact of interiors even if an
-/// end is closest. Another edge at this end makes a contact of the end, and an answer may have both.
+/// Returns false: no contacts exclude each other. Nearly parallel edges make a contact of interiors even if an end is
+/// closest. Another edge at that end may add a contact of the end; both are right.
 bool excludes(const Topology&, const EdgeEdgeContact&, const EdgeEdgeContact&) { return false; }
 
 }  // namespace

@@ -243,7 +243,7 @@ Quantity contact_quantity(const std::vector<Contact>& all, const Topology& topol
 template <class Truth>
 using Detection = std::function<Truth(const DetectIn&)> Authority::*;
 
-/// Returns forms that change the question, and a form without contacts.
+/// Returns wrong forms: right answers to changed questions, and an answer without contacts.
 template <class Truth>
 std::vector<WrongForm> question_forms(Detection<Truth> stage) {
   return {asked("groups_ignored", "pairs inside one rigid group are kept", stage,

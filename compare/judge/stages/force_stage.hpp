@@ -55,8 +55,8 @@ Quantity block_quantity(const Block& block) {
   return labelled(numbers("block", "N/m", block), {"xx", "xy", "xz", "yy", "yz", "zz"});
 }
 
-/// A force stage. `S::roles(case)` names the vertices of the stencil; `S::checked(case)` returns a case that was read,
-/// or throws InputError.
+/// A force stage. `S::roles(case)` names the vertices of the stencil. `S::checked(case)` checks a case read from a
+/// file: it returns the case or throws InputError.
 template <class S, class StencilCase, auto contestant, auto authority>
 struct ForceStage : BatchStage<S, contestant, authority>, TakenWhole, ParametersOfCase<S> {
   using Base = BatchStage<S, contestant, authority>;

@@ -240,9 +240,8 @@ CaseData crowded(Random& random) {
   return region.finish(scaled(direction(random), bound * random.magnitude(-1, 1)));
 }
 
-/// Makes vertices that start at X_prev and do not slide, as with bounds=dat. X_prev is near half-spaces or on them. The
-/// step to the proposed position is parallel to half-spaces, nearly parallel, or has a random direction relative to
-/// them.
+/// Makes vertices that start at X_prev and whose step is only shortened, as with bounds=dat. X_prev is near half-spaces
+/// or on them. The step is parallel to half-spaces, nearly parallel, or has a random direction relative to them.
 CaseData from_previous(Random& random) {
   const double bound = random.magnitude(-4, 0);
   RegionBuilder region(random, in_box(random, -1, 1), bound);

@@ -32,8 +32,8 @@ struct Suggestion {
 
 /// Returns the suggestion for a valid mesh with triangles. `material`: density and constants of the membrane; for
 /// tetrahedra, density and the solid_… constants. `fall`: height from which the mesh falls [m]; 0 if it does not fall.
-/// The smallest gap is exact (compare::smallest_distances), which takes a few seconds for a million triangles. g = 9.81
-/// m/s². Throws compare::InputError for a mesh without triangles.
+/// g = 9.81 m/s². Finds the mesh's smallest gap exactly (compare::smallest_distances), in a few seconds for a million
+/// triangles. Throws compare::InputError for a mesh without triangles.
 Suggestion suggest(const compare::Mesh& mesh, const compare::Material& material, double fall);
 
 /// Sets r, the cap of r_q, h and the number of iterations of the scene, and k_c of all its bodies.

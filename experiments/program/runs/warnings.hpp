@@ -53,13 +53,13 @@ class Warnings {
  public:
   /// Checks the scene's start; the scene must be rounded and valid. Warns of bounds=off, of a large bounding box, of an
   /// r that is large for the edges of a body or the thickness of a solid, and of curved rest shapes with isometric
-  /// bending. Also warns of a large tolerated speed at the end of IPC's steps, and of first keyframes that differ from
-  /// their body's start.
+  /// bending. Also warns if IPC's tolerance allows a larger speed at the end of a step than gravity adds per step, and
+  /// of first keyframes that differ from their body's start.
   explicit Warnings(const compare::Scene& scene, Solver solver = Solver::vbd);
   /// Checks a step for three kinds of warning: the guess loop did all its rounds and lost much of the motion,
   /// prescribed vertices lag, or bounds held all vertices in most_held_steps steps in a row. `momentum_lost`:
-  /// MomentumShare::lost; empty if it is not known. Returns a warning for the first step of each kind; `list` names the
-  /// worst step.
+  /// MomentumShare::lost; empty if it is not known. Returns each kind of warning only once, for its first step; `list`
+  /// names the worst step.
   std::vector<std::string> look_at(const compare::StepMetrics& row, std::optional<double> momentum_lost);
   /// Returns the forces that the steps left so far.
   const ForcesLeft& forces_left() const { return forces_left_; }

@@ -32,7 +32,8 @@ std::size_t index_of(std::string_view name) {
 }  // namespace
 
 TEST_CASE("declared settings follow the problem's, by the names of their contestants", "[unit]") {
-  // Linked contestants are sorted by name, so their settings come between the settings of "another" and of "tests".
+  // Contestants are sorted by name. So settings of other linked contestants may lie between those of "another" and
+  // "tests".
   const std::size_t own = index_of("tests_share");
   CHECK(index_of("another_share") == index_of("rod_start") + 1);
   CHECK(index_of("another_share") < own);

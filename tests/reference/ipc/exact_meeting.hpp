@@ -99,7 +99,8 @@ struct MeetingQuestion {
   Line along;  ///< vector along the first of two edges
 };
 
-/// Returns whether the products of an integer direction with all of `apart` have the same strict sign at all times.
+/// Returns whether the scalar products of `direction` with all vectors of `apart` have the same strict sign at all
+/// times.
 inline bool parted_by(const MeetingQuestion& q, const std::array<Integer, 3>& direction) {
   int positive = 0, negative = 0;
   for (const Line& line : q.apart)

@@ -1,5 +1,5 @@
-// Tests the properties of suggested settings. They are inequalities between the suggested numbers and sizes of the
-// mesh. The meshes differ from each other in one property each.
+// Tests suggested settings by inequalities between the suggested numbers and sizes of the mesh. Compared meshes differ
+// in one property.
 #include "experiments/program/runs/suggestion.hpp"
 
 #include <algorithm>
