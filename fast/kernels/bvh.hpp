@@ -219,9 +219,9 @@ struct Reach {
   struct Nearest {
     double squared = infinity, size = 0;
   };
-  /// Returns the smaller of r_q and a needed distance d. The distances of a detection err by up to 6 · 2⁻²⁴ S, S the sum
-  /// of the 1-norms of a pair's differences (separation.hpp). The factor covers this if S ≤ 2,700 d. For larger S
-  /// rounding could choose another pair as a vertex's 17th nearest; its region would still be safe.
+  /// Returns the smaller of r_q and a needed distance d. The distances of a detection err by up to 6 · 2⁻²⁴ S, where S
+  /// is the sum of the 1-norms of a pair's differences (separation.hpp). The factor covers this if S ≤ 2,700 d. For
+  /// larger S rounding could choose another pair as a vertex's 17th nearest; its region would still be safe.
   OGC_HD float within(float distance) const { return smaller(*query_radius, mul(distance, 1 + 0x1p-10F)); }
   OGC_HD void consider(Nearest& nearest, int v, int a, int b) const {
     if (v < 0) return;
