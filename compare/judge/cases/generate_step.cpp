@@ -25,9 +25,12 @@ struct StepBuilder {
 
   explicit StepBuilder(Random& source) : random(source), spacing(0.01 * source.magnitude(-0.5, 0.5)) {
     constexpr std::array<double, 4> steps{0.01, 0.01, 0x1p-6, 0.001}, caps{1, 1.5, 4, 16}, fractions{0.01, 0.1, 0.5, 1};
-    constexpr std::array<std::int64_t, 4> every{0, 0, 1, 2}, lanes{0, 2, 4, 16};
+    struct Between {
+      std::int64_t most, least;  // iterations between two detections
+    };
+    constexpr std::array<Between, 4> between{{{0, 1}, {0, 3}, {1, 1}, {2, 1}}};
+    constexpr std::array<std::int64_t, 4> lanes{0, 2, 4, 16};
     constexpr std::array<std::int64_t, 3> rounds{1, 2, 16};
-    constexpr std::array<std::int64_t, 6> gaps{1, 1, 1, 1, 2, 3};
     scene.name = "step";
     Settings& s = scene.settings;
     s.time_step = random.pick(std::span<const double>(steps));
@@ -36,8 +39,8 @@ struct StepBuilder {
     s.detection_radius_cap = random.pick(std::span<const double>(caps));
     s.bounds_relaxation = random.one_in(2) ? 0.45 : random.between(0.1, 0.49);
     s.detection_fraction = random.pick(std::span<const double>(fractions));
-    s.detection_every = random.pick(std::span<const std::int64_t>(every));
-    s.detection_gap = random.pick(std::span<const std::int64_t>(gaps));
+    const Between iterations = random.pick(std::span<const Between>(between));
+    s.detection_every = iterations.most, s.detection_gap = iterations.least;
     s.guess_rounds = random.pick(std::span<const std::int64_t>(rounds));
     s.lanes = random.pick(std::span<const std::int64_t>(lanes));
     s.friction_velocity = speed(random.magnitude(-2, -0.5));

@@ -1,6 +1,5 @@
 // A correct plug-in in double precision for the stage tetrahedron: force and block of the stable Neo-Hookean energy at
-// one corner, with damping of strain or by vertex. If a library has this stage, its other stages also get scenes with
-// solids.
+// one corner, with damping of strain or by vertex. A library with this stage also gets scenes with solids.
 //
 //     g++ -O2 -shared -fPIC -I INCLUDE tetrahedron.cpp -o tetrahedron.so
 //     ogc compare tetrahedron --plugin ./tetrahedron.so

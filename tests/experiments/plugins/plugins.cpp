@@ -186,7 +186,7 @@ TEST_CASE(
   refuses("nowhere.so", "", "there is no such file");
   refuses(OGC_SOURCE_DIR "/README.md", "", "it can't be loaded");
   refuses(folder + "/libplugin_anything.so", "", "no function ogc_plugin");
-  refuses(folder + "/libplugin_newer.so", "", "built for version 10");
+  refuses(folder + "/libplugin_newer.so", "", "built for version 11");
   refuses(folder + "/libplugin_older.so", "",
           "built for version 9 of compare/plugin.h, and this program takes version 10");
   refuses(folder + "/libplugin_odd_memory.so", "", "asks for memory 9");
