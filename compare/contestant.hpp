@@ -141,6 +141,9 @@ struct Snapshot {
   VertexPlanes planes{};  ///< planes of the last detection; empty unless bounds are planes
   /// orientations of the segments of rods, in the order of rod_segments (compare/problem/rods.hpp)
   std::vector<Quaternion> orientations{};
+  /// by vertex: distance within which the next detection searches for all pairs of the vertex [m]. Only the time of the
+  /// next step and its need of larger lists depend on it. Empty: unknown, or bounds are not planes
+  std::vector<float> search_limits{};
 };
 
 /// Selects what a simulation records besides its states.

@@ -27,7 +27,8 @@ std::string state_digest(const Checkpoint& checkpoint) {
   std::string all;
   for (const std::string_view part :
        {bytes_of(state.positions), bytes_of(state.velocities), bytes_of(state.bounds), bytes_of(state.capacities),
-        bytes_of(state.exact_positions), bytes_of(state.exact_velocities), bytes_of(state.orientations)})
+        bytes_of(state.exact_positions), bytes_of(state.exact_velocities), bytes_of(state.orientations),
+        bytes_of(state.search_limits)})
     all += part;
   return digest(all + std::to_string(state.step) + "," + std::to_string(checkpoint.audited_states));
 }
@@ -74,6 +75,7 @@ Stored content(const Hdf5File& file, const std::string& path) {
   state.exact_positions = read_vectors(file, "exact_positions");
   state.exact_velocities = read_vectors(file, "exact_velocities");
   state.orientations = read_orientations(file, path);
+  if (file.has("search_limits")) state.search_limits = file.read<float>("search_limits");
   stored.checkpoint.audited_states = file.attribute<std::int64_t>("audited_states");
   stored.digest = file.read_text("digest");
   stored.scene_digest = file.read_text("scene");
@@ -95,6 +97,7 @@ void write_checkpoint(const fs::path& folder, const Checkpoint& checkpoint, cons
   write_vectors(file, "exact_positions", state.exact_positions);
   write_vectors(file, "exact_velocities", state.exact_velocities);
   if (!state.orientations.empty()) file.write("orientations", as_floats(state.orientations), 4);
+  if (!state.search_limits.empty()) file.write("search_limits", std::span(state.search_limits));
   file.write_text("scene", scene_digest);
   file.write_text("digest", state_digest(checkpoint));
   write_durably(path_in(folder), file.image());

@@ -11,13 +11,13 @@
 namespace ogc::compare {
 
 /// Version of the format. A newer file is rejected with a message. Format 3 has `orientations` [segments × 4] if there
-/// are rods.
-inline constexpr std::int64_t checkpoint_format_version = 3;
+/// are rods, format 4 `search_limits` [vertices] if bounds are planes.
+inline constexpr std::int64_t checkpoint_format_version = 4;
 
 /// The state to continue from. If the run audits states, this one has been audited.
 struct Checkpoint {
   /// step, positions, velocities, bounds, capacities; since format 2 also the exact positions and velocities of solvers
-  /// that have them; since format 3 also orientations
+  /// that have them; since format 3 also orientations, since format 4 also search limits
   Snapshot state;
   std::int64_t audited_states = 0;  ///< number of states audited so far
 };

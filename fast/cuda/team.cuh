@@ -169,7 +169,7 @@ class NeighbourLanes {
   __device__ static unsigned everyone() { return (0xffffffffu >> (32 - W)) << begin(); }
 };
 
-/// A team with one warp for each part (head of this file). In both types of teams, `present` is false for a team
+/// A team with one warp for each part (head of this file). In all types of teams, `present` is false for a team
 /// without an item, which only fills up a block. Every thread of the block must call `sum` or `leave` once. Both
 /// functions wait for the previous launch, and the next launch relies on this wait.
 template <int W>

@@ -187,6 +187,7 @@ struct Reach {
   /// With planes: by vertex, the distance up to which its pairs matter (LimitSearches) [m]. It takes the place of the
   /// bound above. Null without planes.
   const float* needed = nullptr;
+  float least = 0;  ///< with planes: r with the contact margin, because contacts need all nearer pairs [m]
 
   /// Returns the reach of an edge [m].
   OGC_HD float of_edge(int e) const {
@@ -222,7 +223,9 @@ struct Reach {
   /// Returns the smaller of r_q and a needed distance d. The distances of a detection err by up to 6 · 2⁻²⁴ S, where S
   /// is the sum of the 1-norms of a pair's differences (separation.hpp). The factor covers this if S ≤ 2,700 d. For
   /// larger S rounding could choose another pair as a vertex's 17th nearest; its region would still be safe.
-  OGC_HD float within(float distance) const { return smaller(*query_radius, mul(distance, 1 + 0x1p-10F)); }
+  OGC_HD float within(float distance) const {
+    return smaller(*query_radius, larger(least, mul(distance, 1 + 0x1p-10F)));
+  }
   OGC_HD void consider(Nearest& nearest, int v, int a, int b) const {
     if (v < 0) return;
     const Real u = difference<Rounded>(positions[v], positions[a]), e = difference<Rounded>(positions[b], positions[a]);

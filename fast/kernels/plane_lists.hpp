@@ -16,7 +16,8 @@
 //
 // Pairs beyond δ_v change no result: they have no plane at v, and a pair at distance δ_v limits v's ball more. So a
 // search may stop at any distance within which v has N + 1 pairs. The N + 1 nearest pairs of the last detection give
-// one: the largest of their distances at the new positions is an upper bound of the new δ_v.
+// one: the largest of their distances at the new positions is an upper bound of the new δ_v. Rounding is covered as
+// Reach::within says.
 #pragma once
 
 #include "compare/stages/truncate.hpp"
@@ -57,9 +58,9 @@ struct PlaneListsView {
   NotedPair* pairs = nullptr;
   /// by vertex: distance within which the next search must note all of its pairs [m]; infinity: r_q
   float* needed = nullptr;
-  float least_needed = 0;  ///< r with the contact margin: contacts need all pairs nearer than this [m]
-  int* counts = nullptr;   ///< half-spaces by vertex, at most most_planes
-  float* bound = nullptr;  ///< b_v by vertex [m]: γ_p times `unplaned`
+  float contact_radius = 0;  ///< r, with the contact margin [m]
+  int* counts = nullptr;     ///< half-spaces by vertex, at most most_planes
+  float* bound = nullptr;    ///< b_v by vertex [m]: γ_p times `unplaned`
 
   /// Returns whether the pair is a vertex and a facet; its first number is then ~vertex.
   OGC_HD bool is_vertex_facet(const NotedPair& pair) const { return pair.first < 0; }
@@ -162,7 +163,7 @@ struct MeasurePairs {
     lists.places[i] = places;
     const Distance d = lists.at_points(pair, [](const auto& points) { return distance_of(points); });
     lists.distance[i] = d.may_be_within(*lists.query_radius) ? d.below() : infinity;
-    if (d.is_surely_within(lists.least_needed)) lists.noted[i].second = ~pair.second;
+    if (d.is_surely_within(lists.contact_radius)) lists.noted[i].second = ~pair.second;
   }
 
   /// Place of a fixed vertex, which has no row.
@@ -236,8 +237,7 @@ struct SortHalfSpaces {
       lists.bound[v] = lists.surface.is_off_surface(v)
                            ? largest_float
                            : round_down(mul(static_cast<double>(lists.share), static_cast<double>(lists.unplaned[v])));
-    if (k == 0)
-      lists.needed[v] = lists.is_fixed[v] != 0 || lists.threshold[v] < infinity ? lists.least_needed : infinity;
+    if (k == 0) lists.needed[v] = lists.is_fixed[v] != 0 || lists.threshold[v] < infinity ? 0.0F : infinity;
     if (k >= count) return;
     const NotedPair own = lists.placed_pairs[i];
     int before = 0;

@@ -97,6 +97,14 @@ class Detection {
 
   /// Forwards to Planes::divide_by.
   void divide_planes_by(const Vec* displacement) { planes_.divide_by(displacement); }
+  /// Host only: returns, by vertex, how far a detection at `positions` (on the backend) searches for all pairs of a
+  /// vertex [m]; empty if bounds are not planes. put_search_limits sets these limits for the next detection.
+  std::vector<float> search_limits(const Vec* positions) {
+    planes_.limit_searches(backend_, surface_.view(), positions, lists_.view());
+    backend_.synchronize();
+    return planes_.download_limits();
+  }
+  void put_search_limits(const std::vector<float>& limits) { planes_.put_limits(limits); }
   /// Host only: forwards to Planes::download.
   compare::VertexPlanes download_planes() const { return planes_.download(); }
   /// Returns the regions of the last complete detection. `centre`: the positions of that detection, on the backend.
@@ -160,7 +168,7 @@ class Detection {
                                             padded_.data(),
                                             {lists, surface.vertex_count},
                                             distances,
-                                            bvh_.refit(positions, query_radius, planes_.needed())});
+                                            bvh_.refit(positions, query_radius, planes_.needed(), contact_radius)});
     const DetectVertexFacet vertex_facet = vertex_facet_query(contact_radius);
     const DetectEdgeEdge edge_edge = edge_edge_query(contact_radius);
     if (planes_.is_used()) {

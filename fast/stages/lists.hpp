@@ -107,7 +107,10 @@ class Lists {
   }
 
   /// Host only: sets the capacities exactly. Lists are empty until the next detection.
-  void reserve(int capacity, int noted_capacity) { resize(capacity, noted_capacity); }
+  void reserve(int capacity, int noted_capacity) {
+    resize(capacity, noted_capacity);
+    status_.fill_zero();
+  }
 
  private:
   template <class T>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
 #include <vector>
 
 #include "compare/problem/settings.hpp"
@@ -68,6 +69,19 @@ class Planes {
     backend.for_each_counted(noted.noted_count, noted.noted_capacity, LimitSearches{view(surface, noted), positions});
   }
 
+  /// Host only: `download_limits` returns needed(); empty if bounds are not planes. `put_limits` sets it for the next
+  /// search, unless `limits` is empty. Throws std::invalid_argument if it is not of these vertices.
+  std::vector<float> download_limits() const {
+    std::vector<float> limits(needed_.size());
+    if (is_used()) needed_.download(limits.data(), limits.size());
+    return limits;
+  }
+  void put_limits(const std::vector<float>& limits) {
+    if (limits.empty() || !is_used()) return;
+    if (limits.size() != needed_.size()) throw std::invalid_argument("search limits of another mesh");
+    needed_.upload(limits.data(), limits.size());
+  }
+
   /// Makes planes and balls (`bound`) from the pairs that the searches noted. `contact_radius`: r with the margin. If
   /// some pairs found no room in the list, the results must not be used.
   void make(Backend& backend, const SurfaceView& surface, PaddedVecs positions, const ListsView& noted,
@@ -76,7 +90,7 @@ class Planes {
     lists.positions = positions;
     lists.share = share;
     lists.query_radius = query_radius;
-    lists.least_needed = contact_radius;
+    lists.contact_radius = contact_radius;
     lists.bound = bound;
     const int vertices = surface.vertex_count, capacity = noted.noted_capacity;
     backend.for_each(vertices, PreparePlanes{lists});

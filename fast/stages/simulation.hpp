@@ -90,6 +90,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     for (const std::int64_t capacity : volumes_.capacities()) result.capacities.push_back(capacity);
     result.planes = detection_.download_planes();
     result.orientations = rods_.start();
+    result.search_limits = detection_.search_limits(state_.start.data());
     return result;
   }
 
@@ -104,6 +105,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     volumes_.reserve(std::span(capacities).last(of_volumes));
     capacities.resize(capacities.size() - of_volumes);
     detection_.reserve(capacities);
+    detection_.put_search_limits(snapshot.search_limits);
     lists_moved();
   }
 

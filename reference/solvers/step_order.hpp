@@ -48,9 +48,9 @@ class StepOrder {
       case compare::StepEventKind::sweep:
         ++iterations_;
         ++since_detection_;
-        found_ = (settings_.detection_every == 0 || since_detection_ < settings_.detection_every) &&
-                 (since_detection_ < settings_.detection_gap ||
-                  (!asks(cut, lag, 1) && !(is_deep && cut > lag.lagging)));
+        found_ = (since_detection_ < settings_.detection_gap ||
+                  (!asks(cut, lag, 1) && !(is_deep && cut > lag.lagging))) &&
+                 (settings_.detection_every == 0 || since_detection_ < settings_.detection_every);
         break;
     }
   }

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <fstream>
 #include <iterator>
+#include <limits>
 
 #include "compare/files/hdf5.hpp"
 #include "compare/problem/error.hpp"
@@ -219,8 +220,9 @@ TEST_CASE("orientations of rods come back from frames, are part of their checksu
   CHECK_THROWS_WITH(read_frame(file), ContainsSubstring("frame_000007.h5: orientation 1 is no unit quaternion"));
 }
 
-TEST_CASE("a checkpoint holds orientations of rods, unit quaternions alone, and nothing of them without rods",
-          "[unit]") {
+TEST_CASE(
+    "a checkpoint holds orientations of rods, unit quaternions alone, and search limits, and nothing without them",
+    "[unit]") {
   const Scratch folder;
   const Frame frame = recorded_frame(7);
   Checkpoint checkpoint;
@@ -231,6 +233,11 @@ TEST_CASE("a checkpoint holds orientations of rods, unit quaternions alone, and 
   checkpoint.state.capacities = {1};
   write_checkpoint(folder.folder(), checkpoint, "scene");
   CHECK(text_of(folder / "checkpoint.h5").find("orientations") == std::string::npos);
+  CHECK(text_of(folder / "checkpoint.h5").find("search_limits") == std::string::npos);
+  CHECK(read_checkpoint(folder.folder(), "scene").state.search_limits.empty());
+  checkpoint.state.search_limits = {0.5f, std::numeric_limits<float>::infinity()};
+  write_checkpoint(folder.folder(), checkpoint, "scene");
+  CHECK(read_checkpoint(folder.folder(), "scene").state.search_limits == checkpoint.state.search_limits);
   checkpoint.state.orientations = {{0, 0, 0, 1}, {0.6f, 0, 0.8f, 0}};
   write_checkpoint(folder.folder(), checkpoint, "scene");
   CHECK(read_checkpoint(folder.folder(), "scene").state.orientations == checkpoint.state.orientations);

@@ -350,26 +350,32 @@ TEST_CASE("a slow handle is where its motion says after each step", "[unit]") {
 // and angles from which damping starts. None of them may change a result, so each step is taken by a new simulation.
 TEST_CASE("a simulation that is replaced by a new one after each step comes to the same bits and the same rows",
           "[property]") {
-  const compare::Scene scene = drop_scene();
-  constexpr std::int64_t steps = 40;
-  Outcome whole = run(scene, steps, {}, 1);
-  compare::Snapshot state = start_cpu(scene, {}, 1)->snapshot();
-  Rows rows;
-  for (std::int64_t k = 0; k < steps; ++k) {
-    const auto next = start_cpu(scene, {});
-    next->restore(state);
-    rows.push_back(next->advance(1).at(0));
-    state = next->snapshot();
+  for (const compare::Bounds bounds : {compare::Bounds::ball, compare::Bounds::planes}) {
+    INFO("bounds " << static_cast<int>(bounds));
+    compare::Scene scene = drop_scene();
+    scene.settings.bounds = bounds;
+    constexpr std::int64_t steps = 40;
+    Outcome whole = run(scene, steps, {}, 1);
+    compare::Snapshot state = start_cpu(scene, {}, 1)->snapshot();
+    Rows rows;
+    for (std::int64_t k = 0; k < steps; ++k) {
+      const auto next = start_cpu(scene, {});
+      next->restore(state);
+      rows.push_back(next->advance(1).at(0));
+      state = next->snapshot();
+    }
+    CHECK(same_bits(state.positions, whole.end.positions));
+    CHECK(same_bits(state.velocities, whole.end.velocities));
+    CHECK(state.bounds == whole.end.bounds);
+    CHECK(state.capacities == whole.end.capacities);
+    CHECK(state.search_limits == whole.end.search_limits);
+    CHECK(state.search_limits.empty() == (bounds == compare::Bounds::ball));
+    std::int64_t repeats = 0;
+    for (Rows* each : {&rows, &whole.rows})
+      for (compare::StepMetrics& row : *each) row.wall_ms = 0, repeats += row.repeats;
+    CHECK(repeats > 0);
+    CHECK(compare::step_lines(rows, 0) == compare::step_lines(whole.rows, 0));
   }
-  CHECK(same_bits(state.positions, whole.end.positions));
-  CHECK(same_bits(state.velocities, whole.end.velocities));
-  CHECK(state.bounds == whole.end.bounds);
-  CHECK(state.capacities == whole.end.capacities);
-  std::int64_t repeats = 0;
-  for (Rows* each : {&rows, &whole.rows})
-    for (compare::StepMetrics& row : *each) row.wall_ms = 0, repeats += row.repeats;
-  CHECK(repeats > 0);
-  CHECK(compare::step_lines(rows, 0) == compare::step_lines(whole.rows, 0));
 }
 
 TEST_CASE("before the first step a simulation is at the start of its scene, and nothing was detected", "[unit]") {
@@ -383,13 +389,18 @@ TEST_CASE("before the first step a simulation is at the start of its scene, and 
   CHECK(same_bits(state.previous, state.positions));
 }
 
-TEST_CASE("capacities of other lists are refused", "[unit]") {
+TEST_CASE("capacities of other lists and search limits of other meshes are refused", "[unit]") {
   compare::Snapshot state = start_cpu(drop_scene(), {})->snapshot();
   for (const std::vector<std::int64_t>& wrong :
        {std::vector<std::int64_t>{1}, {1, 0}, {1, std::int64_t{1} << 40}, {1, 1, 1}}) {
     state.capacities = wrong;
     CHECK_THROWS_AS(start_cpu(drop_scene(), {})->restore(state), std::invalid_argument);
   }
+  compare::Scene scene = drop_scene();
+  scene.settings.bounds = compare::Bounds::planes;
+  compare::Snapshot limited = start_cpu(scene, {})->snapshot();
+  limited.search_limits.pop_back();
+  CHECK_THROWS_AS(start_cpu(scene, {})->restore(limited), std::invalid_argument);
 }
 
 TEST_CASE("a position that overflows stops the run with the last good state", "[unit]") {
