@@ -78,6 +78,8 @@ class ContactStep {
   /// Returns whether a detection is due after an iteration that cut `cut` vertices: if `detection_gap` iterations have
   /// passed and `asks` returns true, or by the setting `detection_every`.
   bool detection_due(std::size_t cut);
+  /// Returns whether any of `cut` vertices is not a prescribed one behind its target. `asks` forgets which are.
+  bool is_any_cut(std::size_t cut) const { return cut > lagging_; }
   /// Returns whether fewer than `detection_gap` iterations have passed since the last detection.
   bool waits() const { return iterations_since_ < settings_.detection_gap; }
   void set_residual(double mean_force);  ///< sets the residual of Eq. 29; the first force of a step is f*

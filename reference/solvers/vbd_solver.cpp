@@ -76,8 +76,8 @@ void VbdSolver::iterate() {
   if (meter_) rows_.back().vertices_cut = static_cast<std::int64_t>(cut_);
   ++metrics_.iterations;
   ++iterations_since_;
-  const bool is_any_cut = cut_ > lagging_, is_due = detection_due(cut_);
-  detect_next_ = is_due || (!waits() && is_any_cut && is_deep_inside());
+  const bool is_cut = is_any_cut(cut_), is_due = detection_due(cut_);
+  detect_next_ = is_due || (!waits() && is_cut && is_deep_inside());
 }
 
 bool VbdSolver::is_deep_inside() const {
