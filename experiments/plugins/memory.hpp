@@ -17,7 +17,7 @@ namespace ogc::experiments {
 inline constexpr std::uint32_t unwritten_word = 0x7fadc0de;
 inline constexpr std::uint8_t unwritten_byte = 0xe7;
 
-/// Where bytes were written outside an array: nowhere, before the array or behind it.
+/// Tells where bytes were written outside an array: nowhere, before the array or behind it.
 enum class Damage { none, before, behind };
 
 /// Holds the arrays of one question and its answer.

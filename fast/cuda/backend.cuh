@@ -152,12 +152,12 @@ __global__ void __launch_bounds__(serial_block_size) run_serial_teams(int n, F f
   f(min(i, n - 1), SerialLaneTeam<W>(i < n));
 }
 
-/// Blocks of CompactTeams that a multiprocessor runs at once. Their registers are limited for that (84), which is
-/// faster if a launch has several times as many blocks, and slower otherwise (measured: fast/PERFORMANCE.md).
+/// Blocks of CompactTeams that a multiprocessor runs at once. This limits a thread to 80 registers, which is faster if
+/// a launch has several times as many blocks, and slower otherwise (measured: fast/PERFORMANCE.md).
 inline constexpr int compact_blocks = 6;
 
-/// Whether launches of F that are large enough run CompactTeams of this width: updates of surfaces' vertices with eight
-/// lanes. Others would only add to what is compiled.
+/// Returns whether launches of F that are large enough run CompactTeams of this width: updates of vertices by sums of
+/// four parts, such as that of surfaces, with eight lanes. More kernels would only take time to compile.
 template <int W, class F>
 constexpr bool has_compact_teams() {
   if constexpr (requires(const F& f) { f.shares_end(); }) return W == 8 && F::parts == 4;

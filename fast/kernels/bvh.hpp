@@ -186,12 +186,13 @@ struct Reach {
   const float* query_radius;  ///< r_q [m], on the backend
   /// With planes: by vertex, the distance up to which its pairs matter (LimitSearches) [m]. It takes the place of the
   /// bound above. Null without planes.
-  const float* needed = nullptr;
+  const float* search_limit = nullptr;
   float least = 0;  ///< with planes: r with the contact margin, because contacts need all nearer pairs [m]
 
   /// Returns the reach of an edge [m].
   OGC_HD float of_edge(int e) const {
-    if (needed != nullptr) return within(larger(needed[surface.edges[e].a], needed[surface.edges[e].b]));
+    if (search_limit != nullptr)
+      return within(larger(search_limit[surface.edges[e].a], search_limit[surface.edges[e].b]));
     Nearest nearest;
     for (const int v : surface.edge_seeds[e].vertex) consider(nearest, v, surface.edges[e].a, surface.edges[e].b);
     return above(nearest);
@@ -199,8 +200,9 @@ struct Reach {
   /// Returns the reach of a facet [m].
   OGC_HD float of_facet(int t) const {
     const Facet& facet = surface.facets[t];
-    if (needed != nullptr)
-      return within(larger(larger(needed[facet.corner[0]], needed[facet.corner[1]]), needed[facet.corner[2]]));
+    if (search_limit != nullptr)
+      return within(
+          larger(larger(search_limit[facet.corner[0]], search_limit[facet.corner[1]]), search_limit[facet.corner[2]]));
     Nearest nearest;
     for (int k = 0; k < 3; ++k)
       consider(nearest, surface.facet_seeds[t].vertex[k], facet.corner[k], facet.corner[(k + 1) % 3]);
@@ -208,7 +210,7 @@ struct Reach {
   }
   /// Returns the reach of a vertex [m].
   OGC_HD float of_vertex(int v) const {
-    if (needed != nullptr) return within(needed[v]);
+    if (search_limit != nullptr) return within(search_limit[v]);
     Nearest nearest;
     for (const int e : surface.vertex_seeds[v].edge) {
       if (e >= 0) consider(nearest, v, surface.edges[e].a, surface.edges[e].b);
@@ -220,7 +222,7 @@ struct Reach {
   struct Nearest {
     double squared = infinity, size = 0;
   };
-  /// Returns the smaller of r_q and a needed distance d. The distances of a detection err by up to 6 · 2⁻²⁴ S, where S
+  /// Returns the smaller of r_q and a search limit d. The distances of a detection err by up to 6 · 2⁻²⁴ S, where S
   /// is the sum of the 1-norms of a pair's differences (separation.hpp). The factor covers this if S ≤ 2,700 d. For
   /// larger S rounding could choose another pair as a vertex's 17th nearest; its region would still be safe.
   OGC_HD float within(float distance) const {

@@ -57,7 +57,7 @@ struct PlaneListsView {
   HalfSpace* rows = nullptr;  ///< half-spaces of each vertex in ascending order of pair; `pairs` holds their pairs
   NotedPair* pairs = nullptr;
   /// by vertex: distance within which the next search must note all of its pairs [m]; infinity: r_q
-  float* needed = nullptr;
+  float* search_limit = nullptr;
   float contact_radius = 0;  ///< r, with the contact margin [m]
   int* counts = nullptr;     ///< half-spaces by vertex, at most most_planes
   float* bound = nullptr;    ///< b_v by vertex [m]: γ_p times `unplaned`
@@ -112,8 +112,8 @@ struct PlaneListsView {
   }
 };
 
-/// Raises `needed` of each vertex of a pair to the pair's distance at the new positions, if the pair was among the
-/// vertex's N + 1 nearest pairs at the last detection. Runs once for each pair that the last detection noted.
+/// Raises `search_limit` of each vertex of a pair to the pair's distance at the new positions, if the pair was among
+/// the vertex's N + 1 nearest pairs at the last detection. Runs once for each pair that the last detection noted.
 struct LimitSearches {
   PlaneListsView lists;
   const Vec* positions;  ///< by vertex, of the next detection [m]
@@ -134,7 +134,7 @@ struct LimitSearches {
                                              : edge_edge_distance({a, b}, {c, d});
     const float above = round_up(add(now.value, now.slack));
     for (int k = 0; k < 4; ++k)
-      if (is_near[k]) raise(&lists.needed[of.at[k]], above);
+      if (is_near[k]) raise(&lists.search_limit[of.at[k]], above);
   }
 };
 
@@ -237,7 +237,7 @@ struct SortHalfSpaces {
       lists.bound[v] = lists.surface.is_off_surface(v)
                            ? largest_float
                            : round_down(mul(static_cast<double>(lists.share), static_cast<double>(lists.unplaned[v])));
-    if (k == 0) lists.needed[v] = lists.is_fixed[v] != 0 || lists.threshold[v] < infinity ? 0.0F : infinity;
+    if (k == 0) lists.search_limit[v] = lists.is_fixed[v] != 0 || lists.threshold[v] < infinity ? 0.0F : infinity;
     if (k >= count) return;
     const NotedPair own = lists.placed_pairs[i];
     int before = 0;

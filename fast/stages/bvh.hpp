@@ -60,10 +60,11 @@ class Bvh {
   const float* vertex_limit() const { return vertex_limit_.data(); }  ///< by vertex: gap limit of its reach
 
   /// Returns the functor that sets boxes at `positions`, and reaches (fast/kernels/bvh.hpp) of at most *query_radius.
-  /// `needed` and `least` are those of Reach. The order of the trees stays. for_each runs the functor over its count().
-  /// If the surface has no facet, vertices get no reach.
-  RefitTrees refit(const Vec* positions, const float* query_radius, const float* needed = nullptr, float least = 0) {
-    return {.reach = {surface_, positions, query_radius, needed, least},
+  /// `search_limit` and `least` are those of Reach. The order of the trees stays. for_each runs the functor over its
+  /// count(). If the surface has no facet, vertices get no reach.
+  RefitTrees refit(const Vec* positions, const float* query_radius, const float* search_limit = nullptr,
+                   float least = 0) {
+    return {.reach = {surface_, positions, query_radius, search_limit, least},
             .facets = facets_,
             .edges = edges_,
             .facet_arrivals = facet_arrivals_.data(),

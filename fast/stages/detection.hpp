@@ -102,9 +102,9 @@ class Detection {
   std::vector<float> search_limits(const Vec* positions) {
     planes_.limit_searches(backend_, surface_.view(), positions, lists_.view());
     backend_.synchronize();
-    return planes_.download_limits();
+    return planes_.download_search_limits();
   }
-  void put_search_limits(const std::vector<float>& limits) { planes_.put_limits(limits); }
+  void put_search_limits(const std::vector<float>& limits) { planes_.put_search_limits(limits); }
   /// Host only: forwards to Planes::download.
   compare::VertexPlanes download_planes() const { return planes_.download(); }
   /// Returns the regions of the last complete detection. `centre`: the positions of that detection, on the backend.
@@ -164,11 +164,12 @@ class Detection {
                                    .d_min_edge = d_min_edge_.data(),
                                    .d_min_triangle = d_min_triangle_.data()};
     planes_.limit_searches(backend_, surface, positions, lists);
-    launches.begin(backend_, BeginDetection{positions,
-                                            padded_.data(),
-                                            {lists, surface.vertex_count},
-                                            distances,
-                                            bvh_.refit(positions, query_radius, planes_.needed(), contact_radius)});
+    launches.begin(backend_,
+                   BeginDetection{positions,
+                                  padded_.data(),
+                                  {lists, surface.vertex_count},
+                                  distances,
+                                  bvh_.refit(positions, query_radius, planes_.search_limits(), contact_radius)});
     const DetectVertexFacet vertex_facet = vertex_facet_query(contact_radius);
     const DetectEdgeEdge edge_edge = edge_edge_query(contact_radius);
     if (planes_.is_used()) {

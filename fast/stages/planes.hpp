@@ -27,7 +27,7 @@ class Planes {
       counts->fill_zero();
     }
     pair_offsets_.resize(vertices + 1), no_sum_.resize(1);
-    for (Buffer<float>* by_vertex : {&threshold_, &nearest_, &unplaned_, &needed_}) by_vertex->resize(vertices);
+    for (Buffer<float>* by_vertex : {&threshold_, &nearest_, &unplaned_, &search_limit_}) by_vertex->resize(vertices);
     for (Buffer<HalfSpace>* planes : {&placed_, &rows_}) planes->resize(vertices * most_planes);
     for (Buffer<NotedPair>* pairs : {&placed_pairs_, &pairs_}) pairs->resize(vertices * most_planes);
   }
@@ -41,8 +41,8 @@ class Planes {
   /// Host only: makes room for this number of noted pairs, and forgets the pairs that limit the next search.
   void reserve(int noted_capacity) {
     if (!is_used()) return;
-    const std::vector<float> all(needed_.size(), infinity);
-    needed_.upload(all.data(), all.size());
+    const std::vector<float> all(search_limit_.size(), infinity);
+    search_limit_.upload(all.data(), all.size());
     threshold_.upload(all.data(), all.size());
     distance_.resize(static_cast<std::size_t>(noted_capacity));
     places_.resize(static_cast<std::size_t>(noted_capacity));
@@ -62,24 +62,25 @@ class Planes {
 
   /// Returns, by vertex, the distance within which a search must note all of its pairs [m]; null if bounds are not
   /// planes.
-  const float* needed() const { return is_used() ? needed_.data() : nullptr; }
+  const float* search_limits() const { return is_used() ? search_limit_.data() : nullptr; }
   /// Limits the next search, at `positions` (by vertex, on the backend), by the pairs that the last one noted.
   void limit_searches(Backend& backend, const SurfaceView& surface, const Vec* positions, const ListsView& noted) {
     if (!is_used()) return;
     backend.for_each_counted(noted.noted_count, noted.noted_capacity, LimitSearches{view(surface, noted), positions});
   }
 
-  /// Host only: `download_limits` returns needed(); empty if bounds are not planes. `put_limits` sets it for the next
-  /// search, unless `limits` is empty. Throws std::invalid_argument if it is not of these vertices.
-  std::vector<float> download_limits() const {
-    std::vector<float> limits(needed_.size());
-    if (is_used()) needed_.download(limits.data(), limits.size());
+  /// Host only: `download_search_limits` returns search_limits(); empty if bounds are not planes. `put_search_limits`
+  /// sets it for the next search, unless `limits` is empty. Throws std::invalid_argument if the number of limits is not
+  /// that of the vertices.
+  std::vector<float> download_search_limits() const {
+    std::vector<float> limits(search_limit_.size());
+    if (is_used()) search_limit_.download(limits.data(), limits.size());
     return limits;
   }
-  void put_limits(const std::vector<float>& limits) {
+  void put_search_limits(const std::vector<float>& limits) {
     if (limits.empty() || !is_used()) return;
-    if (limits.size() != needed_.size()) throw std::invalid_argument("search limits of another mesh");
-    needed_.upload(limits.data(), limits.size());
+    if (limits.size() != search_limit_.size()) throw std::invalid_argument("search limits of another mesh");
+    search_limit_.upload(limits.data(), limits.size());
   }
 
   /// Makes planes and balls (`bound`) from the pairs that the searches noted. `contact_radius`: r with the margin. If
@@ -149,7 +150,7 @@ class Planes {
             .placed_pairs = placed_pairs_.data(),
             .rows = rows_.data(),
             .pairs = pairs_.data(),
-            .needed = needed_.data(),
+            .search_limit = search_limit_.data(),
             .counts = counts_.data()};
   }
 
@@ -159,7 +160,7 @@ class Planes {
   compare::BoundsTraits policy_;
   const Vec* displacement_ = nullptr;
   Buffer<std::uint8_t> is_fixed_;
-  Buffer<float> distance_, pair_rows_, threshold_, nearest_, unplaned_, needed_;
+  Buffer<float> distance_, pair_rows_, threshold_, nearest_, unplaned_, search_limit_;
   Buffer<RowPlaces> places_;
   Buffer<int> pair_counts_, pair_offsets_, counts_, no_sum_;
   Buffer<HalfSpace> placed_, rows_;
