@@ -10,7 +10,7 @@ extern "C" {
 
 /* Version of this interface. A library that was built for another version is rejected with a message, because its
  * structures have another layout. */
-#define OGC_PLUGIN_VERSION 10
+#define OGC_PLUGIN_VERSION 11
 
 #define OGC_HOST_MEMORY 0
 #define OGC_DEVICE_MEMORY 1

@@ -34,6 +34,7 @@ typedef struct ogc_scene_spring {
 /* Settings of compare/problem/settings.hpp. */
 typedef struct ogc_settings {
   float time_step, contact_radius, detection_radius_cap, bounds_relaxation, detection_fraction, friction_velocity;
+  float settled_move; /* 0: a step has all its iterations */
   int64_t iterations, detection_every, detection_gap, guess_rounds;
   int64_t lanes;                            /* width of sums; 0: the library chooses */
   int64_t contact_activation, damping_form; /* OGC_ACTIVATION_…, OGC_DAMPING_… */

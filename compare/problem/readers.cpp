@@ -20,6 +20,7 @@ struct Readers {
 constexpr auto table = std::to_array<Readers>({
     {"bounds", "dat", {"vbd", "reference_vbd"}, "whose line search scales all vertices at once"},
     {"detection_gap", "", {"vbd", "reference_vbd"}, "whose iterations detect where a line search ends"},
+    {"settled_move", "", {"vbd", "reference_vbd"}, "which ends its steps by tolerances of its own"},
     {"newton_truncation", "", {"newton"}, "which holds no pairs to planes that travel with them"},
     {"rod_orientation", "", {"vbd", "reference_vbd"}, "which sweeps over no orientations"},
     {"reference_contact_set", "", {"reference_vbd", "newton", "penalty"}, "which lists the method's contacts"},

@@ -58,6 +58,10 @@ constexpr auto problem_table = std::to_array<SettingInfo>({
      "bounds "
      "stop; detection_every goes first",
      1, most_count, &Settings::detection_gap},
+    {"settled_move", "m",
+     "vbd, reference_vbd: a step ends after an iteration that cut no vertex and moved none farther than this along any "
+     "axis, unless a detection is due; 0: a step has all its iterations",
+     0, most_length, &Settings::settled_move},
     {"guess_rounds", "1",
      "a step moves vertices to where inertia takes them in at most so many rounds, each with a detection; 1 is Eq. 28 "
      "as printed",

@@ -26,7 +26,8 @@ bool usable_name(const std::string& name) {
   return !name.empty() && name.find_first_not_of(letters) == std::string::npos;
 }
 
-void check_settings(std::vector<Problem>& problems, const Settings& settings) {
+void check_settings(std::vector<Problem>& problems, const Scene& scene) {
+  const Settings& settings = scene.settings;
   for (const SettingInfo& info : setting_table()) {
     const double value = get_setting(settings, info);
     if (!in_range(info, value)) {
@@ -34,6 +35,11 @@ void check_settings(std::vector<Problem>& problems, const Settings& settings) {
           {quoted("setting", std::string(info.name)), "is " + shortest(value), "give " + describe_range(info)});
     }
   }
+  // A twist runs along a rod while its vertices rest.
+  if (settings.settled_move > 0 && has_rods(scene))
+    problems.push_back({quoted("setting", "settled_move"),
+                        "is " + shortest(as_typed(settings.settled_move)) + " in a scene with rods",
+                        "give 0: segments may still turn where no vertex moves"});
 }
 
 void check_names(std::vector<Problem>& problems, const Scene& scene) {
@@ -305,7 +311,7 @@ std::vector<Problem> validate(const Scene& scene, std::size_t limit) {
 std::vector<Problem> validate(const Scene& scene, std::size_t limit, const ElementNames& names) {
   std::vector<Problem> problems = validate(scene.mesh, limit, names);
   check_names(problems, scene);
-  check_settings(problems, scene.settings);
+  check_settings(problems, scene);
   check_materials(problems, scene);
   if (scene.mesh.positions.empty()) return problems;
   std::vector<Problem> known;

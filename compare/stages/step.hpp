@@ -68,7 +68,7 @@ struct StepTruth {
   double query_radius = 0, query_radius_scale = 0;
   std::vector<Vec3f> prescribed_target;  ///< by vertex; 0 for vertices that are not prescribed
   /// kinds of the events that Algorithm 3 requires, in order. They depend on the answer's counts of cut vertices (0 for
-  /// events that the answer lacks)
+  /// events that the answer lacks) and, with `settled_move`, on how far its iterations moved vertices
   std::vector<StepEventKind> events;
   /// by event, then by vertex; empty for events other than guess rounds. An answer does not show how much of a move
   /// contacts removed in earlier rounds. The truth computes this amount; `accepted` includes its error

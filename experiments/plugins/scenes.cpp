@@ -23,6 +23,7 @@ ogc_settings settings_of(const Settings& s) {
           single(s.bounds_relaxation),
           single(s.detection_fraction),
           single(s.friction_velocity),
+          single(s.settled_move),
           s.iterations,
           s.detection_every,
           s.detection_gap,

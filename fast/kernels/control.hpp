@@ -41,6 +41,7 @@ struct ControlSettings {
   int iterations = 1 << 30;        ///< iterations of a step; no detection follows the last one
   int guess_rounds = 16;           ///< largest number of rounds of a step's guess loop
   int sort_every = 1;              ///< steps between two sorts of the trees
+  float settled_move = 0;          ///< largest move of an iteration that ends a step [m]; 0: none does
   float contact_radius = 0;        ///< r [m]
   float largest_query_radius = 0;  ///< cap of r_q [m]
 
@@ -50,6 +51,11 @@ struct ControlSettings {
     const double least = ceil(times * redetect_vertices);
     return least > 1 ? static_cast<int>(least) : 1;
   }
+  /// Returns whether a step may end before its last iteration.
+  OGC_HD bool may_settle() const { return settled_move > 0; }
+  /// Returns a turn that no iteration has, for a step that ends after `done` iterations. It is even if `done` is: then
+  /// an iteration with this number would read the buffer that has x.
+  OGC_HD int turn_after_end(int done) const { return iterations + ((iterations ^ done) & 1); }
 };
 
 /// Holds the state of a frame (the steps between two stored states), and of its current step, on the device.
@@ -60,17 +66,19 @@ struct StepControl {
   int steps_done = 0;  ///< steps committed since the frame began; indexes the row of metrics and the row of targets
   int since_sort = 1 << 30;  ///< steps begun since the last sort of the trees; kept from frame to frame
   // State of the step. The flags that Backend::when reads are 0 if the frame is not active.
-  int attempted = 0;                      ///< 1: the frame was active when the step began
-  int sort = 0;                           ///< 1: the trees are sorted in this step
-  int guess = 0;                          ///< 1: the guess loop has another round
-  int detect = 0;                         ///< 1: a detection is due before the next iteration
-  int turn = 0;                           ///< next iteration, from 0; −1 while a detection is due
+  int attempted = 0;  ///< 1: the frame was active when the step began
+  int sort = 0;       ///< 1: the trees are sorted in this step
+  int guess = 0;      ///< 1: the guess loop has another round
+  int detect = 0;     ///< 1: a detection is due before the next iteration
+  /// next iteration, from 0; −1 while a detection is due; at the end ControlSettings::iterations or the number after it
+  int turn = 0;
   float query_radius = 0;                 ///< r_q [m]
   int largest_move = 0, largest_lag = 0;  ///< bits of floats [m]
   float smallest_bound = 0;               ///< smallest b_v; with planes, smallest distance of any pair [m]
   /// cut: vertices cut in this round or iteration; cut_last: vertices cut or lagging in the previous one
   int cut = 0, cut_last = 0;
   int deep_inside = 0;  ///< with volumes: vertices that are deep inside a volume after this iteration
+  int moved = 0;        ///< 1: this iteration moved a vertex farther than settled_move; kept up only if that is not 0
   /// With planes. lagging: number of prescribed vertices that lag behind their targets; advanced: whether one of them
   /// has moved since the last detection; lag_asked: whether one has already caused a detection in this step.
   int lagging = 0, advanced = 0, lag_asked = 0;
@@ -92,6 +100,10 @@ struct StepControl {
   OGC_HD void count_lag(bool has_advanced) {
     atomic_add(&lagging, 1);
     if (has_advanced) atomic_max(&advanced, 1);
+  }
+  /// Reads first: in most iterations many vertices move, and only the first one has to write.
+  OGC_HD void note_move() {
+    if (atomic_load(&moved) == 0) atomic_max(&moved, 1);
   }
   OGC_HD void count_not_finite() { atomic_add(&not_finite, 1); }
   OGC_HD void count_violation() { atomic_add(&violations, 1); }
@@ -132,7 +144,7 @@ struct BeginStep {
     c.largest_move = c.largest_lag = 0;
     c.smallest_bound = 3.40282347e38f;
     c.cut = c.cut_last = c.not_finite = c.violations = 0;
-    c.lagging = c.advanced = c.lag_asked = c.deep_inside = 0;
+    c.lagging = c.advanced = c.lag_asked = c.deep_inside = c.moved = 0;
     c.short_rows = 0;
     c.volume_contacts = c.vertices_inside = c.deepest = c.depth_unresolved = 0;
     c.longest_segment = 0;
@@ -185,8 +197,9 @@ struct EndRound {
 };
 
 /// Ends an iteration. A detection follows if enough vertices were cut (Alg. 3 line 29) and `detection_gap` iterations
-/// have passed since the last one, or if `detection_every` have passed. `number` is the index of this iteration. If it
-/// differs from `control->turn`, nothing happens; −1 omits this check.
+/// have passed since the last one, or if `detection_every` have passed. With `settled_move`, the step's iterations end
+/// if this one neither cut a vertex nor left one lagging, no vertex moved farther, and no detection is due. `number` is
+/// the index of this iteration. If it differs from `control->turn`, nothing happens; −1 omits this check.
 struct EndIteration {
   StepControl* control;  ///< on the backend
   ControlSettings settings;
@@ -199,9 +212,12 @@ struct EndIteration {
     ++c.since_detection;
     const bool asked = take_request(c, settings.least_cut(), c.since_detection >= settings.detection_gap);
     const bool due = settings.detection_every > 0 && c.since_detection >= settings.detection_every;
+    // cut_last counts every cut and every lag, those that detection_gap or a lag's single request keep from asking, too
+    const bool is_settled = settings.may_settle() && c.cut_last == 0 && c.moved == 0 && !due;
+    c.moved = 0;
     c.detect = c.active != 0 && c.iterations < settings.iterations && (due || asked) ? 1 : 0;
     stop_if_failed(c);
-    c.turn = c.detect != 0 ? -1 : c.iterations;
+    c.turn = c.detect != 0 ? -1 : is_settled ? settings.turn_after_end(c.iterations) : c.iterations;
   }
 };
 

@@ -91,11 +91,20 @@ struct CopyBound {
   OGC_HD void operator()(int v) const { to[v] = from[v]; }
 };
 
+/// Holds the positions before the last sweep of a step. Sweeps read two buffers in turn, the first one first.
+struct BeforeLastSweep {
+  const PaddedVec* buffers = nullptr;  ///< x by vertex, two buffers one after the other [m]; null: no sweep was made
+  int vertex_count = 0;
+  const int* sweeps = nullptr;  ///< number of the step's sweeps, on the backend
+
+  OGC_HD Vec operator()(int v) const { return PaddedVecs{buffers}[*sweeps % 2 == 0 ? v + vertex_count : v]; }
+};
+
 /// Adds the terms of a vertex to the sums, before the commit: kinetic energy, gravity, lost momentum and last motion.
 /// After the guess loop, only the lost momentum is reported.
 struct VertexTerm {
   const Vec* position;           ///< x by vertex [m]
-  const PaddedVec* before;       ///< x by vertex before the last sweep [m]; null if there was none
+  BeforeLastSweep before;        ///< x by vertex before the last sweep [m]
   const Vec* start;              ///< xᵗ by vertex [m]
   const Vec* target;             ///< y by vertex [m]
   const float* mass;             ///< by vertex [kg]; 0 on fixed bodies
@@ -118,8 +127,8 @@ struct VertexTerm {
     sum[sum_moved] += m * (static_cast<double>(y.x) - s.x);
     sum[sum_moved + 1] += m * (static_cast<double>(y.y) - s.y);
     sum[sum_moved + 2] += m * (static_cast<double>(y.z) - s.z);
-    if (before == nullptr) return;
-    const Vec b = PaddedVecs{before}[v];
+    if (before.buffers == nullptr) return;
+    const Vec b = before(v);
     const double last[3] = {static_cast<double>(x.x) - b.x, static_cast<double>(x.y) - b.y,
                             static_cast<double>(x.z) - b.z};
     sum[sum_last] += m * (last[0] * last[0] + last[1] * last[1] + last[2] * last[2]);

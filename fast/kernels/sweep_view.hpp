@@ -8,6 +8,7 @@
 // pointer.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "fast/kernels/arithmetic/quaternion.hpp"
@@ -120,6 +121,14 @@ struct VolumeStream {
 /// Returns the vertex of an encoded index. The formula avoids a branch, which a processor could not predict.
 OGC_HD inline int decoded(int index) { return index ^ (index >> 31); }
 
+/// Returns whether the points are farther than `most` apart along an axis [m]. The difference of two floats is rounded
+/// to double at most once, so every right program decides alike.
+OGC_HD inline bool moves_beyond(const Vec& from, const Vec& to, float most) {
+  const double limit = most;
+  return fabs(static_cast<double>(to.x) - from.x) > limit || fabs(static_cast<double>(to.y) - from.y) > limit ||
+         fabs(static_cast<double>(to.z) - from.z) > limit;
+}
+
 /// Holds the data that updates read and write in every scene. The pointers are valid for one sequence of launches.
 struct SweepShared {
   const SweepVertex* vertices = nullptr;       ///< by slot
@@ -138,6 +147,7 @@ struct SweepShared {
   int iteration = 0;               ///< number of this iteration; it does nothing if another one is next
   float contact_radius = 0;        ///< r [m]
   float friction_limit = 0;        ///< ε_v h [m]
+  float settled_move = 0;          ///< moves up to this are not noted [m]; 0: none is
   /// activation of all contacts; read by sums with AnyActivation
   ContactActivation activation = ContactActivation::ogc;
   VolumeStream volumes;  ///< read if there are volumes
@@ -154,10 +164,11 @@ struct SweepShared {
   OGC_HD int number(int index) const { return decoded(index) + ((index >> 31) & to_fresh); }
   /// Returns the position at an encoded index.
   OGC_HD Vec read(int index) const { return PaddedVecs{old}[number(index)]; }
-  /// Writes the new position of a vertex.
+  /// Writes the new position of a vertex. With settled_move, notes that the vertex moved farther along an axis.
   OGC_HD void write(int v, const Vec& x) const {
     old[v + to_fresh] = PaddedVec(x);
     position[v] = x;
+    if (settled_move > 0 && moves_beyond(PaddedVecs{old}[v], x, settled_move)) control->note_move();
   }
 };
 

@@ -19,9 +19,11 @@ class LeftForces {
   }
   /// Measures the forces after the guess loop. `view`: data of the first iteration (Step::view).
   void begin(const Sweep<Backend>& sweep, SweepView view) { measure(sweep, view, false); }
-  /// Measures the forces at the end of the step. `view`: data of the iteration that would follow the last one.
-  void end(const Sweep<Backend>& sweep, SweepView view) {
-    measure(sweep, view, true);
+  /// Measures the forces at the end of the step. `view`: data of the iteration that would follow the last one; if it is
+  /// off, nothing is measured.
+  void end(const Sweep<Backend>& sweep, SweepView view) { measure(sweep, view, true); }
+  /// Adds up the forces of both measurements.
+  void add() {
     reduction_.template add<0, left_columns>(LeftSums{left_.data(), slots_}, 0, Nothing{});
     reduction_.total(totals_.data(), 0, Nothing{}, 0, Nothing{});
   }

@@ -242,12 +242,13 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
       if (row.repeats > 0) row.status |= compare::step_list_grew;
       rows.push_back(std::move(row));
     }
-    std::int64_t redetections = 0;
-    for (int k = 0; k < control.steps_done; ++k)
-      redetections += device_rows[static_cast<std::size_t>(k)].detections -
-                      device_rows[static_cast<std::size_t>(k)].rounds;
-    if (control.steps_done > 0)
-      group_ = iterations_in_group(redetections, control.steps_done, static_cast<int>(scene_.settings.iterations));
+    std::int64_t redetections = 0, iterations = 0;
+    for (int k = 0; k < control.steps_done; ++k) {
+      const StepRow& row = device_rows[static_cast<std::size_t>(k)];
+      redetections += row.detections - row.rounds;
+      iterations += row.iterations;
+    }
+    if (control.steps_done > 0) group_ = iterations_in_group(redetections, iterations);
     step_number_ += control.steps_done;
     query_radius_ = control.query_radius;
     return control;
@@ -393,7 +394,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
   std::int64_t step_number_ = 0;
   float query_radius_ = 0;
   int since_sort_ = StepControl{}.since_sort;
-  int group_ = iterations_in_group(0, 1, 1);
+  int group_ = iterations_in_group(0, 1);
 };
 
 }  // namespace ogc::fast

@@ -6,7 +6,7 @@
 //   guess loop  repeat(guess): X_prev ← x, detect, x ← y as far as contacts allow, truncated; up to guess_rounds times.
 //               Then it finds contacts with volumes and copies xᵗ and x to the buffers that the sweep gathers from
 //   iterations  update prescribed vertices, then colours in order. If the number of cut vertices or of iterations
-//               requires a detection: X_prev ← x, detect
+//               requires a detection: X_prev ← x, detect. With settled_move, those after the step's end do nothing
 //   finish      checks the certificate; commits and adds sums only if it holds; writes one row
 //   Some steps also measure forces after the guess loop and at the end (Eq. 29).
 //
@@ -116,7 +116,7 @@ class Step {
       for (int i = 0; i < settings_.iterations; i += group) iterate(i, std::min(group, settings_.iterations - i));
     });
     clock_.time(StepStage::metrics, [&] {
-      if (measures) left_forces_.end(sweep_, view(settings_.iterations));
+      if (measures) measure_end();
       finish(measures);
     });
   }
@@ -253,20 +253,25 @@ class Step {
                           {s.start.data(), s.position.data(), s.padded_start.data(), s.padded.data(), s.vertex_count},
                           rods_.count(),
                           rods_.begin(s.start.data(), s.position.data(), control())};
-    reduction_.template add<0, guess_columns>(vertex_sums(nullptr), begin.count(), begin);
+    reduction_.template add<0, guess_columns>(vertex_sums({}), begin.count(), begin);
     if (observer_ != nullptr) observer_->after_guess();
   }
 
   /// Enqueues iterations `first` to `first` + `count` − 1, and a detection after each iteration that requires one. A
   /// conditional node (`when`, `repeat`) costs a device as much as ten launches that do nothing. So all iterations are
   /// enqueued at once. If one requires a detection, the later ones do nothing. Then `repeat` detects and runs the later
-  /// ones, as long as a detection is due.
+  /// ones, as long as a detection is due. If a step may settle, the first iteration of a group asks for its turn, too;
+  /// only the step's very first one need not.
   void iterate(int first, int count) {
     const int last = first + count - 1, *due = flag(&StepControl::detect);
-    const auto end = [&](int i) { return EndIteration{control(), settings_.control, count > 1 ? i : -1}; };
+    const bool may_settle = settings_.control.may_settle();
+    const auto end = [&](int i) {
+      return EndIteration{control(), settings_.control, count > 1 || may_settle ? i : -1};
+    };
     const auto sweeps_from = [&](int from) {
       for (int i = from; i <= last; ++i) {
-        sweep(i, i > first ? flag(&StepControl::turn) : nullptr, i > from ? Start::overlapping : Start::after_previous);
+        const bool asks = i > first || (may_settle && i > 0);
+        sweep(i, asks ? flag(&StepControl::turn) : nullptr, i > from ? Start::overlapping : Start::after_previous);
         if (i == last) break;  // the decision about a detection ends this iteration
         backend_.for_each(1, end(i));
         observe(compare::StepEventKind::sweep);
@@ -305,6 +310,7 @@ class Step {
     rods_.complete(view.rods);
     view.contact_radius = settings_.contact_radius;
     view.friction_limit = settings_.friction_limit;
+    view.settled_move = settings_.control.settled_move;
     return view;
   }
 
@@ -317,6 +323,20 @@ class Step {
     if (volumes_.has_free())
       backend_.for_each(volumes_.rows(), CountDeepInside{view.volumes, view.position, settings_.contact_radius, turn,
                                                          iteration, control()});
+  }
+
+  /// Measures the forces at the end of the step. If the step may settle, either buffer may have x: both are tried, and
+  /// the turn tells which one measures (ControlSettings::turn_after_end).
+  void measure_end() {
+    const int past = settings_.iterations;
+    SweepView last = view(past);
+    if (settings_.control.may_settle()) {
+      SweepView other = view(past + 1);
+      last.turn = other.turn = flag(&StepControl::turn);
+      left_forces_.end(sweep_, other);
+    }
+    left_forces_.end(sweep_, last);
+    left_forces_.add();
   }
 
   void finish(bool measures) {
@@ -366,9 +386,8 @@ class Step {
       add(sums);
   }
 
-  /// Returns the functor that computes the sums over vertices. `before`: x before the last sweep; null: no sweep has
-  /// been made.
-  VertexSums vertex_sums(const PaddedVec* before) {
+  /// Returns the functor that computes the sums over vertices.
+  VertexSums vertex_sums(const BeforeLastSweep& before) {
     const StepState<Backend>& s = state_;
     return {{.position = s.position.data(),
              .before = before,
@@ -382,8 +401,7 @@ class Step {
   }
 
   StateSums state_sums() {
-    const bool swapped = settings_.iterations % 2 == 0;  // the last iteration read the second buffer
-    return {vertex_sums(state_.padded.data() + (swapped ? state_.vertex_count : 0)),
+    return {vertex_sums({state_.padded.data(), state_.vertex_count, flag(&StepControl::iterations)}),
             sweep_.elements(state_.position.data())};
   }
 

@@ -30,16 +30,17 @@ inline constexpr int steps_between_sorts = 16;
 enum class Sorting { asked, made, left_out };
 
 /// Returns the number of steps from one measurement of forces to the next. A measurement takes as long as at most six
-/// sweeps (compare/method.md §6). The interval limits its time to 2 % of the time of all sweeps.
+/// sweeps (compare/method.md §6). The interval limits its time to 2 % of the time of all sweeps, unless steps end early
+/// (settled_move).
 inline std::int64_t steps_between_measures(std::int64_t iterations) {
   return (300 + iterations - 1) / std::max<std::int64_t>(1, iterations);
 }
 
 /// Returns the number of iterations between two decisions whether a detection is due: five if fewer than one in four
 /// iterations needed a detection, otherwise one (counted in fast/PERFORMANCE.md). `redetections`: number of detections
-/// after the guess loop in `steps` steps.
-inline int iterations_in_group(std::int64_t redetections, std::int64_t steps, int iterations) {
-  return 4 * redetections < steps * iterations ? 5 : 1;
+/// after the guess loop in steps with `iterations` iterations in all.
+inline int iterations_in_group(std::int64_t redetections, std::int64_t iterations) {
+  return 4 * redetections < iterations ? 5 : 1;
 }
 
 /// Returns the settings of a step. `moving`: K, the number of vertices that may move and have a bound
@@ -63,6 +64,7 @@ inline StepSettings step_settings(const compare::Scene& scene, std::size_t movin
   to.control.redetect_vertices = from.detection_fraction * static_cast<double>(moving);
   to.control.detection_every = static_cast<int>(from.detection_every);
   to.control.detection_gap = static_cast<int>(from.detection_gap);
+  to.control.settled_move = static_cast<float>(from.settled_move);
   to.control.guess_rounds = static_cast<int>(from.guess_rounds);
   to.control.sort_every = steps_between_sorts;
   to.control.iterations = to.iterations;

@@ -45,6 +45,15 @@ std::vector<bool> staying(const std::vector<compare::HeldMove>& moves) {
 Vec3 difference(const Vec3f& a, const Vec3f& b) { return {double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z}; }
 double norm(const Vec3& a) { return std::hypot(a.x, a.y, a.z); }
 
+/// Returns whether no vertex is farther than `most` from its place before, along any axis.
+bool all_within(const std::vector<Vec3f>& before, const std::vector<Vec3f>& after, double most) {
+  const auto is_within = [most](const Vec3f& from, const Vec3f& to) {
+    const Vec3 moved = difference(to, from);
+    return std::max({std::abs(moved.x), std::abs(moved.y), std::abs(moved.z)}) <= most;
+  };
+  return std::ranges::equal(before, after, is_within);
+}
+
 }  // namespace
 
 StepLag lag_of(const std::vector<Vec3f>& x, const std::vector<Vec3f>& previous, const std::vector<Vec3f>& target,
@@ -133,7 +142,9 @@ compare::StepTruth step(const compare::StepIn& in, const compare::StepOut& answe
                                 answer.events[i + 1].kind == compare::StepEventKind::detection;
       is_deep = depth == Depth::deep || (depth == Depth::doubtful && detects_next);
     }
-    order.took_place(cut, lag, is_deep);
+    const bool is_still = is_there && *kind == compare::StepEventKind::sweep &&
+                          all_within(answer.events[i - 1].position, answer.events[i].position, settings.settled_move);
+    order.took_place(cut, lag, is_deep, is_still);
   }
   return truth;
 }

@@ -25,16 +25,17 @@ class StepOrder {
   StepOrder(const compare::Settings& settings, compare::Index moving)
       : settings_(settings), redetect_vertices_(settings.detection_fraction * moving) {}
 
-  /// Returns the next event; empty after the last iteration.
+  /// Returns the next event; empty after the last iteration, or after one that settled the step.
   std::optional<compare::StepEventKind> next() const {
     if (guessing_) return found_ ? compare::StepEventKind::guess : compare::StepEventKind::detection;
-    if (iterations_ == settings_.iterations) return std::nullopt;
+    if (is_over_ || iterations_ == settings_.iterations) return std::nullopt;
     return found_ ? compare::StepEventKind::sweep : compare::StepEventKind::detection;
   }
 
-  /// Records that the event `next()` took place. `cut` is the number of vertices that it cut; `is_deep` is whether an
-  /// iteration left a vertex deep inside a volume.
-  void took_place(compare::Index cut, const StepLag& lag = {}, bool is_deep = false) {
+  /// Records that the event `next()` took place. `cut` is the number of vertices that it cut, lagging ones included;
+  /// `is_deep` is whether an iteration left a vertex deep inside a volume; `is_still` is whether an iteration moved no
+  /// vertex farther than `settled_move`.
+  void took_place(compare::Index cut, const StepLag& lag = {}, bool is_deep = false, bool is_still = false) {
     switch (*next()) {
       case compare::StepEventKind::detection:
         found_ = true;
@@ -51,6 +52,7 @@ class StepOrder {
         found_ = (since_detection_ < settings_.detection_gap ||
                   (!asks(cut, lag, 1) && !(is_deep && cut > lag.lagging))) &&
                  (settings_.detection_every == 0 || since_detection_ < settings_.detection_every);
+        is_over_ = settings_.settled_move > 0 && is_still && cut == 0 && found_;
         break;
     }
   }
@@ -70,6 +72,7 @@ class StepOrder {
   double redetect_vertices_;  ///< γ_e K
   bool guessing_ = true;      ///< whether the guess loop runs
   bool lag_asked_ = false;    ///< whether a vertex behind its target has triggered a detection in this step
+  bool is_over_ = false;      ///< whether an iteration settled the step
   bool found_ = false;        ///< whether contacts and bounds are valid for the next event
   std::int64_t rounds_ = 0, iterations_ = 0, since_detection_ = 0;
 };

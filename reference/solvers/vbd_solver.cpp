@@ -56,7 +56,8 @@ StepResult VbdSolver::step(const std::vector<Vec3f>& start, const std::vector<Ve
     meter_->begin_step(start, velocity, number, orientations_);
     reference_force_ = meter_->reference_force();
   });
-  while (metrics_.iterations < settings_.iterations && finite()) iterate();
+  is_settled_ = false;
+  while (metrics_.iterations < settings_.iterations && !is_settled_ && finite()) iterate();
   add_row(false);
   if (finite()) measured([&] { residual_ = meter_->at(x_, orientations()).share; });
   StepResult result = finish(finite() ? compare::step_clean : compare::step_not_finite);
@@ -78,6 +79,14 @@ void VbdSolver::iterate() {
   ++iterations_since_;
   const bool is_cut = is_any_cut(cut_), is_due = detection_due(cut_);
   detect_next_ = is_due || (!waits() && is_cut && is_deep_inside());
+  is_settled_ = settings_.settled_move > 0 && cut_ == 0 && !detect_next_ && largest_move() <= settings_.settled_move;
+}
+
+double VbdSolver::largest_move() const {
+  double largest = 0;
+  for (const std::size_t v : movable_)
+    for (std::size_t axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(x_[v][axis] - before_[v][axis]));
+  return largest;
 }
 
 bool VbdSolver::is_deep_inside() const {

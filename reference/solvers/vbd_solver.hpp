@@ -33,6 +33,7 @@ class VbdSolver : public StepSolver, private ContactStep {
   enum Stage : std::size_t { detection = detection_stage, sweeping, stage_count };
   void iterate();
   std::size_t sweep();
+  double largest_move() const;            ///< largest move of the last iteration along an axis [m]
   std::size_t cut_all(const State& old);  ///< cuts free vertices to their bounds
   /// Returns whether a vertex is deep inside a volume; depths come from the contacts of the last detection, with frozen
   /// n and weights.
@@ -48,6 +49,7 @@ class VbdSolver : public StepSolver, private ContactStep {
   VertexSystems systems_;
   std::vector<compare::Index> colour_;
   std::vector<std::vector<compare::Index>> classes_;  ///< vertices by colour
+  bool is_settled_ = false;  ///< whether the last iteration ends the step before its time (`settled_move`)
   std::optional<ResidualMeter> meter_;
   std::vector<compare::Quaternion> orientations_;  ///< qᵗ, kept if residuals are measured
   double measuring_ms_ = 0;

@@ -241,6 +241,87 @@ void bound_volumes(Scene& scene) {
   for (Body& body : scene.bodies) body.contact = BodyContact::surface;
 }
 
+/// Tells whether a rule ends the iterations of a step after `event`. `before` is the event before it; if `detects`, a
+/// detection follows it.
+using EndsAfter = std::function<bool(const StepIn& in, const StepEvent& before, const StepEvent& event, bool detects)>;
+
+/// Returns the largest move of a vertex between two events [m]; `size` measures the move of one vertex.
+template <class Size>
+double largest_move(const StepEvent& before, const StepEvent& event, Size size) {
+  double largest = 0;
+  for (std::size_t v = 0; v < event.position.size(); ++v) {
+    const Vec3f &a = before.position[v], &b = event.position[v];
+    largest = std::max(largest, size(double{b.x} - a.x, double{b.y} - a.y, double{b.z} - a.z));
+  }
+  return largest;
+}
+
+/// Returns whether no vertex moved farther than settled_move along an axis.
+bool is_still(const StepIn& in, const StepEvent& before, const StepEvent& event) {
+  const auto along_axes = [](double x, double y, double z) {
+    return std::max({std::abs(x), std::abs(y), std::abs(z)});
+  };
+  return largest_move(before, event, along_axes) <= in.scene->settings.settled_move;
+}
+
+bool settles(const StepIn& in, const StepEvent& before, const StepEvent& event, bool detects) {
+  return is_still(in, before, event) && event.cut == 0 && !detects;
+}
+bool settles_with_cuts(const StepIn& in, const StepEvent& before, const StepEvent& event, bool detects) {
+  return is_still(in, before, event) && !detects;
+}
+bool settles_before_a_detection(const StepIn& in, const StepEvent& before, const StepEvent& event, bool) {
+  return is_still(in, before, event) && event.cut == 0;
+}
+bool settles_by_length(const StepIn& in, const StepEvent& before, const StepEvent& event, bool detects) {
+  const auto length = [](double x, double y, double z) { return std::hypot(x, y, z); };
+  return largest_move(before, event, length) <= in.scene->settings.settled_move && event.cut == 0 && !detects;
+}
+/// Does not count prescribed vertices that lag as cut.
+bool settles_with_lags(const StepIn& in, const StepEvent& before, const StepEvent& event, bool detects) {
+  Index lagging = 0;
+  for (const PrescribedMotion& motion : in.scene->motions) {
+    const std::vector<Vec3f> targets = prescribed_targets(*in.scene, motion, in.scene->settings.time_step);
+    for (std::size_t k = 0; k < targets.size(); ++k)
+      lagging += !(event.position[static_cast<std::size_t>(motion.vertices[k])] == targets[k]);
+  }
+  return is_still(in, before, event) && event.cut == lagging && !detects;
+}
+
+/// Ends a step `late` events after the first iteration after which the rule ends it.
+void end_by(const EndsAfter& ends, std::size_t late, const StepIn& in, StepOut& out) {
+  std::size_t i = 1;
+  const auto is_end = [&] {
+    const StepEvent& event = out.events[i];
+    return event.kind == StepEventKind::sweep && ends(in, out.events[i - 1], event, is_detection(out.events[i + 1]));
+  };
+  while (i + 1 < out.events.size() && !is_end()) ++i;
+  out.events.resize(std::min(i + 1 + late, out.events.size()));
+  out.position = out.events.back().position;
+  const double h = in.scene->settings.time_step;
+  for (std::size_t v = 0; v < out.position.size(); ++v) {
+    const Vec3f& x = out.position[v];
+    const Vec3& start = in.scene->mesh.positions[v];
+    out.velocity[v] = {static_cast<float>((x.x - start.x) / h), static_cast<float>((x.y - start.y) / h),
+                       static_cast<float>((x.z - start.z) / h)};
+  }
+}
+
+/// Returns a fault that ends steps by a wrong rule if the scene has settled_move.
+Fault settled_wrongly(const std::string& name, const EndsAfter& ends, std::size_t late = 0) {
+  const auto plant = [ends, late](Contestant& contestant, const Authority&) {
+    contestant.step = [right = contestant.step, ends, late](const StepIn& in) {
+      if (in.scene->settings.settled_move == 0) return right(in);
+      Scene whole = *in.scene;
+      whole.settings.settled_move = 0;
+      StepOut out = right({&whole, in.topology});
+      end_by(ends, late, in, out);
+      return out;
+    };
+  };
+  return shown_by("settled", {"step: " + name, Stage::step, plant});
+}
+
 void velocity_from_last_detection(const StepIn& in, StepOut& out) {
   const auto last = std::find_if(out.events.rbegin(), out.events.rend(), is_detection);
   const double h = in.scene->settings.time_step;
@@ -264,6 +345,12 @@ std::vector<Fault> step_faults() {
                       for (PrescribedMotion& motion : scene.motions)
                         motion.start -= scene.settings.time_step, motion.end -= scene.settings.time_step;
                     }),
+      shown_by("settled", asked_wrongly("settled_move ignored", [](Scene& scene) { scene.settings.settled_move = 0; })),
+      settled_wrongly("settles although vertices were cut", settles_with_cuts),
+      settled_wrongly("settles although a detection is due", settles_before_a_detection),
+      settled_wrongly("settles where every move's length is short", settles_by_length),
+      settled_wrongly("settles one iteration late", settles, 1),
+      shown_by("settled.planes", settled_wrongly("settles although prescribed vertices lag", settles_with_lags)),
       spoiled("no detection between iterations", detect_before_iterations_only),
       spoiled("X_prev of the first detection kept", keep_first_previous),
       held_wrongly("partners are taken to stand in the guess loop", ignore_partners),

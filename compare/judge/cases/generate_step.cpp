@@ -518,6 +518,22 @@ CaseData dat(Random& random) {
   });
 }
 
+/// Ends iterations early where they move nothing farther than `settled_move`, which is near the moves of the first
+/// iterations. Often more vertices must be cut than are before a detection follows, so that some iterations go on only
+/// because of cut vertices; or a detection is due where nothing moves.
+CaseData settles(Random& random) {
+  constexpr std::array<CaseData (*)(Random&), 4> scenes{onto, collide, handle, at_rest};
+  const CaseData data = random.pick(std::span<CaseData (*const)(Random&)>(scenes))(random);
+  return changed(data, [&](Scene& scene) {
+    Settings& s = scene.settings;
+    s.iterations = 2 + random.below(8);
+    s.settled_move = static_cast<float>(s.contact_radius * random.magnitude(-3, 0.5));
+    if (random.one_in(2)) s.detection_fraction = 1;
+    s.detection_every = random.one_in(4) ? 1 + random.below(3) : 0;
+  });
+}
+CaseData planes_settle(Random& random) { return with_planes(settles(random)); }
+
 /// Drops rods alone, onto each other, or onto a sheet.
 CaseData rods(Random& random) {
   StepBuilder builder(random);
@@ -529,7 +545,7 @@ CaseData rods(Random& random) {
   return builder.finish();
 }
 
-constexpr std::array<Generator, 20> table{{{"fall", 12, true, fall},
+constexpr std::array<Generator, 22> table{{{"fall", 12, true, fall},
                                            {"onto", 13, true, onto},
                                            {"collide", 13, true, collide},
                                            {"handle", 12, true, handle},
@@ -544,6 +560,8 @@ constexpr std::array<Generator, 20> table{{{"fall", 12, true, fall},
                                            {"planes", 10, false, planes, 0, Stage::plane},
                                            {"ladder.planes", 22, false, planes_at_rest, 0, Stage::plane},
                                            {"dat", 12, false, dat, 0, Stage::plane},
+                                           {"settled", 12, false, settles},
+                                           {"settled.planes", 6, false, planes_settle, 0, Stage::plane},
                                            {"volume", 8, false, sheets_before_volumes, 0, Stage::volume_depth},
                                            {"cavity", 3, false, in_cavity, 0, Stage::volume_depth, true},
                                            {"ladder.volume", 11, false, volume_at_radius, 0, Stage::volume_depth},

@@ -134,6 +134,7 @@ Warnings::Warnings(const compare::Scene& scene, Solver solver)
     : radius_(scene.settings.contact_radius),
       guess_rounds_(scene.settings.guess_rounds),
       iterations_(scene.settings.iterations),
+      settled_move_(scene.settings.settled_move),
       free_(std::ranges::count(rigid_groups(scene), -1)) {
   for (std::string text : {bounds_warning(scene), box_warning(scene), radius_warning(scene), thin_solid_warning(scene),
                            curved_rest_warning(scene), tolerance_warning(scene, solver), keys_warning(scene)})
@@ -181,10 +182,11 @@ std::string Warnings::momentum_text() const {
 }
 
 std::string Warnings::force_text() const {
+  const std::string settles = settled_move_ > 0 ? "a smaller settled_move than " + number(settled_move_) + " m, " : "";
   return "the median step leaves free vertices with " + number(100 * forces_left_.median_residual(), 3) +
          " % of their force (Eq. 29, " + counted(forces_left_.steps(), "step") + " measured), above " +
-         number(100 * most_force_left) + " %: sweeps end before they are done; take more iterations than " +
-         std::to_string(iterations_) + ", a smaller time_step, or --solver newton";
+         number(100 * most_force_left) + " %: sweeps end before they are done; take " + settles +
+         "more iterations than " + std::to_string(iterations_) + ", a smaller time_step, or --solver newton";
 }
 
 std::string Warnings::held_text() const {

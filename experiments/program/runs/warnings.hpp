@@ -81,6 +81,7 @@ class Warnings {
   std::vector<std::string> of_scene_;
   double radius_ = 0;
   std::int64_t guess_rounds_ = 0, iterations_ = 0;
+  double settled_move_ = 0;
   std::int64_t free_ = 0;  ///< number of vertices that only forces move
   /// number of consecutive steps up to now that ended with all free vertices cut, and the largest such number
   std::int64_t held_ = 0, longest_held_ = 0;

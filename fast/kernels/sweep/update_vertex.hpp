@@ -104,7 +104,7 @@ struct UpdatePrescribed {
 };
 
 /// Measures the force on each free vertex at the current positions. One team runs for each slot. In `view` the old and
-/// the fresh positions are one buffer (to_fresh = 0), which is not written.
+/// the fresh positions are one buffer (to_fresh = 0), which is not written. Nothing is measured if the view is off.
 template <class Gather>
 struct MeasureVertex {
   static constexpr int parts = Gather::parts;  ///< number of parts of the vertex's sum
@@ -115,6 +115,7 @@ struct MeasureVertex {
   template <class Team>
   OGC_HD void operator()(int slot, const Team& team) const {
     const SweepVertex vertex = view.vertices[slot];
+    if (view.is_off(vertex)) return team.leave();
     const Vec own = view.old[vertex.vertex], target = view.target[vertex.vertex];
     ForceAndBlock total = Gather{}(view, slot, vertex, own, team);
     if (!team.holds_total()) return;

@@ -59,6 +59,15 @@ TEST_CASE("a chain, a ring, a branch and a straight chain are rods", "[unit]") {
   CHECK(said(scene_of(chain(5, 0))).empty());
 }
 
+TEST_CASE("no step of a scene with rods ends by its vertices' moves alone", "[unit]") {
+  Scene scene = scene_of(chain(3));
+  scene.settings.settled_move = 0.5;
+  CHECK_THAT(said(scene), Contains("setting 'settled_move': is 0.5 in a scene with rods; give 0"));
+  scene.bodies[1].fixed = true;
+  scene.bodies[1].material.rod.reset();
+  CHECK(said(scene).empty());
+}
+
 TEST_CASE("what no rod can be is named with what to do", "[unit]") {
   SECTION("a rod's material on a body without loose edges") {
     Scene scene = scene_of(chain(3));

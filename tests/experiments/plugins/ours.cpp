@@ -49,7 +49,7 @@ Settings settings_of(const ogc_settings& s) {
   settings.time_step = s.time_step, settings.contact_radius = s.contact_radius,
   settings.detection_radius_cap = s.detection_radius_cap;
   settings.bounds_relaxation = s.bounds_relaxation, settings.detection_fraction = s.detection_fraction,
-  settings.friction_velocity = s.friction_velocity;
+  settings.friction_velocity = s.friction_velocity, settings.settled_move = s.settled_move;
   settings.iterations = s.iterations, settings.detection_every = s.detection_every,
   settings.detection_gap = s.detection_gap, settings.guess_rounds = s.guess_rounds, settings.lanes = s.lanes;
   settings.contact_activation = static_cast<ContactActivation>(s.contact_activation),
@@ -260,9 +260,11 @@ class Step {
     std::int64_t since = 0;
     for (std::int64_t i = breaks("one iteration less") ? 1 : 0; i < s.iterations; ++i) {
       if (!found) detect(), since = 0;
+      const std::vector<Vec3f> before = x_;
       const Index cut = sweep();
       ++since;
       found = (cut < threshold(1) || since < s.detection_gap) && (s.detection_every == 0 || since < s.detection_every);
+      if (found && cut == 0 && s.settled_move > 0 && largest_move(before) <= s.settled_move) break;
     }
   }
 
@@ -353,6 +355,14 @@ class Step {
     }
     events.push_back({StepEventKind::guess, x_, cut, {}, {}, {}});
     return cut;
+  }
+
+  double largest_move(const std::vector<Vec3f>& before) const {
+    double largest = 0;
+    for (std::size_t v = 0; v < count_; ++v)
+      for (float Vec3f::*axis : {&Vec3f::x, &Vec3f::y, &Vec3f::z})
+        largest = std::max(largest, std::abs(double{x_[v].*axis} - before[v].*axis));
+    return largest;
   }
 
   Index sweep() {

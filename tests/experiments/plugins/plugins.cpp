@@ -186,9 +186,9 @@ TEST_CASE(
   refuses("nowhere.so", "", "there is no such file");
   refuses(OGC_SOURCE_DIR "/README.md", "", "it can't be loaded");
   refuses(folder + "/libplugin_anything.so", "", "no function ogc_plugin");
-  refuses(folder + "/libplugin_newer.so", "", "built for version 11");
+  refuses(folder + "/libplugin_newer.so", "", "built for version 12");
   refuses(folder + "/libplugin_older.so", "",
-          "built for version 9 of compare/plugin.h, and this program takes version 10");
+          "built for version 10 of compare/plugin.h, and this program takes version 11");
   refuses(folder + "/libplugin_odd_memory.so", "", "asks for memory 9");
   refuses(folder + "/libplugin_empty.so", "", "no stage's function");
   refuses(broken, "bound", "no function ogc_bound; its stages: detect_vertex_facet, detect_edge_edge, activation");

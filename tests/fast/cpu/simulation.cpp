@@ -245,6 +245,70 @@ TEST_CASE("whether iterations are asked one by one or in groups whether a detect
   }
 }
 
+TEST_CASE("a step that settles has the row and the bits of a step with as many iterations", "[property]") {
+  constexpr double moves[] = {2e-3, 5e-4, 1e-4, 2e-5};
+  compare::Scene scene = drop_scene();
+  scene.settings.iterations = 12;
+  compare::Snapshot state = start_cpu(scene, {})->snapshot();
+  std::vector<int> measured(2);  // steps that end early after an even and an odd number of iterations
+  for (std::size_t k = 0; k < 60; ++k) {
+    INFO("step " << k);
+    scene.settings.settled_move = moves[k % 4];
+    state.step = 299;  // step 300 measures forces for nearly all numbers of iterations
+    const auto settles = start_cpu(scene, {});
+    settles->restore(state);
+    Rows row = settles->advance(1);
+    compare::Scene with_as_many = scene;
+    with_as_many.settings.settled_move = 0;
+    with_as_many.settings.iterations = row.at(0).iterations;
+    const auto other = start_cpu(with_as_many, {});
+    other->restore(state);
+    Rows expected = other->advance(1);
+    state = settles->snapshot();
+    CHECK(same_bits(state.positions, other->snapshot().positions));
+    CHECK(same_bits(state.velocities, other->snapshot().velocities));
+    CHECK(state.bounds == other->snapshot().bounds);
+    const bool is_measured = !std::isnan(expected.at(0).left_residual);
+    CHECK(row[0].left_residual > 0);
+    if (is_measured && row[0].iterations < 12) ++measured[static_cast<std::size_t>(row[0].iterations % 2)];
+    for (compare::StepMetrics* each : {&row[0], &expected[0]}) {
+      each->wall_ms = 0;
+      if (!is_measured) each->left_residual = each->left_rounding = each->left_held = 0;
+    }
+    CHECK(compare::step_lines(row, 0) == compare::step_lines(expected, 0));
+  }
+  CHECK(measured[0] > 0);
+  CHECK(measured[1] > 0);
+}
+
+TEST_CASE("a cloth that comes to rest settles, whether iterations are asked one by one or in groups", "[property]") {
+  compare::Scene scene = empty_scene();
+  compare::Material material;
+  material.contact_stiffness = 10;
+  add_sheet(scene, 8, 0.06, 0.00499, false, material);
+  add_sheet(scene, 6, 0.10, 0, true, material);
+  scene.settings.detection_every = 2;
+  scene.settings.settled_move = 1e-6;
+  const Outcome grouped = run(scene, 60);
+  const auto simulation = start_cpu(scene, {});  // the previous frame decides whether a frame groups iterations
+  std::int64_t iterations = 0;
+  for (std::size_t k = 0; k < 60; ++k) {
+    const compare::StepMetrics row = simulation->advance(1).at(0), &expected = grouped.rows.at(k);
+    CHECK(row.iterations == expected.iterations);
+    CHECK(row.discrete_detections == expected.discrete_detections);
+    CHECK(row.kinetic_energy == expected.kinetic_energy);
+    CHECK(row.last_motion == expected.last_motion);
+    iterations += row.iterations;
+  }
+  CHECK(same_bits(simulation->snapshot().positions, grouped.end.positions));
+  CAPTURE(grouped.rows.front().iterations, grouped.rows.back().iterations, iterations);
+  CHECK(grouped.rows.front().iterations > grouped.rows.back().iterations);
+  CHECK(iterations < 600);
+  for (std::size_t v = 0; v < 64; ++v) CHECK(std::abs(grouped.end.positions[v].y - 0.00495) < 6e-5);
+  scene.settings.settled_move = 0;
+  for (const compare::StepMetrics& row : run(scene, 60).rows) CHECK(row.iterations == 10);
+}
+
 TEST_CASE("lists that start with room for one contact give the same bits, and the repeats are counted", "[property]") {
   const compare::Scene scene = drop_scene();
   const Outcome roomy = run(scene, 12), tight = run(scene, 12, {}, 1);

@@ -154,6 +154,81 @@ TEST_CASE("iterations take turns, none while a detection is due, and after the l
   CHECK(c.detect == 0);
 }
 
+TEST_CASE(
+    "an iteration settles a step where nothing moved, was cut or lags and no detection is due; none has a turn after "
+    "it",
+    "[unit]") {
+  ControlSettings settings;
+  settings.redetect_vertices = 5;
+  settings.detection_gap = 3;
+  settings.iterations = 12;
+  settings.settled_move = 1;
+  StepControl c = running();
+  const int overflow = 0;
+  const auto iterate = [&] {
+    EndIteration{&c, settings, c.iterations}(0);
+    return c.turn >= settings.iterations;
+  };
+  c.note_move();
+  CHECK_FALSE(iterate());
+  CHECK(c.turn == 1);
+  c.cut = 1;  // too few for a detection
+  CHECK_FALSE(iterate());
+  EndDetection{&c, &overflow}(0);
+  c.cut = 5;  // enough, but too early for a detection
+  CHECK_FALSE(iterate());
+  CHECK(c.detect == 0);
+  c.lag_asked = 1;
+  c.count_lag(false);  // it has asked already, and can't move
+  CHECK_FALSE(iterate());
+  c.count_lag(true);  // too early for a detection
+  CHECK_FALSE(iterate());
+  settings.detection_every = 4;
+  CHECK_FALSE(iterate());  // too few since the last detection
+  CHECK(c.detect == 1);
+}
+
+TEST_CASE("a step that settles has neither a turn nor a detection left, and its turn tells the buffer of x", "[unit]") {
+  const int overflow = 0;
+  for (const int iterations : {6, 7})
+    for (int last = 1; last <= iterations; ++last) {
+      ControlSettings settings;
+      settings.iterations = iterations;
+      settings.settled_move = 1e-30f;
+      StepControl c = running();
+      for (int i = 0; i < last; ++i) {
+        if (i + 1 < last) c.note_move();
+        EndIteration{&c, settings, i}(0);
+      }
+      CHECK(c.iterations == last);
+      CHECK(c.turn >= iterations);
+      CHECK(c.turn <= iterations + 1);
+      CHECK(c.turn % 2 == c.iterations % 2);
+      CHECK(c.detect == 0);
+      CHECK(c.moved == 0);
+      for (int i = 0; i < iterations; ++i) EndIteration{&c, settings, i}(0);  // not their turn
+      CHECK(c.iterations == last);
+    }
+  ControlSettings settings;
+  settings.settled_move = 1;
+  settings.detection_every = 2;
+  StepControl c = running();
+  c.note_move();
+  EndIteration{&c, settings, 0}(0);
+  EndIteration{&c, settings, 1}(0);  // a detection is due
+  CHECK(c.turn == -1);
+  EndDetection{&c, &overflow}(0);
+  CHECK(c.turn == 2);
+  EndIteration{&c, settings, 2}(0);
+  CHECK(c.turn >= settings.iterations);
+  c.note_move();
+  BeginStep{&c, settings}(0);
+  CHECK(c.moved == 0);
+  settings.settled_move = 0;
+  EndIteration{&c, settings, 0}(0);
+  CHECK(c.turn == 1);
+}
+
 TEST_CASE("a list that was too small, a violation or a number that is not finite stops the step and all that follow",
           "[unit]") {
   const int overflow = 1, none = 0;

@@ -18,12 +18,13 @@ using Sums = std::array<double, sum_columns>;
 // and the acceleration is (−1, 2, −10).
 struct OneVertex {
   Vec position{2, 5, 9}, start{1, 2, 4}, target{4, 9, 16}, previous{1, 2, 4};
-  PaddedVec before{{2, 4, 11}};
+  PaddedVec before[2] = {PaddedVec{{2, 4, 11}}, PaddedVec{{2, 5, 10}}};  // the two buffers of the sweeps
+  int sweeps = 3;                                                        // the third one read the first buffer
   float mass = 3, bound = 10;
 
   VertexTerm term(const int& prescribed) const {
     return {.position = &position,
-            .before = &before,
+            .before = {before, 1, &sweeps},
             .start = &start,
             .target = &target,
             .mass = &mass,
@@ -59,6 +60,14 @@ TEST_CASE("kinetic and gravity energy and the momenta of a vertex", "[unit]") {
   CHECK(sums[sum_moved + 2] == 3 * 12.0);
   CHECK(sums[sum_last] == 3 * (1.0 + 4));
   CHECK(sums[sum_way] == 3 * (1.0 + 9 + 25));
+}
+
+TEST_CASE("the last motion of a step is that since the buffer which its last sweep read", "[unit]") {
+  OneVertex vertex;
+  for (const int sweeps : {1, 2, 7, 8}) {
+    vertex.sweeps = sweeps;
+    CHECK(vertex.terms(-1)[sum_last] == 3 * (sweeps % 2 == 0 ? 1.0 : 5.0));
+  }
 }
 
 TEST_CASE("a vertex that is held has energies, and no momentum to lose", "[unit]") {

@@ -2,8 +2,11 @@
 #include "fast/probes/probe_step.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <utility>
 
+#include "compare/judge/cases/generators.hpp"
 #include "fast/cpu/backend.hpp"
 #include "fast/cpu/simulation.hpp"
 #include "fast/stages/way.hpp"
@@ -62,6 +65,78 @@ TEST_CASE("a traced step gives the bits of an untraced one, and as many events a
   CHECK(row.discrete_detections > row.guess_rounds);
   CHECK(trace.events.back().cut == row.vertices_cut);
   CHECK(same_bits(trace.events.back().position, end.positions));
+}
+
+namespace {
+
+/// Returns by how much a vertex moved at most along an axis between two events [m].
+double largest_move(const compare::StepEvent& before, const compare::StepEvent& after) {
+  double largest = 0;
+  for (std::size_t v = 0; v < after.position.size(); ++v)
+    for (float compare::Vec3f::*axis : {&compare::Vec3f::x, &compare::Vec3f::y, &compare::Vec3f::z})
+      largest = std::max(largest, std::abs(double{after.position[v].*axis} - before.position[v].*axis));
+  return largest;
+}
+
+/// Returns how many events a step has with this setting, given the events without it.
+std::size_t settled_length(const std::vector<compare::StepEvent>& events, float settled_move) {
+  for (std::size_t i = 1; i + 1 < events.size(); ++i) {
+    const compare::StepEvent& event = events[i];
+    if (event.kind != compare::StepEventKind::sweep || event.cut > 0 ||
+        events[i + 1].kind == compare::StepEventKind::detection)
+      continue;
+    if (largest_move(events[i - 1], event) <= double{settled_move}) return i + 1;
+  }
+  return events.size();
+}
+
+}  // namespace
+
+TEST_CASE(
+    "with settled_move a step ends after the first iteration that moves nothing farther, cuts nothing and asks for no "
+    "detection, and has the same bits up to there",
+    "[property]") {
+  for (const char* generator : {"settled", "settled.planes"}) {
+    // steps that end early, and that do not; iterations after which a step goes on only because of a cut or a detection
+    int early = 0, whole = 0, cut = 0, detects = 0;
+    constexpr std::uint64_t cases = 250;
+    for (std::uint64_t index = 0; index < cases; ++index) {
+      INFO(generator << " " << index);
+      const compare::TestCase test = compare::generate({compare::Stage::step, generator, 3, index, "", {}});
+      const auto& data = compare::case_of<compare::StepCase>(test.data);
+      compare::Scene scene = *data.scene;
+      const double own = std::exchange(scene.settings.settled_move, 0);
+      REQUIRE(own > 0);
+      const std::vector<compare::StepEvent> all = traced(scene).events;
+      const std::size_t some = all.size() - 1 - index % (all.size() - 1);
+      const auto move = static_cast<float>(largest_move(all[some - 1], all[some]));
+      for (const float settled_move : {static_cast<float>(own), move, std::nextafter(move, 0.0f)}) {
+        scene.settings.settled_move = settled_move;
+        const compare::StepOut out = traced(scene);
+        REQUIRE(out.events.size() == (settled_move > 0 ? settled_length(all, settled_move) : all.size()));
+        for (std::size_t i = 0; i < out.events.size(); ++i) {
+          REQUIRE(out.events[i].kind == all[i].kind);
+          REQUIRE(out.events[i].cut == all[i].cut);
+          REQUIRE(same_bits(out.events[i].position, all[i].position));
+        }
+        CHECK(same_bits(out.position, out.events.back().position));
+      }
+      const std::size_t length = settled_length(all, static_cast<float>(own));
+      ++(length < all.size() ? early : whole);
+      for (std::size_t i = 1; i + 1 < length; ++i) {
+        if (all[i].kind != compare::StepEventKind::sweep || largest_move(all[i - 1], all[i]) > own) continue;
+        const bool is_followed = all[i + 1].kind == compare::StepEventKind::detection;
+        cut += all[i].cut > 0 && !is_followed;
+        detects += all[i].cut == 0 && is_followed;
+      }
+    }
+    INFO(generator << ": " << early << " end early, " << whole << " do not; " << cut << " cuts, " << detects
+                   << " detections");
+    CHECK(early > static_cast<int>(cases) / 10);
+    CHECK(whole > static_cast<int>(cases) / 10);
+    CHECK(cut > 0);
+    CHECK(detects > 0);
+  }
 }
 
 TEST_CASE("the last detection of a trace is the one that the state's certificate names", "[property]") {

@@ -10,7 +10,7 @@ TEST_CASE("iterations are grouped where fewer than one in four asks for a detect
     for (const int iterations : {1, 7, 8, 40}) {
       for (std::int64_t redetections = 0; redetections <= steps * iterations; ++redetections) {
         const double share = static_cast<double>(redetections) / static_cast<double>(steps * iterations);
-        REQUIRE(iterations_in_group(redetections, steps, iterations) == (share < 0.25 ? 5 : 1));
+        REQUIRE(iterations_in_group(redetections, steps * iterations) == (share < 0.25 ? 5 : 1));
       }
     }
   }

@@ -127,6 +127,76 @@ TEST_CASE("cut vertices cause no detection within detection_gap iterations of th
   CHECK(order(rare, 100, {}) == std::vector{find, guess, sweep, find, sweep, find, sweep, find, sweep, find, sweep});
 }
 
+TEST_CASE("a step ends after an iteration that moves nothing and cuts nothing, unless a detection is due", "[unit]") {
+  compare::Settings settles = settings(6, 0.5);
+  settles.settled_move = 1;
+  struct Iteration {
+    Index cut = 0;
+    bool is_still = true;
+    reference::StepLag lag{};
+  };
+  const auto sweeps = [&](const std::vector<Iteration>& iterations) {
+    reference::StepOrder order(settles, 10);
+    order.took_place(0);
+    order.took_place(0, {}, false, true);  // the guess does not end the step
+    std::size_t count = 0;
+    for (auto kind = order.next(); kind; kind = order.next()) {
+      if (*kind == find) {
+        order.took_place(0, {}, false, true);
+        continue;
+      }
+      const Iteration& own = count < iterations.size() ? iterations[count] : Iteration{0, false};
+      order.took_place(own.cut, own.lag, false, own.is_still);
+      ++count;
+    }
+    return count;
+  };
+  CHECK(sweeps({}) == 6);
+  CHECK(sweeps({{}}) == 1);
+  CHECK(sweeps({{0, false}, {0, false}, {}}) == 3);
+  CHECK(sweeps({{1}, {4}, {}}) == 3);                                  // too few for a detection
+  CHECK(sweeps({{5}, {}}) == 2);                                       // after a detection
+  CHECK(sweeps({{1, true, {1, false}}, {1, true, {1, false}}}) == 6);  // the second lag causes no detection
+  settles.detection_gap = 9;
+  CHECK(sweeps({{9}, {9}, {}}) == 3);
+  settles.detection_every = 2;
+  CHECK(sweeps({{0, false}, {}, {}}) == 3);
+  settles.detection_every = 1;
+  CHECK(sweeps({{}, {}, {}, {}, {}, {}}) == 6);
+  settles.settled_move = 0;
+  settles.detection_every = 0;
+  CHECK(sweeps({{}, {}, {}, {}, {}, {}}) == 6);
+}
+
+TEST_CASE("whether an iteration moved a vertex farther than settled_move is decided along each axis, without rounding",
+          "[unit]") {
+  compare::Scene scene = scene_of(sheet(2, 1), {});
+  scene.gravity = {};
+  scene.settings.settled_move = 0.25;
+  compare::round_to_single(scene);
+  const compare::Topology topology = compare::build_topology(scene);
+  const auto events = [&](const compare::Vec3f& move) {
+    compare::StepOut answer;
+    answer.target = answer.position = compare::to_single(scene.mesh.positions);
+    answer.velocity.resize(answer.position.size());
+    for (const StepEventKind kind : {find, guess, sweep, sweep, sweep, sweep}) {
+      compare::StepEvent& event = answer.events.emplace_back();
+      event.kind = kind, event.position = answer.position;
+    }
+    answer.events[2].position[3] = {1, 1, 1};
+    answer.events[3].position[3] = {1 + move.x, 1 + move.y, 1 + move.z};
+    for (std::size_t i : {4, 5}) answer.events[i].position[3] = {9.0f + static_cast<float>(i), 0, 0};
+    return reference::step({&scene, &topology}, answer).events.size();
+  };
+  const float more = 0.25f + 0x1p-23f;
+  CHECK(events({0.25f, -0.25f, 0.25f}) == 4);
+  for (const float sign : {1.0f, -1.0f}) {
+    CHECK(events({sign * more, 0, 0}) == 6);
+    CHECK(events({0, sign * more, 0}) == 6);
+    CHECK(events({0, 0, sign * more}) == 6);
+  }
+}
+
 TEST_CASE("r_q grows with the fastest vertex, a prescribed one included, up to its cap", "[unit]") {
   compare::Scene scene = scene_of(sheet(3, 1), {0, 0, 0});
   scene.gravity = {};

@@ -75,6 +75,64 @@ TEST_CASE("reference VBD lowers the residual from 1 to the noise of doubles, sin
                       [](const auto& row) { return row.detected == 1; }) >= 49);
 }
 
+TEST_CASE(
+    "reference VBD ends a step after the first iteration that moves nothing farther than settled_move, cuts nothing "
+    "and "
+    "asks for no detection",
+    "[property]") {
+  std::int64_t cut = 0, detected = 0, shorter = 0;
+  for (const std::int64_t every : {0, 3}) {
+    INFO("detection_every " << every);
+    constexpr std::size_t most = 16;
+    compare::Scene scene = two_sheets();
+    for (compare::Body& body : scene.bodies) body.material.contact_stiffness = 10;
+    scene.settings.time_step = 1.0 / 400;
+    scene.settings.detection_fraction = 1;
+    scene.settings.guess_rounds = 1;
+    scene.settings.detection_every = every;
+    for (std::size_t v = 0; v < 8; ++v) scene.velocities[v].y = -4;  // too fast for bounds: they are cut
+    const auto advanced = [&](std::size_t iterations, double settled_move) {
+      scene.settings.iterations = static_cast<std::int64_t>(iterations);
+      scene.settings.settled_move = settled_move;
+      const auto simulation = reference::start_vbd(scene, {.iterations = true});
+      compare::StepMetrics row = simulation->advance(1).at(0);
+      return std::pair(std::move(row), simulation->snapshot().positions);
+    };
+    std::vector<std::vector<compare::Vec3f>> ends;
+    for (std::size_t n = 1; n <= most; ++n) ends.push_back(advanced(n, 0).second);
+    const std::vector<compare::IterationMetrics> rows = advanced(most, 0).first.iteration_rows;
+    REQUIRE(rows.size() == most + 1);
+    std::vector<double> moves{1};  // by iteration; that of the first one is not known
+    for (std::size_t n = 1; n < most; ++n) {
+      double largest = 0;
+      for (std::size_t v = 0; v < ends[n].size(); ++v)
+        for (float compare::Vec3f::*axis : {&compare::Vec3f::x, &compare::Vec3f::y, &compare::Vec3f::z})
+          largest = std::max(largest, std::abs(double{ends[n][v].*axis} - ends[n - 1][v].*axis));
+      moves.push_back(largest);
+    }
+    for (std::size_t n = 1; n < most; ++n)
+      for (const double factor : {0.99, 1.01}) {  // positions are rounded, by far less than a percent of these moves
+        std::size_t expected = 0;
+        const auto settles = [&](std::size_t i) {
+          return moves[i] <= factor * moves[n] && rows[i].vertices_cut == 0 && rows[i + 1].detected == 0;
+        };
+        while (expected + 1 < most && !settles(expected)) ++expected;
+        const auto [row, end] = advanced(most, factor * moves[n]);
+        CHECK(row.iterations == static_cast<std::int64_t>(expected) + 1);
+        CHECK(end == ends[expected]);
+        shorter += expected + 1 < most;
+        for (std::size_t i = 1; i < expected; ++i) {
+          if (moves[i] > factor * moves[n]) continue;
+          cut += rows[i].vertices_cut > 0 && rows[i + 1].detected == 0;
+          detected += rows[i].vertices_cut == 0 && rows[i + 1].detected != 0;
+        }
+      }
+  }
+  CHECK(shorter > 0);
+  CHECK(cut > 0);
+  CHECK(detected > 0);
+}
+
 /// Facing vertices of one contact that share a colour are updated at once. If their blocks had the squared contact
 /// weight instead of the factor of method.md §7.4, each vertex would remove the whole overlap. The same number of
 /// sweeps would then leave a residual twelve times as large (Fig. 17).

@@ -129,6 +129,21 @@ TEST_CASE("steps that leave a tenth of the free vertices' force are warned of at
 }
 
 // The diagonal of the sheet is √2 m. In h = 10 ms gravity changes speeds by 98.1 mm/s.
+TEST_CASE("where settled_move may have ended steps, a warning of forces left names it first", "[unit]") {
+  compare::Scene scene = sheet();
+  scene.settings.settled_move = 0.5;
+  compare::StepMetrics row = numbered(1);
+  row.left_residual = 0.5, row.left_rounding = 0, row.left_held = 0;
+  const auto text = [&] {
+    Warnings warnings(scene);
+    warnings.look_at(row, std::nullopt);
+    return warnings.list().at(0);
+  };
+  CHECK_THAT(text(), Contains("take a smaller settled_move than 0.5 m, more iterations than"));
+  scene.settings.settled_move = 0;
+  CHECK_THAT(text(), Contains("take more iterations than"));
+}
+
 TEST_CASE("a tolerance of IPC above what gravity changes in a step is warned of, by its number and another one",
           "[unit]") {
   compare::Scene scene = sheet();
