@@ -161,7 +161,7 @@ class Place:
 
     def fault_by_parser(self, interpreter, kind, name, rest, text):
         # without a parser it takes words by position
-        if not re.search(r"argparse|baseline_arguments|parser_of_figure|common import main", text):
+        if not re.search(r"argparse|baseline_arguments|(parser|options)_of_figure|common import main", text):
             if any(word.startswith("-") for word in rest if rest != ["--help"]):
                 return f"{name} takes no options"
             status, _, said = self.run([*interpreter, "-c", f"import {name}"]) if kind == "module" else (0, "", "")

@@ -5,7 +5,7 @@ Every function returns jobs in an order in which they can be done; names are fol
 those of `ogc run`; `backend` is that of VBD in single precision, everything else runs on the CPU.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from paper_figures.workflow import layers, release
 from paper_figures.workflow.audited import Audit
@@ -182,28 +182,51 @@ def activations(scale, backend):
 # Table 1: for each row the whole run, its audit, one step from five of its states, and windows on the CPU from the same
 # states. Steps between stored, audited states: as many as fit into 1/60 s, one if a step is longer than half of that.
 MAT, MAT_PLANES = "mat_twist", "mat_twist_planes"
+STRETCH, YARN_TWIST = "yarn_stretch", "yarn_twist"
 FRAME_STEPS = {"twist": 5, "cloth_on_sphere": 1, "knot": 5, "fifty_layers": 20, "fifty_layers_1m": 20, "dress": 3,
-               "robot_shirt": 10, MAT: 4, "yarn_stretch": 41, "yarn_twist": 41}
+               "robot_shirt": 10, MAT: 4, STRETCH: 41, YARN_TWIST: 41, THREE_CLOTHS: 1}
+TABLE_SCENES = tuple(scene for scene in FRAME_STEPS if scene != THREE_CLOTHS)
 WITH_PLANES, WITH_VOLUMES = "_planes", "_volumes"  # ends of a row's name
+WITH_FAR, WITH_NEAR = "_far", "_near"  # with balls, and a query radius up to the scene's cap or only r
 # With balls, twisted cloth that can't collapse locks unless the query radius is r (ablations.md, membranes).
-NEAR_PAIRS = {"twist": ("--set", "detection_radius_cap=1")}
+NEAR_ROWS = ("twist", f"{MAT}{WITH_NEAR}")
+NEAR = ("--set", "detection_radius_cap=1")
 VOLUMES = ("dress", "robot_shirt")  # scenes whose body is a volume by default
-ROWS = tuple(scene + end for scene in FRAME_STEPS
-             for end in ("", WITH_PLANES, *([WITH_VOLUMES] if scene in (*VOLUMES, MAT) else [])))
+
+
+def ends_of_rows(scene):
+    """Returns the ends of the names of a scene's rows."""
+    volumes = {**dict.fromkeys(VOLUMES, (WITH_VOLUMES, WITH_VOLUMES + WITH_PLANES)), MAT: (WITH_VOLUMES,)}
+    return ("", WITH_PLANES, *volumes.get(scene, ()))
+
+
+ROWS = tuple(scene + end for scene in TABLE_SCENES for end in ends_of_rows(scene))
 SHARES = (0, 25, 50, 75, 100)  # of the whole run's steps [%]
 
 
 def scene_of(row):
     """Returns the scene of a row. Each scene has a row with the paper's bounds, which has its name, and one with
-    planes. A driven body, and the solid mat, are surfaces in both, and volumes in a third row."""
-    return row.removesuffix(WITH_PLANES).removesuffix(WITH_VOLUMES)
+    planes. A driven body, and the solid mat, are surfaces in both, and volumes in further rows."""
+    for end in (WITH_PLANES, WITH_VOLUMES, WITH_FAR, WITH_NEAR):
+        row = row.removesuffix(end)
+    return row
+
+
+def bounds_of(row):
+    """Returns the bounds of a row in words; `r_q = r`: with a query radius of r."""
+    return "planes" if row.endswith(WITH_PLANES) else "ball, r_q = r" if row in NEAR_ROWS else "ball"
+
+
+def body_of(row):
+    """Returns how the body of a row takes part in contacts."""
+    return "volume" if WITH_VOLUMES in row else "surface"
 
 
 def of_row(row, data):
     """Returns the options of a row. The dress is a stand-in without the data of Codimensional IPC."""
-    own = PLANES if row.endswith(WITH_PLANES) else NEAR_PAIRS.get(row, ())
-    if scene_of(row) in VOLUMES or row.endswith(WITH_VOLUMES):
-        own += ("--set", "body_contact=" + ("volume" if row.endswith(WITH_VOLUMES) else "surface"))
+    own = PLANES if row.endswith(WITH_PLANES) else NEAR if row in NEAR_ROWS else ()
+    if scene_of(row) in VOLUMES or body_of(row) == "volume":
+        own += ("--set", f"body_contact={body_of(row)}")
     return (*(("--set", f"data={data}") if data and scene_of(row) == "dress" else ()), *own)
 
 
@@ -238,29 +261,68 @@ def residuals(row, scale, backend, data=""):
     return from_states(row, "residual", 1, scale, options, data)
 
 
-# Time to quality: one step with four times the scene's iterations, from the states with motion. The reference measures
-# a residual for each iteration, half a second of a core for knot's 48,000 vertices, so knot has twice the scene's, and
-# the layers have the scene's.
+# Time to quality: the whole run of each row; from states with motion, timed steps with few iterations, the scene's and
+# many; and one step whose residual the reference measures after each iteration. This takes it half a second of a core
+# for knot's 48,000 vertices, so that the knot has twice the scene's iterations and the layers have the scene's. The
+# measured step runs on the CPU, because nearly all of its time is the reference's.
 QUALITY_SHARES = (25, 50, 75)
-QUALITY_ITERATIONS = {"twist": 40, "cloth_on_sphere": 160, "knot": 100, "fifty_layers": 40, "dress": 80,
-                      "robot_shirt": 40, MAT: 80}
-QUALITY_TIMED_STEPS = 5  # timed without residuals, which take time of their own
-QUALITY_ROWS = tuple(row for row in ROWS
-                     if scene_of(row) in QUALITY_ITERATIONS and not row.endswith(WITH_VOLUMES))
+QUALITY_ITERATIONS = {"cloth_on_sphere": (10, 40, 160), THREE_CLOTHS: (10, 40, 160), "twist": (3, 10, 40),
+                      "knot": (12, 50, 100), "fifty_layers": (10, 20, 40), "dress": (5, 20, 80),
+                      "robot_shirt": (3, 10, 40), MAT: (5, 20, 80), STRETCH: (1, 4, 16)}
+QUALITY_TIMED_STEPS = 5
+QUALITY_BESIDE = {"twist": (WITH_FAR,), MAT: (WITH_NEAR,)}
+# From the state in the middle of the run the same step by VBD and, until it has converged, by Newton's method. Both
+# are without friction, which the energies of iterations leave out. VBD lists contacts up to 2 r, because Newton's
+# method knows those of its result: only sweeps and bounds are compared. For the layers Newton's method takes too long,
+# and moving planes, without which bounds keep it from its minimum, do not hold rods.
+MINIMUM_SHARES = (50,)
+MINIMUM_SECONDS = {"smoke": 20, "small": 60, "paper": 120}  # of Newton's method; then it has no result
+MINIMUM_SCENES = tuple(scene for scene in QUALITY_ITERATIONS if scene not in ("fifty_layers", STRETCH))
+FRICTIONLESS_STEP = ("--set", "friction=0", "--iterations")
+ALL_CONTACTS = ("--set", "contact_margin=1")
 
 
-def quality(row, scale, backend, data=""):
-    """Returns jobs for the residual after each iteration, and for timed steps of the same state."""
-    options = ("--backend", backend, "--set", f"iterations={QUALITY_ITERATIONS[scene_of(row)]}")
-    yield from from_states(row, "quality", 1, scale, (*options, "--residual", "--iterations"), data, QUALITY_SHARES)
-    yield from from_states(row, "quality_timed", QUALITY_TIMED_STEPS, scale, options, data, QUALITY_SHARES)
+def quality_rows(scene):
+    """Returns the rows of a scene whose time to quality is measured. Bodies are volumes, as they are by default."""
+    body = WITH_VOLUMES if scene in VOLUMES else ""
+    return tuple(scene + end for end in (body, *QUALITY_BESIDE.get(scene, ()), body + WITH_PLANES))
 
 
-def to_quality(scale, backend):
-    """Returns both rows of each scene, from the runs of Table 1, which are used if they exist."""
-    for row in QUALITY_ROWS:
-        yield from (job for job in whole_runs(row, scale, backend) if isinstance(job, Job))
-        yield from quality(row, scale, backend)
+def most_iterations(row):
+    return ("--set", f"iterations={QUALITY_ITERATIONS[scene_of(row)][-1]}")
+
+
+def timed(row, scale, backend, steps=0, data=""):
+    """Returns the whole run of a row, which Table 1 shares, and the timed steps from its states."""
+    scene = scene_of(row)
+    begins = tuple(Share(share, FRAME_STEPS[scene]) for share in MINIMUM_SHARES) if scene in MINIMUM_SCENES else ()
+    whole, _ = whole_runs(row, scale, backend, steps=steps, data=data)
+    yield replace(whole, begins=begins)
+    for iterations in QUALITY_ITERATIONS[scene]:
+        options = ("--backend", backend, "--set", f"iterations={iterations}")
+        yield from from_states(row, f"timed_{iterations}", QUALITY_TIMED_STEPS, scale, options, data, QUALITY_SHARES)
+
+
+def left(row, scale, data=""):
+    """Returns the steps from the same states whose residual is measured after each iteration."""
+    options = ("--backend", "cpu", *most_iterations(row), "--iterations")
+    return from_states(row, "left", 1, scale, options, data, QUALITY_SHARES)
+
+
+def minimum(row, scale, data=""):
+    """Returns the steps without friction by VBD and by Newton's method."""
+    by_vbd = ("--backend", "cpu", *most_iterations(row), *ALL_CONTACTS, *FRICTIONLESS_STEP)
+    yield from from_states(row, "minimum_vbd", 1, scale, by_vbd, data, MINIMUM_SHARES)
+    for job in from_states(row, "minimum_newton", 1, scale, (*MAT_NEWTON, *FRICTIONLESS_STEP), data, MINIMUM_SHARES):
+        yield replace(job, may_fail=True, seconds=MINIMUM_SECONDS[scale])
+
+
+def to_quality(scene, scale, backend):
+    """Returns all jobs about a scene's time to quality."""
+    for row in quality_rows(scene):
+        yield from timed(row, scale, backend)
+        yield from left(row, scale)
+        yield from minimum(row, scale) if scene in MINIMUM_SCENES else ()
 
 
 def cpu_windows(row, steps, scale, data=""):
@@ -399,7 +461,6 @@ def minimiser(scale, backend):
 # Fig. 15 and 16. The baseline is the same sweep without bounds and with a force that stays finite at every distance:
 # the paper's "Newton". The ratio of the yarn's tension to k_c r decides, so that Fig. 15 also has two weaker k_c,
 # pulled as far as a mean stretch of 1 needs.
-STRETCH, YARN_TWIST = "yarn_stretch", "yarn_twist"
 YARN_KINDS = {"ogc": (), "baseline": ("--set", "bounds=off", "--set", "contact_activation=quadratic")}
 YARN_STIFFNESS = (222, 22, 2)  # N/m, the scene's first
 YARN_STEPS = {STRETCH: {"smoke": 100, "small": 16250, "paper": 16250},

@@ -48,10 +48,11 @@ def parser_of_figure(description, scales=(), scale="small", has_backend=True):
 
 
 def options_of_figure(description, scales):
-    """Returns the options of a figure whose runs and table need only Python's own library: folder, ogc, scale, backend,
-    no_picture."""
+    """Returns the options of a figure whose runs and tables need only Python's own library: folder, ogc, scale,
+    backend, no_picture, no_runs."""
     parser = parser_of_figure(description, scales)
-    parser.add_argument("--no-picture", action="store_true", help="runs and table alone")
+    parser.add_argument("--no-picture", action="store_true", help="runs and tables alone")
+    parser.add_argument("--no-runs", action="store_true", help="tables and picture of the runs that are there")
     return parser.parse_args()
 
 
@@ -117,8 +118,9 @@ class Job:
 
     `state`: (another job's name, frame) with which it begins; it is `more_steps` long if that is not 0. `scene`: a file
     that it writes first (layers.Stack). `may_fail`: a failure is a result. `processor_time`: its processor time is kept
-    beside the run. `pictured`: frames of it are packed, the `first` ones among them. `seconds`: it is stopped after
-    this time, and is then complete; with `least`, not before it has so many steps."""
+    beside the run. `pictured`: frames of it are packed, the `first` ones among them. `begins`: places of frames with
+    which jobs begin on the machine where it is unpacked; they are packed without the scene. `seconds`: it is stopped
+    after this time, and is then complete; with `least`, not before it has so many steps."""
 
     name: str
     arguments: tuple
@@ -129,6 +131,7 @@ class Job:
     processor_time: bool = False
     pictured: bool = True
     first: int = 0
+    begins: tuple = ()
     seconds: float = 0
     least: int = 0
 
@@ -216,7 +219,7 @@ class Job:
         chosen = chosen_frames(folder, frames, last, self.first) if self.pictured else []
         beside = [root / f"{self.name}{MEMORY}", *(folder / name for name in names)]
         yield from (path for path in beside if path.is_file())
-        yield from chosen
+        yield from dict.fromkeys([*chosen, *(frame_of(folder, place)[0] for place in self.begins)])
         if chosen:
             yield from sorted(path for path in (folder / "scene").glob("*") if path.is_file())
 

@@ -101,8 +101,9 @@ def unpack(folder, out, program):
 
 
 def assemble(program, run):
-    """Assembles trajectory.vtkhdf from a run's frames; `ogc export` makes it as a by-product."""
-    if not any((run / "frames").glob("*")) or (run / "trajectory.vtkhdf").is_file():
+    """Assembles trajectory.vtkhdf from a run's frames; `ogc export` makes it as a by-product. Of frames without a
+    scene, with which jobs begin, it makes nothing."""
+    if not any((run / "frames").glob("*")) or not (run / "scene").is_dir() or (run / "trajectory.vtkhdf").is_file():
         return
     scratch = run / "exported"
     command = [str(program), "export", str(run), "--format", "obj", "--out", str(scratch)]

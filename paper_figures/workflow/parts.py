@@ -95,12 +95,28 @@ def of_figures(wanted):
         "fig18_solvers": Part(folder("fig18_solvers", "cpu"), (solvers,), "fig18_solvers", frames=21),
         **of_mat(wanted),
         "minimiser": Part(folder("minimiser"), (minimiser,), "minimiser", frames=0, last=1),
-        "quality": Part(folder("table1"), (tuple(commands.to_quality(scale, backend)),), "quality", frames=0),
+        **of_quality(wanted),
         "fig15": Part(folder("fig15"), tuple(commands.yarn_stretched(scale, backend)), "fig15", frames=13, last=1),
         "fig16": Part(folder("fig16"), tuple(commands.yarn_twisted(scale, backend)), "fig16", frames=13, last=1),
         "fig16_rest": Part(folder("fig16_rest"), tuple(commands.yarn_at_rest(scale, backend)), "fig16_rest", frames=0,
                            last=3),  # of the last second
     }
+
+
+def of_quality(wanted):
+    """Returns three parts for each scene: whole runs and timed steps; residuals of steps from their states; minima from
+    the same states, which are packed. The last two need only processors."""
+    scale, data, folder = wanted.scale, wanted.data, wanted.folder("table1")
+
+    def part(scene, jobs_of):
+        jobs = tuple(job for row in commands.quality_rows(scene) for job in jobs_of(row))
+        return Part(folder, (jobs,), "quality", frames=0)
+
+    kinds = {"quality": lambda row: commands.timed(row, scale, wanted.backend, wanted.steps, data),
+             "left": lambda row: commands.left(row, scale, data),
+             "minimum": lambda row: commands.minimum(row, scale, data)}
+    return {f"{kind}_{scene}": part(scene, jobs_of) for kind, jobs_of in kinds.items()
+            for scene in (commands.MINIMUM_SCENES if kind == "minimum" else commands.QUALITY_ITERATIONS)}
 
 
 def of_mat(wanted):

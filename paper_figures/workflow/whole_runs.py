@@ -67,7 +67,7 @@ def table(folder):
     asked = {claim["scene"]: claim["run"] for claim in verdicts.load() if claim["id"].endswith(".cuda_average")}
     wanted = {row: {"scene": commands.scene_of(row), **asked[commands.scene_of(row)],
                     "bounds": "planes" if row.endswith(commands.WITH_PLANES) else "ball",
-                    "body_contact": "volume" if row.endswith(commands.WITH_VOLUMES) else "surface"} for row in ROWS}
+                    "body_contact": commands.body_of(row)} for row in ROWS}
     found = {row: evidence.runs_as(wanted[row]) for row in ROWS}
     rows = [row_of(row, run) for row, runs in found.items() for run in newest(runs)]
     if not rows:

@@ -138,6 +138,18 @@ class OneJob(Scratch):
         with self.assertRaisesRegex(jobs.RunFailure, "none has no step yet: make that run first"):
             self.make(Job("window", SPHERE, ("none", jobs.Share(50, 2))))
 
+    def test_a_frame_with_which_jobs_begin_elsewhere_is_packed_and_is_enough_there(self):
+        whole = Job("run", (*SPHERE, "--steps", "6", "--set", "frame_steps=2"), begins=(jobs.Share(50, 2),))
+        self.assertEqual(self.make(whole), FINISHED)
+        packed, home = self.folder / "packed", self.folder / "home"
+        packing.Archive(packed, self.folder).write({"part": parts.Part(".", ((whole,),), frames=0)})
+        self.assertEqual(packing.unpack(packed, home, OGC), [home / "run"])
+        self.assertEqual([path.name for path in (home / "run/frames").iterdir()], ["frame_000002.h5"])
+        self.assertFalse((home / "run/scene").exists() or (home / "run/trajectory.vtkhdf").exists())
+        self.assertTrue(whole.done(home))
+        window = Job("window", SPHERE, ("run", jobs.Share(50, 2)), more_steps=1)
+        self.assertEqual(window.make(OGC, home), FINISHED)
+
     def test_a_failure_has_its_command_and_last_words(self):
         with self.assertRaisesRegex(jobs.RunFailure, "(?s)run no_scene .*exit status 2.*no_scene"):
             self.make(Job("run", ("no_scene",)))
