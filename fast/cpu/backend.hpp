@@ -107,6 +107,12 @@ class CpuBackend {
     for_each_range(n, [&f](int begin, int end) { run_range(f, begin, end); });
   }
 
+  /// Runs each item in one thread.
+  template <int W, class F>
+  void for_each_group(int n, F f) {
+    for_each(n, f);
+  }
+
   /// Reads the count on the host, because all work enqueued before is done.
   template <class F>
   void for_each_counted(const int* n, int capacity, F f) {

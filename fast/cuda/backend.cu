@@ -33,6 +33,7 @@ CudaBackend::CudaBackend(CudaBackend&& other) noexcept
       block_threads_(other.block_threads_),
       multiprocessors_(other.multiprocessors_),
       scratch_(std::move(other.scratch_)),
+      branch_scratch_(std::move(other.branch_scratch_)),
       events_(std::exchange(other.events_, {})),
       is_end_(std::exchange(other.is_end_, {})) {}
 
@@ -102,11 +103,12 @@ cudaStream_t CudaBackend::begin_branch() {
   branches_.push_back(branch);
   wait_for(branch, current_);
   follows_ = false;
+  in_branch_ = true;
   return std::exchange(current_, branch);
 }
 
 void CudaBackend::end_branch(cudaStream_t main) {
-  follows_ = false;
+  follows_ = in_branch_ = false;
   current_ = main;
 }
 

@@ -2,7 +2,8 @@
 //
 //   stream_        a blocking stream: ordered with Buffer copies (legacy stream); nothing else waits
 //   current_       the stream that takes work: stream_, or another one while a node's body or a branch is recorded
-//   scratch_       temporary memory that scan and sort share, since they run one after the other
+//   scratch_       temporary memory that scan and sort share, since they run one after the other; branches have memory
+//                  of their own
 //   follows_       whether the last work in current_ is a kernel, which the next one may follow (fast/cuda/follow.cuh)
 //
 // A step has thousands of small kernels. Enqueued one by one each costs 3.2 µs of host time; inside a CUDA graph it
@@ -111,6 +112,14 @@ __global__ void __launch_bounds__(cuda_block_size, resident_blocks<G>())
   for (i -= m; i < count; i += stride) g(i);
 }
 
+/// Runs f(i, lanes) for i < n, with W neighbouring threads for each i.
+template <int W, class F>
+__global__ void __launch_bounds__(cuda_block_size) run_each_group(int n, F f) {
+  follow_launch();
+  const int groups = static_cast<int>(gridDim.x * blockDim.x) / W;
+  for (int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x) / W; i < n; i += groups) f(i, GroupLanes<W>{});
+}
+
 /// Runs f for each row, with one warp per row (fast/cuda/least.cuh).
 template <class F>
 __global__ void __launch_bounds__(cuda_block_size) run_each_row(int n, const int* offsets, const float* values, F f) {
@@ -212,6 +221,14 @@ class CudaBackend {
       follow(typeid(F), run_each<F>, blocks(n), block_threads_, n, f);
   }
 
+  /// Launches W threads per item, which share its work. If the device cannot hold so many threads, they take several
+  /// items.
+  template <int W, class F>
+  void for_each_group(int n, F f) {
+    if (n <= 0) return;
+    follow(typeid(F), run_each_group<W, F>, blocks(std::int64_t{W} * n), block_threads_, n, f);
+  }
+
   /// Launches threads for `capacity` items; the device reads the number of items.
   template <class F>
   void for_each_counted(const int* n, int capacity, F f) {
@@ -271,7 +288,7 @@ class CudaBackend {
 
   /// Runs both scans in one launch if both are short, else in two. May allocate temporary memory.
   void exclusive_scans(const Scan& first, const Scan& second) {
-    fast::exclusive_scans(current_, scratch_, recording_ && follows_, first, second);
+    fast::exclusive_scans(current_, in_branch_ ? branch_scratch_ : scratch_, recording_ && follows_, first, second);
     follows_ = true;
   }
   /// Sorts by CUB's radix sort; may allocate temporary memory.
@@ -414,9 +431,9 @@ class CudaBackend {
   void launch(const Recording& recording, int times);
 
   cudaStream_t stream_ = nullptr, current_ = nullptr;
-  bool recording_ = false, follows_ = false;
+  bool recording_ = false, follows_ = false, in_branch_ = false;
   int block_threads_ = cuda_block_size, multiprocessors_ = 1;
-  Scratch scratch_;
+  Scratch scratch_, branch_scratch_;
   std::vector<cudaStream_t> branches_;  // of the current recording
   std::vector<cudaEvent_t> crossings_;  // of the current recording: events where branches begin and end
   std::vector<cudaEvent_t> events_;     // in the order of time; two consecutive events enclose a repetition, or nothing

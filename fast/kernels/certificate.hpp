@@ -18,9 +18,10 @@ OGC_HD inline bool is_outside(const Ball& ball, const Vec& position) {
 
 /// Returns whether the position fails the certificate: it is outside the ball, or not certainly within a half-space.
 OGC_HD inline bool is_outside(const FeasibleRegion& region, const Vec& position) {
-  for (int k = 0; k < region.count; ++k)
-    if (!is_behind(region.planes[k], position)) return true;
-  return is_outside(region.ball, position);
+  bool outside = is_outside(region.ball, position);
+  // without an early return, so that a device overlaps the loads of several half-spaces
+  for (int k = 0; k < region.count; ++k) outside = !is_behind(region.planes[k], position) || outside;
+  return outside;
 }
 
 }  // namespace ogc::fast

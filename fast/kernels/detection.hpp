@@ -6,16 +6,18 @@
 #include "fast/kernels/detect_edge_edge.hpp"
 #include "fast/kernels/detect_vertex_facet.hpp"
 #include "fast/kernels/lists.hpp"
+#include "fast/kernels/plane_lists.hpp"
 
 namespace ogc::fast {
 
-/// Copies positions into aligned vectors, clears the lists, sets smallest distances to r_q, and refits the trees. The
-/// four operations are independent of each other. Runs once for each index below count(), in whole warps.
+/// Copies positions into aligned vectors, clears the lists, sets smallest distances to r_q, prepares planes, and refits
+/// the trees. The five operations are independent of each other. Runs once for each index below count(), in whole warps.
 struct BeginDetection {
   const Vec* positions;  ///< by vertex [m]
   PaddedVec* padded;     ///< the same positions in aligned vectors, written
   PrepareLists lists;
   ResetDistances distances;
+  PreparePlanes planes;
   RefitTrees refit;
 
   /// Returns the number of items of the launch: enough for all buckets, all triangles and all places of the trees, in
@@ -26,7 +28,10 @@ struct BeginDetection {
     return RefitTrees::filled_up(items > places ? items : places);
   }
   OGC_HD void operator()(int i) const {
-    if (i < distances.vertex_count) padded[i] = PaddedVec(positions[i]);
+    if (i < distances.vertex_count) {
+      padded[i] = PaddedVec(positions[i]);
+      planes(i);
+    }
     lists(i);
     distances(i);
     refit(i);

@@ -69,13 +69,17 @@ struct FeasibleRegions {
   OGC_HD bool has_planes() const { return counts != nullptr; }
   /// Returns the ball of a vertex, so that a kernel can load it early, together with other data.
   OGC_HD Ball ball(int v) const { return {centre[v], radius[v]}; }
-  /// Returns the region of a vertex; `ball` must be ball(v).
-  OGC_HD FeasibleRegion region(int v, const Ball& ball) const {
+  /// Returns the number of half-spaces of a vertex.
+  OGC_HD int count(int v) const { return counts == nullptr ? 0 : counts[v]; }
+  /// Returns the first half-space of a vertex; there is memory for most_planes of them.
+  OGC_HD const HalfSpace* first(int v) const { return planes + static_cast<std::ptrdiff_t>(v) * most_planes; }
+  /// Returns the region of a vertex; `ball` must be ball(v), `count` must be count(v).
+  OGC_HD FeasibleRegion region(int v, const Ball& ball, int count) const {
     if (is_off) return {{ball.centre, unbounded}};
     if (counts == nullptr) return {ball};
-    return {ball, planes + static_cast<std::ptrdiff_t>(v) * most_planes, counts[v], slides};
+    return {ball, first(v), count, slides};
   }
-  OGC_HD FeasibleRegion operator[](int v) const { return region(v, ball(v)); }
+  OGC_HD FeasibleRegion operator[](int v) const { return region(v, ball(v), count(v)); }
 
  private:
   /// radius of an unbounded ball [m]; its square fits into single precision

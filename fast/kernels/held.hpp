@@ -8,6 +8,14 @@
 
 namespace ogc::fast {
 
+/// Truncates a proposal that is not in the region.
+template <class Metric, class Lanes>
+OGC_HD Truncated moved_into(const FeasibleRegion& region, const Vec& current, const Vec& proposal, const Metric& metric,
+                            const Lanes& lanes) {
+  if (!region.slides) return scale_into(region, region.ball.centre, proposal, lanes);
+  return slide_into(region, current, proposal, metric, lanes);
+}
+
 /// Returns the proposal for a free vertex, truncated to its region; `cut`: truncation changed it. All lanes of a team
 /// must call this together.
 template <class Metric, class Lanes = OneLane>
@@ -15,8 +23,15 @@ OGC_HD Truncated held(const FeasibleRegion& region, const Vec& current, const Ve
                       const Lanes& lanes = {}) {
   if (region.count == 0) return truncate(region.ball, proposal);
   if (is_within(region, proposal, lanes)) return {proposal, false};
-  if (!region.slides) return scale_into(region, region.ball.centre, proposal, lanes);
-  return slide_into(region, current, proposal, metric, lanes);
+  return moved_into(region, current, proposal, metric, lanes);
+}
+/// Does the same; `own` is the half-space that this lane read ahead (see is_within).
+template <class Metric, class Lanes>
+OGC_HD Truncated held(const FeasibleRegion& region, const HalfSpace& own, const Vec& current, const Vec& proposal,
+                      const Metric& metric, const Lanes& lanes) {
+  if (region.count == 0) return truncate(region.ball, proposal);
+  if (is_within(region, own, proposal, lanes)) return {proposal, false};
+  return moved_into(region, current, proposal, metric, lanes);
 }
 
 /// Returns the target of a prescribed vertex, truncated to its region on the straight line to the target.

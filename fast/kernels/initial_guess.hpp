@@ -72,7 +72,8 @@ struct BeginRegions {
 
 /// Sets x to y, truncated to the region. Before this, contacts may shorten the move of a free vertex. The truncation
 /// slides a free vertex along half-spaces with the metric of inertia. From the second round on, a prescribed vertex in
-/// contact stays, because only the sweeps move its neighbours out of its way. Runs once for each vertex.
+/// contact stays, because only the sweeps move its neighbours out of its way. Runs once for each vertex; lanes may share
+/// the half-spaces of a vertex.
 struct GuessVertex {
   const Vec* target;        ///< y by vertex [m]
   FeasibleRegions regions;  ///< about X_prev
@@ -85,13 +86,19 @@ struct GuessVertex {
   StepControl* control;          ///< on the backend; `active` and `rounds` are read, cuts are counted
   const int* prescribed_number;  ///< as in BeginVertex
 
-  OGC_HD void operator()(int v) const {
+  OGC_HD void operator()(int v) const { (*this)(v, SerialTeam<1>{}); }
+  template <class Lanes>
+  OGC_HD void operator()(int v, const Lanes& lanes) const {
     if (control->active == 0) return;
     const FeasibleRegion region = regions[v];
-    const Vec &stay = region.ball.centre, wanted = proposal(v, stay);
+    const Vec& stay = region.ball.centre;
+    Vec change;
+    const Vec wanted = proposal(v, stay, change);
     const bool is_prescribed = regions.has_planes() && prescribed_number[v] >= 0;
     const Truncated kept = is_prescribed ? held_on_path(region, stay, wanted)
-                                         : held(region, stay, wanted, InertiaMetric{});
+                                         : held(region, stay, wanted, InertiaMetric{}, lanes);
+    if (!lanes.leader()) return;
+    taken[control->rounds % 2 != 0 ? v : v + vertex_count] = change;
     position[v] = kept.position;
     if (is_prescribed)
       count_behind(*control, kept, stay, regions);
@@ -101,18 +108,16 @@ struct GuessVertex {
 
  private:
   /// Returns the position before truncation: exactly y if no contact shortens the move. From the second round on, a
-  /// prescribed vertex in contact stays at `stay`.
-  OGC_HD Vec proposal(int v, const Vec& stay) const {
-    const bool is_odd = control->rounds % 2 != 0;
+  /// prescribed vertex in contact stays at `stay`. `change`: by how much contacts change the move [m]; written only if
+  /// they do.
+  OGC_HD Vec proposal(int v, const Vec& stay, Vec& change) const {
     GuessContacts here = contacts;
-    if (is_odd) here.taken += vertex_count;
-    Vec& taken_now = taken[is_odd ? v : v + vertex_count];
-    taken_now = {};
+    if (control->rounds % 2 != 0) here.taken += vertex_count;
     if (here.offsets == nullptr || prescribed_number[v] == -2) return target[v];
     if (prescribed_number[v] >= 0) return control->rounds > 0 && touches(here, v) ? stay : target[v];
     const Vec move = target[v] - stay, held = held_move(here, v, move);
     if (held.x == move.x && held.y == move.y && held.z == move.z) return target[v];
-    taken_now = held - move;
+    change = held - move;
     return stay + held;
   }
 };

@@ -170,17 +170,31 @@ template <class Lanes = OneLane>
 OGC_HD bool is_within(const FeasibleRegion& region, const Vec& x, const Lanes& lanes = {}) {
   return first_left(region, x, lanes) == region.count && is_within(region.ball, x);
 }
+/// Does the same. `own` is the half-space of the region that has the number of this lane; it was read ahead. No region
+/// may have more half-spaces than there are lanes.
+template <class Lanes>
+OGC_HD bool is_within(const FeasibleRegion& region, const HalfSpace& own, const Vec& x, const Lanes& lanes) {
+  const int left = lanes.first(region.count, 0, [&](int) { return !is_behind(own, x); });
+  return left == region.count && is_within(region.ball, x);
+}
 
-/// Returns H⁻¹ n, the direction in which a vertex enters a half-space with the least increase of its energy.
+/// A metric returns, for the normal n of a half-space, the direction in which a vertex enters the half-space with the
+/// least increase of its energy: H⁻¹ n. `prepared` does the work that does not depend on n.
 struct BlockMetric {
   Symmetric3 block;    ///< H of the update, inertia included [N/m]
   float fallback = 0;  ///< as in solve_symmetric
 
-  OGC_HD Vec operator()(const Vec& n) const { return solve_symmetric(block, n, fallback); }
+  struct Prepared {
+    Factors factors;
+    float fallback;
+    OGC_HD Vec operator()(const Vec& n) const { return solve(factors, n, fallback); }
+  };
+  OGC_HD Prepared prepared() const { return {factors_of(block), fallback}; }
 };
-/// Returns n. If the energy is inertia alone, the direction of BlockMetric is n, up to a factor.
+/// The metric of inertia alone: H⁻¹ n is n, up to a factor.
 struct InertiaMetric {
   OGC_HD Vec operator()(const Vec& n) const { return n; }
+  OGC_HD InertiaMetric prepared() const { return *this; }
 };
 
 namespace slide {
@@ -223,6 +237,7 @@ OGC_HD inline double safe_radius(const FeasibleRegion& region, int steps = 0) {
 template <class Metric, class Lanes>
 OGC_HD Point along_planes(const FeasibleRegion& region, Point y, const Metric& metric, const Lanes& lanes) {
   const Point centre = wide(region.ball.centre);
+  const auto direction = metric.prepared();
   for (int pass = 0; pass < passes; ++pass) {
     bool moved = false;
     const auto next = [&](int from) {
@@ -231,14 +246,18 @@ OGC_HD Point along_planes(const FeasibleRegion& region, Point y, const Metric& m
     for (int k = next(0); k < region.count; k = next(k + 1)) {
       const HalfSpace& plane = region.planes[k];
       const Point n = wide(plane.normal);
-      Point u = wide(metric(plane.normal));
+      Point u = wide(direction(plane.normal));
       if (!(dot(n, u) > 0)) u = n;
       y -= (beyond(plane, y) / dot(n, u)) * u;
       moved = true;
     }
     const Point away = y - centre;
-    const double length = std::sqrt(dot(away, away)), radius = safe_radius(region);
-    if (length > radius) y = centre + (radius / length) * away, moved = true;
+    const double squares = dot(away, away), radius = safe_radius(region);
+    // A root takes long. The factor covers the roundings of root and product, 3 · 2⁻⁵³ each side.
+    if (squares > (1 - 0x1p-50) * radius * radius) {
+      const double length = std::sqrt(squares);
+      if (length > radius) y = centre + (radius / length) * away, moved = true;
+    }
     if (!moved) break;
   }
   return y;
@@ -260,13 +279,21 @@ OGC_HD Vec nudged(const FeasibleRegion& region, Vec x, const Lanes& lanes) {
   return x;
 }
 
-/// Returns y in single precision, nudged if it is outside of the region. The caller must check with `is_within` whether
-/// the nudges sufficed.
+/// A stored position.
+struct Stored {
+  Vec position;    ///< [m]
+  bool is_inside;  ///< whether is_within holds
+};
+
+/// Returns y in single precision, nudged if it is outside of the region.
 template <class Lanes>
-OGC_HD Vec stored_inside(const FeasibleRegion& region, const Point& y, const Lanes& lanes) {
+OGC_HD Stored stored_inside(const FeasibleRegion& region, const Point& y, const Lanes& lanes) {
   Vec x = stored(y);
-  for (int nudge = 0; nudge < nudges && !is_within(region, x, lanes); ++nudge) x = nudged(region, x, lanes);
-  return x;
+  for (int nudge = 0;; ++nudge) {
+    if (is_within(region, x, lanes)) return {x, true};
+    if (nudge == nudges) return {x, false};
+    x = nudged(region, x, lanes);
+  }
 }
 
 /// Returns the share of the straight path from `from` to y that lies in the region; `from` is in the region. The point
@@ -297,8 +324,8 @@ OGC_HD Vec scaled(const FeasibleRegion& region, const Vec& from, const Point& y,
   const Point start = wide(from);
   double share = share_inside(region, start, y, 0, lanes);
   for (int attempt = 0; attempt < 4 && share > 0; ++attempt) {
-    const Vec x = stored_inside(region, start + share * (y - start), lanes);
-    if (is_within(region, x, lanes)) return x;
+    const Stored x = stored_inside(region, start + share * (y - start), lanes);
+    if (x.is_inside) return x.position;
     share = attempt == 0 ? share_inside(region, start, y, nudges, lanes) : 0.5 * share;
   }
   return from;
@@ -313,8 +340,8 @@ template <class Metric, class Lanes>
 OGC_HD OGC_OUT_OF_LINE Truncated slide_into(FeasibleRegion region, Vec current, Vec proposal, Metric metric,
                                             Lanes lanes) {
   const slide::Point y = slide::along_planes(region, slide::wide(proposal), metric, lanes);
-  const Vec x = slide::stored_inside(region, y, lanes);
-  return {is_within(region, x, lanes) ? x : slide::scaled(region, current, y, lanes), true};
+  const slide::Stored x = slide::stored_inside(region, y, lanes);
+  return {x.is_inside ? x.position : slide::scaled(region, current, y, lanes), true};
 }
 
 /// Truncates a proposal along the straight line from `current`. It is used for prescribed vertices, so that their

@@ -3,7 +3,7 @@
 //   LimitSearches    for each pair of the last detection, before the search: limits the searches of its vertices
 //   (the searches)
 //   MeasurePairs     for each pair: its distance, and its place in the row of each of its vertices
-//   (a scan of the rows' lengths)
+//   (from here on beside the lists of contacts: a scan of the rows' lengths)
 //   FillPairRows     for each pair: enters its distance in these rows
 //   ChooseThreshold  for each row: δ_v, the (N+1)-th smallest distance
 //   PlacePlanes      for each pair: places a plane if it is nearer than δ_v for all its vertices; otherwise its
@@ -138,11 +138,13 @@ struct LimitSearches {
   }
 };
 
-/// Resets counts and `unplaned` before the pairs are measured. Runs once for each vertex.
+/// Resets counts and `unplaned` before the pairs are measured; does nothing if there are no arrays. Runs once for each
+/// vertex.
 struct PreparePlanes {
   PlaneListsView lists;
 
   OGC_HD void operator()(int v) const {
+    if (lists.counts == nullptr) return;
     lists.pair_counts[v] = lists.counts[v] = 0;
     lists.unplaned[v] = *lists.query_radius;
   }

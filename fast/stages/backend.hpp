@@ -12,6 +12,9 @@
 //   for_each(int n, F f)
 //         calls f(i) for 0 ≤ i < n in any order; no result may depend on the order. If F has `ahead`: f(i, f.ahead(i));
 //         `ahead` must not read what this or the previous launch writes
+//   for_each_group<W>(int n, F f)
+//         the same; on a device W threads run f(i, lanes) together for each i and share the functions of `lanes`
+//         (OneLane in fast/kernels/team.hpp); the thread for which lanes.leader() holds writes
 //   for_each_counted(const int* n, int capacity, F f)
 //         the same with a count on the device, *n ≤ capacity
 //   for_both(int m, F f, const int* n, int capacity, G g)
@@ -39,7 +42,7 @@
 //         runs decide(0); as long as *flag is not 0, runs the work that body() enqueues and decide_again(0)
 //   at_once(Aside aside, Body body)
 //         runs the work of aside() and of body(), in any order; neither work writes what the other reads; aside()
-//         enqueues loops (for_each, …) only; not nested
+//         enqueues loops (for_each, …) and scans only; body() may contain another at_once
 //   Recording recording;
 //         a recorded body, empty at first; clear() it if the body enqueues other calls
 //   replay(recording, int times, Body body)

@@ -72,9 +72,18 @@ class Detection {
   template <class Launches = PlainLaunches>
   void detect(const Vec* positions, float contact_radius, const float* query_radius, float bounds_relaxation,
               const Launches& launches = {}) {
-    find(positions, contact_radius, query_radius, bounds_relaxation, launches);
-    lists_.assemble(backend_, {padded_.data()}, contact_radius, bounded(), bounds(bounds_relaxation),
-                    planes_.distances(), launches);
+    find(positions, contact_radius, query_radius, launches);
+    const auto assemble = [&] {
+      lists_.assemble(backend_, {padded_.data()}, contact_radius, bounded(), bounds(bounds_relaxation),
+                      planes_.distances(), launches);
+    };
+    if (!planes_.is_used()) return assemble();
+    backend_.at_once(
+        [&] {
+          planes_.make(backend_, surface_.view(), {padded_.data()}, lists_.view(), bounds_relaxation, query_radius,
+                       bound_.data());
+        },
+        assemble);
   }
 
   /// Return surface, positions and lists as kernels see them; the positions are those of the last detection.
@@ -148,11 +157,10 @@ class Detection {
   const int* vertex_facet_faces() { return lists_.view().vertex_facet_face; }
 
  private:
-  /// Enqueues the launches before the lists: refits the trees, notes pairs, computes smallest distances and makes
-  /// planes.
+  /// Enqueues the launches before the lists: refits the trees, notes pairs and computes smallest distances; with planes
+  /// the distances of all noted pairs.
   template <class Launches>
-  void find(const Vec* positions, float contact_radius, const float* query_radius, float bounds_relaxation,
-            const Launches& launches) {
+  void find(const Vec* positions, float contact_radius, const float* query_radius, const Launches& launches) {
     const SurfaceView surface = surface_.view();
     const ListsView lists = lists_.view();
     const ResetDistances distances{.query_radius = query_radius,
@@ -169,14 +177,14 @@ class Detection {
                                   padded_.data(),
                                   {lists, surface.vertex_count},
                                   distances,
+                                  planes_.prepare(surface, query_radius, lists),
                                   bvh_.refit(positions, query_radius, planes_.search_limits(), contact_radius)});
     const DetectVertexFacet vertex_facet = vertex_facet_query(contact_radius);
     const DetectEdgeEdge edge_edge = edge_edge_query(contact_radius);
     if (planes_.is_used()) {
       backend_.search(Searches<NearEdgeEdge>{bvh_.edges(), surface.searched_edges, {edge_edge}},
                       Searches<NearVertexFacet>{bvh_.facets(), facet_searches(), {vertex_facet}});
-      planes_.make(backend_, surface, vertex_facet.positions, lists, contact_radius, bounds_relaxation, query_radius,
-                   bound_.data());
+      planes_.measure(backend_, surface, vertex_facet.positions, lists, contact_radius, query_radius);
     } else {
       backend_.search(searches_of(edge_edge), searches_of(vertex_facet));
     }

@@ -83,19 +83,34 @@ class Planes {
     search_limit_.upload(limits.data(), limits.size());
   }
 
-  /// Makes planes and balls (`bound`) from the pairs that the searches noted. `contact_radius`: r with the margin. If
-  /// some pairs found no room in the list, the results must not be used.
-  void make(Backend& backend, const SurfaceView& surface, PaddedVecs positions, const ListsView& noted,
-            float contact_radius, float share, const float* query_radius, float* bound) {
+  /// Returns the functor that prepares the arrays for a detection; it does nothing if bounds are not planes.
+  PreparePlanes prepare(const SurfaceView& surface, const float* query_radius, const ListsView& noted) {
+    if (!is_used()) return {};
+    PlaneListsView lists = view(surface, noted);
+    lists.query_radius = query_radius;
+    return {lists};
+  }
+
+  /// Computes the distances of the pairs that the searches noted. `contact_radius`: r with the margin. If some pairs
+  /// found no room in the list, the results of `measure` and `make` must not be used.
+  void measure(Backend& backend, const SurfaceView& surface, PaddedVecs positions, const ListsView& noted,
+               float contact_radius, const float* query_radius) {
+    PlaneListsView lists = view(surface, noted);
+    lists.positions = positions;
+    lists.query_radius = query_radius;
+    lists.contact_radius = contact_radius;
+    backend.for_each_counted(noted.noted_count, noted.noted_capacity, MeasurePairs{lists});
+  }
+
+  /// Makes planes and balls (`bound`) from the pairs that `measure` measured.
+  void make(Backend& backend, const SurfaceView& surface, PaddedVecs positions, const ListsView& noted, float share,
+            const float* query_radius, float* bound) {
     PlaneListsView lists = view(surface, noted);
     lists.positions = positions;
     lists.share = share;
     lists.query_radius = query_radius;
-    lists.contact_radius = contact_radius;
     lists.bound = bound;
     const int vertices = surface.vertex_count, capacity = noted.noted_capacity;
-    backend.for_each(vertices, PreparePlanes{lists});
-    backend.for_each_counted(noted.noted_count, capacity, MeasurePairs{lists});
     backend.exclusive_scans({lists.pair_counts, lists.pair_offsets, vertices}, {lists.pair_counts, no_sum_.data(), 0});
     backend.for_each_counted(noted.noted_count, capacity, FillPairRows{lists});
     backend.for_each_row(vertices, lists.pair_offsets, lists.pair_rows, ChooseThreshold{lists});

@@ -226,14 +226,18 @@ class Step {
                                  .target = s.target.data(),
                                  .taken = s.taken.data(),
                                  .radius = settings_.contact_radius};
-    backend_.for_each(s.vertex_count, GuessVertex{.target = s.target.data(),
-                                                  .regions = regions(),
-                                                  .contacts = contacts,
-                                                  .vertex_count = s.vertex_count,
-                                                  .taken = s.taken.data(),
-                                                  .position = s.position.data(),
-                                                  .control = control(),
-                                                  .prescribed_number = s.prescribed_number.data()});
+    const GuessVertex guess{.target = s.target.data(),
+                            .regions = regions(),
+                            .contacts = contacts,
+                            .vertex_count = s.vertex_count,
+                            .taken = s.taken.data(),
+                            .position = s.position.data(),
+                            .control = control(),
+                            .prescribed_number = s.prescribed_number.data()};
+    if (guess.regions.has_planes())
+      backend_.template for_each_group<most_planes>(s.vertex_count, guess);
+    else
+      backend_.for_each(s.vertex_count, guess);
   }
 
   void guess_loop() {

@@ -15,11 +15,19 @@ namespace ogc::fast {
 /// Truncates the proposal to the vertex's region. The leader writes the position, counts a cut and returns the
 /// position; other threads return `stay`. If the proposal is not finite, the vertex stays and the step fails. All
 /// threads for which holds_total() is true must call this together.
+///
+/// `own` is read only if Team::reads_ahead: the half-space of the region that has the number of the team lane.
 template <class Metric, class Team>
 OGC_HD Vec write_held(const SweepView& view, int v, const Vec& proposal, const Vec& stay, const FeasibleRegion& region,
-                      const Metric& metric, const Team& team) {
+                      const HalfSpace& own, const Metric& metric, const Team& team) {
   const bool may_be_written = is_finite(proposal);
-  const Truncated kept = may_be_written ? held(region, stay, proposal, metric, team) : Truncated{stay, false};
+  Truncated kept{stay, false};
+  if (may_be_written) {
+    if constexpr (Team::reads_ahead)
+      kept = held(region, own, stay, proposal, metric, team);
+    else
+      kept = held(region, stay, proposal, metric, team);
+  }
   if (!team.leader()) return stay;
   view.write(v, kept.position);
   if (!may_be_written) view.control->count_not_finite();
@@ -71,10 +79,14 @@ struct UpdateVertex {
   template <class Team>
   OGC_HD void finish(int slot, const SweepVertex& vertex, const State& state, ForceAndBlock& total,
                      const Team& team) const {
+    const int v = vertex.vertex, count = view.regions.count(v);
+    HalfSpace ahead{};  // is read while the thread solves
+    if constexpr (Team::reads_ahead) {
+      if (view.regions.has_planes()) ahead = view.regions.first(v)[team.number()];
+    }
     add_inertia(vertex.inertia, state.own, state.target, total);
     const Vec change = solve_symmetric(total.block, total.force, 1.0f / vertex.inertia);
-    const Vec x = write_held(view, vertex.vertex, state.own + change, state.own,
-                             view.regions.region(vertex.vertex, state.ball),
+    const Vec x = write_held(view, v, state.own + change, state.own, view.regions.region(v, state.ball, count), ahead,
                              BlockMetric{total.block, 1.0f / vertex.inertia}, team);
     if constexpr (Gather::has_volumes) {
       if (team.leader() && lies_deep_in_volume(view, slot, x)) view.control->count_deep_inside();

@@ -43,6 +43,21 @@ struct AddOne {
   OGC_HD void operator()(int i) const { atomic_add(target + i, 1); }
 };
 
+// Writes, for item i, the smallest k ≥ 2 below i mod 40 with k mod 7 = i mod 7, and the smallest of 50 − k.
+struct SearchTogether {
+  int *visits, *first;
+  double* smallest;
+  template <class Lanes>
+  OGC_HD void operator()(int i, const Lanes& lanes) const {
+    const int found = lanes.first(i % 40, 2, [i](int k) { return k % 7 == i % 7; });
+    const double least = lanes.smallest(i % 40, 60, [](int k) { return 50.0 - k; });
+    if (!lanes.leader()) return;
+    atomic_add(visits + i, 1);
+    first[i] = found;
+    smallest[i] = least;
+  }
+};
+
 struct Assign {
   int* target;
   int value;
@@ -180,6 +195,27 @@ TEST_CASE("for_each visits every index once, also where there are more indices t
     std::vector<int> expected(static_cast<std::size_t>(n) + 1, 1);
     expected.back() = 0;
     CHECK((on_host(visits) == expected));
+  }
+}
+
+TEST_CASE("for_each_group visits every item once, and its lanes search as one lane does", "[gpu]") {
+  for (const LaunchShape& shape : {LaunchShape{}, LaunchShape{32, 1}}) {
+    CudaBackend backend(shape);
+    for (const int n : {1, 7, 129, 100'000}) {
+      const auto items = static_cast<std::size_t>(n);
+      CudaBuffer<int> visits, first;
+      CudaBuffer<double> smallest;
+      visits.resize(items), first.resize(items), smallest.resize(items);
+      visits.fill_zero();
+      backend.for_each_group<16>(n, SearchTogether{visits.data(), first.data(), smallest.data()});
+      std::vector<int> once(items), expected_first(items);
+      std::vector<double> expected_smallest(items);
+      const SearchTogether alone{once.data(), expected_first.data(), expected_smallest.data()};
+      for (int i = 0; i < n; ++i) alone(i, SerialTeam<1>{});
+      CHECK((on_host(visits) == once));
+      CHECK((on_host(first) == expected_first));
+      CHECK((on_host(smallest) == expected_smallest));
+    }
   }
 }
 
@@ -443,6 +479,44 @@ TEST_CASE("two branches part and meet, both at once and in a replay, at the top 
     backend.synchronize();
     CHECK(on_host(sum)[0] == (recorded ? 2 : 1) * 5 * 6);
   }
+}
+
+TEST_CASE("branches inside a branch's body have scans of their own", "[gpu]") {
+  // so long that a scan needs temporary memory
+  constexpr int n = 1 << 20;
+  CudaBackend backend;
+  CudaBuffer<int> ones, twos, sums_of_ones, sums_of_twos, none_beside_ones, none_beside_twos, aside;
+  for (auto* buffer : {&sums_of_ones, &sums_of_twos}) buffer->resize(n + 1);
+  for (auto* buffer : {&none_beside_ones, &none_beside_twos, &aside}) buffer->resize(1);
+  aside.fill_zero();
+  const std::vector<int> one(n, 1), two(n, 2);
+  ones.upload(one.data(), one.size());
+  twos.upload(two.data(), two.size());
+  const auto body = [&] {
+    backend.at_once([&] { backend.for_each(1, AddOne{aside.data()}); },
+                    [&] {
+                      backend.at_once(
+                          [&] {
+                            for (int k = 0; k < 8; ++k)
+                              backend.exclusive_scans({ones.data(), sums_of_ones.data(), n},
+                                                      {ones.data(), none_beside_ones.data(), 0});
+                          },
+                          [&] {
+                            for (int k = 0; k < 8; ++k)
+                              backend.exclusive_scans({twos.data(), sums_of_twos.data(), n},
+                                                      {twos.data(), none_beside_twos.data(), 0});
+                          });
+                    });
+  };
+  CudaRecording recording;
+  backend.replay(recording, 4, body);
+  backend.synchronize();
+  CHECK(on_host(aside)[0] == 4);
+  const std::vector<int> by_one = on_host(sums_of_ones), by_two = on_host(sums_of_twos);
+  int wrong = 0;
+  for (std::size_t i = 0; i <= n; ++i)
+    wrong += by_one[i] != static_cast<int>(i) || by_two[i] != static_cast<int>(2 * i);
+  CHECK(wrong == 0);
 }
 
 TEST_CASE("a recording runs its body on the host again only when a Buffer has moved", "[gpu]") {

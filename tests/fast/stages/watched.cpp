@@ -103,6 +103,11 @@ class WatchedBackend : public CpuBackend {
     }
     CpuBackend::for_each(n, f);
   }
+  template <int W, class F>
+  void for_each_group(int n, F f) {
+    note_launch<F>();
+    CpuBackend::for_each_group<W>(n, f);
+  }
   template <class F>
   void for_each_counted(const int* n, int capacity, F f) {
     note_launch<F>();
