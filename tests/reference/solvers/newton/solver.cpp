@@ -120,7 +120,8 @@ TEST_CASE("Newton: a stiff sheet that one close vertex holds back leaves as fast
   CHECK(result.rows[0].iterations <= 19 + 8);
 }
 
-TEST_CASE("Newton: sheets that are nearly closed and travel far together converge quadratically", "[property]") {
+TEST_CASE("Newton: sheets that are nearly closed and travel far together converge faster than linearly",
+          "[property]") {
   // Two sheets 10 µm apart fall. A small patch stops their middle, and their rims move on by 3 mm. Truncation alone
   // scales the motion of each of two facing vertices to a thousandth, and so also their relative motion. Springs on cut
   // vertices (method.md §7.6) preserve the relative motion.
@@ -137,7 +138,14 @@ TEST_CASE("Newton: sheets that are nearly closed and travel far together converg
   REQUIRE(clean(result));
   CHECK(result.rows[0].smallest_distance > 1e-3);
   CHECK(result.rows[0].residual < 1e-10);
-  CHECK(quadratic_steps(result.rows[0]) >= 1);
+  // With a constant rate of a tenth, the residual would need six iterations from 1e-7 to 1e-13. The linear algebra of
+  // other processors rounds differently, so the way down to 1e-7 differs.
+  const std::vector<compare::IterationMetrics>& rows = result.rows[0].iteration_rows;
+  const auto last_above = std::find_if(rows.rbegin(), rows.rend(), [](const auto& row) { return row.residual > 1e-7; });
+  REQUIRE(last_above != rows.rend());
+  const auto below = std::find_if(last_above.base(), rows.end(), [](const auto& row) { return row.residual < 1e-13; });
+  REQUIRE(below != rows.end());
+  CHECK(below - last_above.base() < 5);
 }
 
 TEST_CASE("Newton: each accepted iteration lowers the energy between two detections", "[property]") {
