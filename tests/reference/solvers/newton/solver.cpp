@@ -1,5 +1,6 @@
 #include "reference/simulation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
