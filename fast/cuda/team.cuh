@@ -32,10 +32,9 @@
 #include <cub/block/block_scan.cuh>
 
 #include "fast/kernels/team.hpp"
+#include "fast/stages/team_choice.hpp"
 
 namespace ogc::fast {
-
-inline constexpr int serial_block_size = 128;  ///< threads of a block with SerialLaneTeams
 
 namespace detail {
 
