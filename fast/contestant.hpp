@@ -31,16 +31,19 @@ struct BackendInfo {
 /// Returns the information on a backend of this program on this machine.
 BackendInfo backend_info(Backend backend);
 
-/// The work of one iteration of the sweep on any machine: operations counted in the kernels' source, and bytes if each
-/// array is moved once (fast/work.cpp explains the counting).
+/// The work of one iteration of the sweep: operations counted in the kernels' source, and bytes if each array is moved
+/// once. A machine cannot avoid these in any order of work. `launches`, `warp_instructions` and `sector_bytes` are what
+/// the teams and colours of a device cannot avoid (fast/work.cpp explains all counts).
 struct SweepWork {
-  int vertices = 0, colours = 0;  ///< `vertices`: free vertices
-  double flop = 0, bytes = 0;     ///< without contacts
-  /// work that each contact adds if all of its vertices are free
+  int vertices = 0, launches = 0;                  ///< `vertices`: free vertices
+  double flop = 0, bytes = 0;                      ///< without contacts
+  double warp_instructions = 0, sector_bytes = 0;  ///< without contacts
+  /// work that each contact adds if all of its vertices are free; `bytes_contact` adds to `bytes` and `sector_bytes`
   double flop_vertex_facet = 0, flop_edge_edge = 0, bytes_contact = 0;
+  double warp_instructions_vertex_facet = 0, warp_instructions_edge_edge = 0;
 };
-/// Returns the work for a scene at rest.
-SweepWork sweep_work(const compare::Scene& scene);
+/// Returns the work for a scene at rest. `multiprocessors` of the device decide its teams; an H200 has 132.
+SweepWork sweep_work(const compare::Scene& scene, int multiprocessors = 132);
 
 /// The work of the searches of one detection. The host counts it while it runs the searches one after the other with
 /// the kernels of both backends. Parallel searches learn some distances later and open a few more nodes. Refit, lists

@@ -3,17 +3,40 @@
 // branches, the longest one that generic input takes is counted. Bytes: each struct that is read counts once per
 // iteration, even if a cache serves it, because no order of work can avoid this read. The searches' work depends on the
 // state, so their nodes, candidates and distances are counted during a detection.
+//
+// The teams of a device cost more than that, and these costs are counted from the scene's streams:
+//
+// - Idle lanes. A warp instruction does the same for 32 lanes. The n items of a vertex in a part take ⌈n/W⌉ rounds of
+//   its W team lanes, and all of them join their sums. The work after the sum occupies as many lanes for one vertex:
+//   W, or W/4 in CompactTeams.
+// - Sectors. Memory moves sectors of 32 B. Streams are read in their order. Other arrays are read where the numbers of
+//   vertices and elements point: each sector that the launch of a colour touches counts once, and again for the next
+//   colour, because the caches of the multiprocessors are empty when a launch begins.
+// - Launches: one for each colour of vertices and segments, and one for prescribed vertices if there are any.
+//
+// Warp instructions are a lower bound: two operations count one instruction, as if each product were fused with a sum,
+// and an item adds its loads of at most 16 B. Addresses, comparisons, branches, the pool of contacts, and the further
+// instructions of a quotient or a root are not counted. Nor is what depends on where contacts are: lanes that they
+// leave idle, few if blocks pool them, and sectors that they gather, most of which elements gather in the same launch.
 #include "fast/contestant.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <stdexcept>
+#include <vector>
 
+#include "compare/problem/bounds.hpp"
 #include "fast/cpu/backend.hpp"
 #include "fast/kernels/rods/segments.hpp"
 #include "fast/kernels/sweep/update_vertex.hpp"
 #include "fast/probes/contact_engine.hpp"
 #include "fast/stages/colouring.hpp"
 #include "fast/stages/rest_state.hpp"
+#include "fast/stages/sweep.hpp"
+#include "fast/stages/team_choice.hpp"
 
 namespace ogc::fast {
 
@@ -41,6 +64,15 @@ constexpr double on_segments_flop = 70;
 /// Other operations of a vertex's update: inertia 12, its inverse 1, solve 28, new position 3, truncation that changes
 /// nothing 10.
 constexpr double vertex_flop = 54;
+
+/// Operations of a warp instruction: a product and a sum in each of 32 lanes.
+constexpr double warp_flop = 2 * 32;
+/// Bytes of a sector, in which memory is moved; bytes that an instruction loads in a lane.
+constexpr double sector = 32, load = 16;
+/// Warp instructions in which the lanes of a team exchange a sum once: a shuffle and an addition for each of its words.
+constexpr double join_instructions = 2.0 * sizeof(ForceAndBlock) / sizeof(float) / 32;
+/// Loads of a contact: its incidence (2), x and xᵗ of four vertices.
+constexpr double contact_loads = sizeof(ContactIncidence) / load + 8;
 
 /// Number of vertices of a contact between two edge interiors, or between a vertex and a triangle's interior. The
 /// update of each vertex computes the contact.
@@ -112,32 +144,131 @@ SearchWork work_of(const SearchCount& count, double distance_flop, double candid
   return work;
 }
 
+/// The sectors of an array that the launches of an iteration touch. A launch that touches a sector several times moves
+/// it once.
+class Sectors {
+ public:
+  explicit Sectors(std::size_t item_bytes) : item_bytes_(item_bytes) {}
+
+  /// Notes that the launch of a colour touches an item. (Beyond 64 colours two launches count as one.)
+  void touch(int item, int colour) {
+    const std::size_t begin = as_index(item) * item_bytes_;
+    for (std::size_t at = begin / width; at <= (begin + item_bytes_ - 1) / width; ++at) {
+      if (at >= colours_.size()) colours_.resize(at + 1, 0);
+      colours_[at] |= std::uint64_t{1} << (colour % 64);
+    }
+  }
+  /// Returns the bytes that all launches move.
+  double bytes() const {
+    double count = 0;
+    for (const std::uint64_t colours : colours_) count += std::popcount(colours);
+    return count * sector;
+  }
+
+ private:
+  static constexpr auto width = static_cast<std::size_t>(sector);
+
+  std::size_t item_bytes_;
+  std::vector<std::uint64_t> colours_;  // by sector, one bit for each colour
+};
+
+/// The sectors of positions that elements gather: a neighbour of lower colour is read from the fresh buffer, any other
+/// from the old one (sweep_view.hpp).
+struct GatheredPositions {
+  const std::vector<int>& colour;  ///< by vertex; −1: not free
+  Sectors old{sizeof(PaddedVec)}, fresh{sizeof(PaddedVec)};
+
+  void touch(int vertex, int own) { (colour[as_index(vertex)] < own ? fresh : old).touch(vertex, own); }
+};
+
+/// Returns how many lanes n items of a vertex occupy: whole rounds of all its team lanes.
+double lanes_in_rounds(int items, int width) { return (items + width - 1) / width * width; }
+
+/// The items of a kind at each vertex.
+struct ItemCounts {
+  std::vector<int> all, damped;  ///< by vertex; damped ones are among all
+};
+
+/// Adds the warp instructions of a kind's elements at free vertices.
+template <class Kind>
+void add_rounds(const ItemCounts& items, int vertices_of_element, int width, SweepWork& work) {
+  const double loads = std::ceil(sizeof(typename Kind::Incidence) / load) + vertices_of_element - 1;
+  double lanes = 0, damped = 0;
+  for (const int count : items.all) lanes += lanes_in_rounds(count, width);
+  for (const int count : items.damped) damped += lanes_in_rounds(count, width);
+  work.warp_instructions += (lanes * Kind::flop + damped * Kind::damping_flop) / warp_flop + lanes * loads / 32;
+}
+
 /// Adds the work of a kind's elements: each element counts for each of its free vertices.
 template <class Kind>
-void add_elements(const RestState& rest, SweepWork& work) {
+void add_elements(const RestState& rest, int width, GatheredPositions& positions, SweepWork& work) {
   const AtRest<Kind>& all = at_rest<Kind>(rest);
-  double incidences = 0, damped = 0;
-  bool has_start = false;
+  ItemCounts items{std::vector<int>(rest.mass.size()), std::vector<int>(rest.mass.size())};
+  Sectors starts(sizeof(typename Kind::Start));
+  double incidences = 0, damped = 0, begun = 0;  // begun: elements of which some update reads Start
+  int least = std::numeric_limits<int>::max();
   for (int i = 0; i < static_cast<int>(all.elements().size()); ++i) {
     const auto& element = all.elements()[as_index(i)];
-    double free = 0;
-    for (int k = 0; k < Kind::count(element); ++k)
-      free += rest.mobility[as_index(Kind::vertices(element)[k])] == Mobility::free ? 1 : 0;
-    incidences += free;
-    if (!all.damps(rest, i)) continue;
-    damped += free;
-    has_start = true;
+    const int count = Kind::count(element);
+    const int* vertices = Kind::vertices(element);
+    const bool is_damped = all.damps(rest, i);
+    const double before = incidences;
+    least = std::min(least, count);
+    for (int k = 0; k < count; ++k) {
+      const int own = positions.colour[as_index(vertices[k])];
+      if (own < 0) continue;
+      incidences += 1;
+      damped += is_damped ? 1 : 0;
+      ++items.all[as_index(vertices[k])];
+      items.damped[as_index(vertices[k])] += is_damped ? 1 : 0;
+      for (int other = 0; other < count; ++other)
+        if (other != k) positions.touch(vertices[other], own);
+      if (is_damped) starts.touch(i, own);
+    }
+    begun += is_damped && incidences > before ? 1 : 0;
   }
   if (incidences == 0) return;
   work.flop += incidences * Kind::flop + damped * Kind::damping_flop;
-  work.bytes += incidences * sizeof(typename Kind::Incidence);
-  if (Kind::row_in_vertex < 0) work.bytes += static_cast<double>(work.vertices) * sizeof(Row);
+  add_rounds<Kind>(items, least, width, work);
+  double streams = incidences * sizeof(typename Kind::Incidence);
+  if (Kind::row_in_vertex < 0) streams += static_cast<double>(work.vertices) * sizeof(Row);
   if constexpr (!std::is_same_v<typename Kind::Beside, NoData>) {
-    if (all.reads_beside(rest)) work.bytes += damped * sizeof(typename Kind::Beside);
+    if (all.reads_beside(rest)) streams += damped * sizeof(typename Kind::Beside);
   }
+  work.bytes += streams;
+  work.sector_bytes += streams;
   if constexpr (!std::is_same_v<typename Kind::Start, NoData>) {
-    if (has_start) work.bytes += static_cast<double>(all.elements().size() * sizeof(typename Kind::Start));
+    work.bytes += begun * sizeof(typename Kind::Start);
+    work.sector_bytes += starts.bytes();
   }
+}
+
+/// Adds the work of the vertices themselves. `width`: W; `may_be_compact`: whether the teams of large colours may be
+/// CompactTeams.
+void add_vertices(const Colouring& colouring, int width, bool may_be_compact, int multiprocessors,
+                  GatheredPositions& positions, SweepWork& work) {
+  const double vertices = work.vertices;
+  work.flop += vertices * vertex_flop;
+  const double streams = vertices * (sizeof(SweepVertex) + sizeof(ContactRow));
+  // Reads x (padded), y, X_prev and b_v; writes x padded and unpadded.
+  work.bytes += streams + vertices * (2 * sizeof(PaddedVec) + 3 * sizeof(Vec) + sizeof(float));
+  Sectors written(sizeof(PaddedVec)), vectors(sizeof(Vec)), bounds(sizeof(float));
+  const double joins = std::bit_width(static_cast<unsigned>(width)) - 1;  // log₂ W
+  for (int c = 0; c < colouring.count; ++c) {
+    const auto k = static_cast<std::size_t>(c);
+    const int first = colouring.begin[k], count = colouring.begin[k + 1] - first;
+    const int teams = serial_block_size / width, blocks = (count + teams - 1) / teams;
+    // The first warp of a block of CompactTeams has the totals of the whole block.
+    const bool is_compact = may_be_compact && has_waves_of_compact(blocks, multiprocessors);
+    const double warps = is_compact ? 1.0 / teams : width / 32.0;
+    work.warp_instructions += count * (joins * width * join_instructions + warps * vertex_flop / 2);
+    for (int slot = first; slot < first + count; ++slot) {
+      const int v = colouring.order[as_index(slot)];
+      positions.touch(v, c);
+      written.touch(v, c), vectors.touch(v, c), bounds.touch(v, c);
+    }
+  }
+  work.sector_bytes += streams + written.bytes() + 3 * vectors.bytes() + bounds.bytes();
 }
 
 /// Adds the work of segments' quaternions. Each quaternion is updated once, and each colour of the segments costs a
@@ -149,30 +280,46 @@ void add_quaternions(const RestState& rest, SweepWork& work) {
     if (rest.rods.segments[static_cast<std::size_t>(e)].damping > 0) ++damped;
   const auto segments = static_cast<double>(colouring.order.size());
   if (segments == 0) return;
-  work.colours += colouring.count;
-  work.flop += segments * orientation_flop + damped * orientation_damping_flop;
+  work.launches += colouring.count;
+  const double flop = segments * orientation_flop + damped * orientation_damping_flop;
+  work.flop += flop;
+  work.warp_instructions += flop / warp_flop;  // one thread for each segment
   // q is read and written; damping also reads qᵗ and the vector c of rod_rest_direction
-  work.bytes += segments * (sizeof(SegmentSlot) + 2 * sizeof(Quat)) + damped * (sizeof(Quat) + sizeof(Vec));
+  const double bytes = segments * (sizeof(SegmentSlot) + 2 * sizeof(Quat)) + damped * (sizeof(Quat) + sizeof(Vec));
+  work.bytes += bytes;
+  work.sector_bytes += bytes;
 }
 
 }  // namespace
 
-SweepWork sweep_work(const compare::Scene& scene) {
+SweepWork sweep_work(const compare::Scene& scene, int multiprocessors) {
   const compare::Topology topology = compare::build_topology(scene);
   const RestState rest = build_rest_state(scene, topology);
+  const Colouring colouring = colour_vertices(rest);
+  const int width = lanes_of(rest, scene);
   SweepWork work;
-  work.vertices = static_cast<int>(std::ranges::count(rest.mobility, Mobility::free));
-  work.colours = colour_vertices(rest).count;
-  const double vertices = work.vertices;
-  work.flop = vertices * vertex_flop;
-  // Reads x (padded), y, X_prev and b_v; writes x padded and unpadded.
-  work.bytes = vertices *
-               (sizeof(SweepVertex) + sizeof(ContactRow) + 2 * sizeof(PaddedVec) + 3 * sizeof(Vec) + sizeof(float));
-  Kinds::for_each([&]<class Kind>(Kind) { add_elements<Kind>(rest, work); });
+  work.vertices = static_cast<int>(colouring.order.size());
+  work.launches = colouring.count;
+  for (std::size_t v = 0; v < rest.mobility.size(); ++v) {
+    if (!is_moved_to_target(rest, scene, v)) continue;
+    ++work.launches;
+    break;
+  }
+  int parts = 0;
+  DeviceSums::with(DeviceSums::first_that_gives(asked_of_sum(rest, scene)),
+                   [&parts](auto sum) { parts = decltype(sum)::parts; });
+  const bool has_planes = traits_of(scene.settings.bounds).has_planes;
+  GatheredPositions positions{colouring.colour};
+  add_vertices(colouring, width, can_be_compact(width, parts) && !has_planes, multiprocessors, positions, work);
+  Kinds::for_each([&]<class Kind>(Kind) { add_elements<Kind>(rest, width, positions, work); });
+  work.sector_bytes += positions.old.bytes() + positions.fresh.bytes();
   add_quaternions(rest, work);
   work.flop_vertex_facet = contact_vertices * (contact_flop + on_triangle_flop);
   work.flop_edge_edge = contact_vertices * (contact_flop + on_segments_flop);
   work.bytes_contact = contact_vertices * sizeof(ContactIncidence);
+  const double loads = contact_vertices * contact_loads / 32;
+  work.warp_instructions_vertex_facet = work.flop_vertex_facet / warp_flop + loads;
+  work.warp_instructions_edge_edge = work.flop_edge_edge / warp_flop + loads;
   return work;
 }
 

@@ -35,13 +35,18 @@ struct ActivationTruth {
 
 /// Largest error in units of u · scale, u = 2⁻²⁴. Rounding errors of each activation:
 ///
-/// - Quadratic branch: r − d (1), its square (2), k_c/2 (1).
-/// - Logarithmic branch: r − τ (1), k' (2), logarithm (library, 2), product and sum (2), constant term (4).
-/// - `cubic`: 2k_c/(3r) (2), three factors r − d (3), their products (3).
-/// - `ipc_log`, where ln(r/d) has 5: (r − d)/(r + d) (3) and a series in this quotient (2).
-///   g: two factors r − d (2), ln(r/d) (5), products (3).
-///   g' = −k_c (r − d) (2 ln(r/d) + s), s = (r − d)/d: ln(r/d) (5), the sum (1), r − d (1), products (2).
-///   g'' = k_c (2 ln(r/d) + s (4 + s)): s twice (4), 4 + s (1), their product (1), the sum (1), product with k_c (1).
+/// - Quadratic branch: two factors r − d (2), their products with k_c/2 (2): 4.
+/// - Logarithmic branch: r − τ (1), k' (2), ln(τ/d) (6.5, see `ipc_log`), product and sum (2): 11.5.
+/// - `cubic`: 2k_c/(3r) (2), three factors r − d (3), their products (3): 8.
+/// - `ipc_log`, where ln(r/d) has 6.5 at most. Up to r = 2 d it is a series (2) in (r − d)/(r + d) (3): 5. Beyond, r/d
+///   (1 of the quotient, 1.5 of ln(r/d) ≥ ln 2) is a power of two times m, and the series (2) in (m − 1)/(m + 1), where
+///   m − 1 is exact (2), is added to the power's logarithm (1): 6.5.
+///   g: two factors r − d (2), ln(r/d) (6.5), products (3): 11.5.
+///   g' = −k_c (r − d) (2 ln(r/d) + s), s = (r − d)/d: ln(r/d) (6.5), the sum (1), r − d (1), products (2): 10.5.
+///   g'' = k_c (2 ln(r/d) + s (4 + s)): ln(r/d) (6.5), the sum (1), product with k_c (1): 8.5; through s: twice (4),
+///   4 + s (1), their product (1), the sum (1), product with k_c (1): 8.
+///
+/// The largest count is rounded up.
 inline constexpr double activation_tolerance = 12;
 
 }  // namespace ogc::compare

@@ -64,14 +64,16 @@ struct ContactForceIn {
 ///   the square in its denominator (2 + 3), a quotient (1); the second edge's parameter: two scalar products (6), a
 ///   product, a difference, a quotient (3), the square in its denominator (3); one minus a parameter (1); the vector
 ///   between the contact points: a product, two sums (3); its length (3 + 1); n (2): 36.
-/// - Force, in all: 36 up to n; g' (4; 9 for ipc_log); its products with w and n (2): 47.
+/// - Force, in all: 36 up to n; g' (4; 10.5 for ipc_log, see activation_tolerance); its products with w and n (2):
+///   48.5, rounded up.
 /// - e_k: a difference, a cross product, twice (4), squares (3), ε (3), a quotient, q(2 − q), its product with k_c: 15.
 /// - e_k as a share of the overlap: a difference, two scalar products (6), a quotient for each end, their difference,
 ///   the root of a quotient of squares (6 / 2 + 2), two products: 16.
-inline constexpr double contact_force_tolerance = 47;
+inline constexpr double contact_force_tolerance = 49;
 /// Largest error of the block in units of u · scale. Rounding errors: n (36, see contact_force_tolerance), g'' (5; with
-/// ipc_log 8), Σ |w_u| of four vertices (3), the products of this sum with |w| and g'' (2), an outer product (2).
-inline constexpr double contact_block_tolerance = 51;
+/// ipc_log 8.5), Σ |w_u| of four vertices (3), the products of this sum with |w| and g'' (2), an outer product (2):
+/// 51.5, rounded up.
+inline constexpr double contact_block_tolerance = 52;
 /// Largest error of a distance in units of u · scale. Rounding errors: a difference (1), a product and two sums (3),
 /// squares (3), a root (1): 8. The limit is 16, since rounded weights differ slightly from those of the closest points.
 /// A contact is grey if this error could change the closest feature, make d = 0 or, with ogc_as_printed, move d across

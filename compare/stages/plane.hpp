@@ -138,10 +138,11 @@ struct PlaneTruth {
 /// the error of n's length. The third comes from the offsets and from the judge's arithmetic in double. A kernel that
 /// computes n's direction in single precision exceeds this limit.
 inline constexpr double plane_narrowing_tolerance = 3;
-/// Largest `division`, in units of u · (max(d, Σ|δ|) + d W/(a + b)): the error of the whole room (3, see
-/// plane_narrowing_tolerance) and the error of s (at most 1). a and b are sums of three products in single precision
-/// and err by 4 u W. So s, which is multiplied by 2γ_p d < d, errs by 4 u W/(a + b).
-inline constexpr double plane_division_tolerance = 4;
+/// Largest `division`, in units of u · (max(d, Σ|δ|) + d W/(a + b)): the larger of two numbers, because each belongs to
+/// one term of the unit. The whole room errs by 3 u max(d, Σ|δ|) (plane_narrowing_tolerance). s errs by 5 u W/(a + b)
+/// if a kernel computes it in single precision: a and b are sums of three products, each within 3 u W; their sum and
+/// the quotient round s ≤ W/(a + b) twice more. s is multiplied by 2γ_p d < d.
+inline constexpr double plane_division_tolerance = 5;
 /// Largest `ball_shortfall`, in units of u γ_p · max(d, Σ|δ|): the error of a smallest distance
 /// (`detect_below_tolerance`), of a product rounded down (2), and of a kernel that rounds to nearest and then steps
 /// down once more (2).

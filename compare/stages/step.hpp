@@ -79,11 +79,11 @@ struct StepTruth {
 
 /// Largest error of r_q in units of u r_q, u = 2⁻²⁴. r_q is r + max ‖y − xᵗ‖ or cap · r. Rounding errors:
 ///
-/// - r + max ‖y − xᵗ‖, 4: the difference y − xᵗ (1) and products and sums of its square (3), halved by the root; the
-///   root (1); the addition of r (1)
+/// - r + max ‖y − xᵗ‖, 4.5: the difference y − xᵗ (1); a product and two sums of its square (3, halved by the root);
+///   the root (1); the addition of r (1). The largest of rounded lengths errs by no more than a length does.
 /// - cap · r: 1
 ///
-/// One more covers second order, and a vertex whose ‖y − xᵗ‖ is the largest only after rounding.
+/// A half more covers second order.
 inline constexpr double step_query_radius_tolerance = 5;
 /// Largest error of a velocity in units of u ‖xᵗ⁺¹ − xᵗ‖/h: difference (1), quotient (1), a quarter for second order.
 inline constexpr double step_velocity_tolerance = 2.25;

@@ -85,9 +85,9 @@ inline constexpr double truncate_position_tolerance = 8;
 /// The tolerance of a stored position for cases with half-spaces. Each of its three coordinates may need another step
 /// to the next float (2 u each).
 inline constexpr double truncate_region_tolerance = truncate_position_tolerance + 6;
-/// Distance that a kernel may keep from a half-space, in units of u Σ|n_k x_k|, because storing can move a position
-/// across it. Storing counts 1, and 1 more if the ball has moved the vertex; the sum is rounded up to a power of two.
-inline constexpr double truncate_standoff = 4;
+/// Distance that a kernel may keep from a half-space, in units of u Σ|n_k x_k|. Storing can move a position across the
+/// half-space by 1, so a kernel aims at a point that lies 1 inside. Storing can then move this point 1 further inside.
+inline constexpr double truncate_standoff = 2;
 /// Backward error of the solve H⁻¹n in units of u ‖H‖₂, as in a sweep (compare/stages/sweep.hpp).
 inline constexpr double truncate_solve_tolerance = 36;
 

@@ -33,19 +33,20 @@ struct VolumeForceIn {
   std::vector<VolumeForceCase> cases;  ///< independent of each other
 };
 
-/// Largest error of the force in units of u · scale, u = 2⁻²⁴: the larger of two counts of rounding errors (22 through
-/// the slip, 16 through λ), plus 4 for n.
+/// Largest error of the force in units of u · scale, u = 2⁻²⁴: the larger of two counts of rounding errors (20.5
+/// through the slip, 14 through λ), plus 4 for n, rounded up.
 ///
 /// - Through the slip: a difference (1), its product with a weight and three sums (4), the scalar product with n (3), a
-///   product, a difference: 10. The slip's length: square and sums (3, halved by the root), the root (1): 2.5, counted
-///   as 4. f₁/‖u‖ (a quotient, a difference, a quotient): 3; μ λ and its product with f₁/‖u‖ (2); the products with
-///   weight and slip (2); the sum with the normal force (1): 22 in all.
-/// - Through λ: a difference, a product and two sums (4), the product with n (3), r − φ and k (2), then 7: 16.
+///   product, a difference: 10. The slip's length: square and sums (3, halved by the root), the root (1): 2.5.
+///   f₁/‖u‖ (a quotient, a difference, a quotient): 3; μ λ and its product with f₁/‖u‖ (2); the products with weight
+///   and slip (2); the sum with the normal force (1): 20.5 in all.
+/// - Through λ: a difference, a product and two sums (4), the product with n (3), r − φ and k (2); then, as above, μ λ
+///   and its product with f₁/‖u‖ (2), the products with weight and slip (2), the sum (1): 14.
 /// - If ‖n‖² is off by 2⁻²², the slip keeps a part along n that the energy's slope lacks: 4.
-inline constexpr double volume_force_tolerance = 26;
-/// Largest error of the block. Rounding errors: μ λ f₁/‖u‖ (19, see volume_force_tolerance), w² and its product (2), an
-/// outer product (2), the difference from I (1), the sum with the normal block (1).
-inline constexpr double volume_block_tolerance = 25;
+inline constexpr double volume_force_tolerance = 25;
+/// Largest error of the block. Rounding errors: μ λ f₁/‖u‖ (17.5, see volume_force_tolerance), w² and its product (2),
+/// an outer product (2), the difference from I (1), the sum with the normal block (1): 23.5, rounded up.
+inline constexpr double volume_block_tolerance = 24;
 /// Largest error of r − φ in units of u · scale: 8 rounding errors (a difference, a product and two sums: 4; the
 /// product with n: 3; r − φ), and 4 more for other orders of evaluation. If |r − φ| is at most this error, the contact
 /// may act or not.

@@ -94,21 +94,27 @@ struct Work {
   double flop = 0, bytes = 0, floor = 0;
 };
 
+/// Returns the work of an iteration with the contacts of a step.
+IterationWork iteration_work(const StepMetrics& row, const fast::SweepWork& work) {
+  const auto vertex_facet = static_cast<double>(row.vertex_facet_contacts),
+             edge_edge = static_cast<double>(row.edge_edge_contacts),
+             contact_bytes = (vertex_facet + edge_edge) * work.bytes_contact;
+  return {work.warp_instructions + vertex_facet * work.warp_instructions_vertex_facet +
+              edge_edge * work.warp_instructions_edge_edge,
+          work.bytes + contact_bytes, work.sector_bytes + contact_bytes, work.launches};
+}
+
 Work sweep_work(const Rows& rows, const fast::SweepWork& work, const std::optional<MachineLimits>& machine) {
-  const auto flop = [&](const StepMetrics& row) {
-    return work.flop + static_cast<double>(row.vertex_facet_contacts) * work.flop_vertex_facet +
-           static_cast<double>(row.edge_edge_contacts) * work.flop_edge_edge;
-  };
-  const auto bytes = [&](const StepMetrics& row) {
-    return work.bytes + static_cast<double>(row.vertex_facet_contacts + row.edge_edge_contacts) * work.bytes_contact;
-  };
   const auto of_step = [&](const auto& of_iteration) {
     return mean(rows, [&](const StepMetrics& row) { return static_cast<double>(row.iterations) * of_iteration(row); });
   };
-  const auto floor = [&](const StepMetrics& row) {
-    return machine ? sweep_floor(*machine, work, flop(row), bytes(row)) : 0;
-  };
-  return {of_step(flop), of_step(bytes), of_step(floor)};
+  return {
+      of_step([&](const StepMetrics& row) {
+        return work.flop + static_cast<double>(row.vertex_facet_contacts) * work.flop_vertex_facet +
+               static_cast<double>(row.edge_edge_contacts) * work.flop_edge_edge;
+      }),
+      of_step([&](const StepMetrics& row) { return iteration_work(row, work).bytes; }),
+      of_step([&](const StepMetrics& row) { return machine ? sweep_floor(*machine, iteration_work(row, work)) : 0; })};
 }
 
 Work search_work(benchmark::State& state, double each_step, const fast::SearchWork& work,
@@ -127,7 +133,9 @@ void count_work(benchmark::State& state, const Rows& rows, Windows& windows, Cou
                             : search_work(state, mean(rows, detections), windows.searches(), machine);
   state.counters["flop"] = sweep.flop + searches.flop;
   state.counters["bytes"] = sweep.bytes + searches.bytes;
-  if (machine && mean_ms > 0) state.counters["share_of_floor"] = (sweep.floor + searches.floor) / (1e-3 * mean_ms);
+  if (!machine || !(mean_ms > 0)) return;
+  state.counters["floor_ms"] = 1e3 * (sweep.floor + searches.floor);
+  state.counters["share_of_floor"] = (sweep.floor + searches.floor) / (1e-3 * mean_ms);
 }
 
 void count_steps(benchmark::State& state, const Rows& rows) {

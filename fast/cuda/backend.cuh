@@ -35,6 +35,7 @@
 #include "fast/kernels/sweep/sums.hpp"
 #include "fast/kernels/sweep/update_vertex.hpp"
 #include "fast/stages/backend.hpp"
+#include "fast/stages/team_choice.hpp"
 
 namespace ogc::fast {
 
@@ -161,15 +162,10 @@ __global__ void __launch_bounds__(serial_block_size) run_serial_teams(int n, F f
   f(min(i, n - 1), SerialLaneTeam<W>(i < n));
 }
 
-/// Blocks of CompactTeams that a multiprocessor runs at once. This limits a thread to 80 registers, which is faster if
-/// a launch has several times as many blocks, and slower otherwise (measured: fast/PERFORMANCE.md).
-inline constexpr int compact_blocks = 6;
-
-/// Returns whether launches of F that are large enough run CompactTeams of this width: updates of vertices by sums of
-/// four parts, such as that of surfaces, with eight lanes. More kernels would only take time to compile.
+/// Returns whether F has CompactTeams of this width: updates of vertices may have them.
 template <int W, class F>
 constexpr bool has_compact_teams() {
-  if constexpr (requires(const F& f) { f.shares_end(); }) return W == 8 && F::parts == 4;
+  if constexpr (requires(const F& f) { f.shares_end(); }) return can_be_compact(W, F::parts);
   return false;
 }
 
@@ -378,7 +374,7 @@ class CudaBackend {
   template <int W, class F>
   bool launch_compact(int n, const F& f, int blocks, bool early) {
     if constexpr (has_compact_teams<W, F>()) {
-      if (f.shares_end() || blocks <= 2 * compact_blocks * multiprocessors_) return false;
+      if (f.shares_end() || !has_waves_of_compact(blocks, multiprocessors_)) return false;
       launch_kernel(current_, early, run_compact_teams<W, F>, blocks, serial_block_size, n, f);
       return true;
     }

@@ -33,10 +33,9 @@
 
 #include "fast/kernels/feasible_region.hpp"
 #include "fast/kernels/team.hpp"
+#include "fast/stages/team_choice.hpp"
 
 namespace ogc::fast {
-
-inline constexpr int serial_block_size = 128;  ///< threads of a block with SerialLaneTeams
 
 namespace detail {
 

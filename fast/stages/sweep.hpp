@@ -47,6 +47,19 @@ constexpr unsigned curves(KindList<All...> list) {
   return ((All::is_curve ? list.template bit<All> : 0u) | ...);
 }
 
+/// Returns W for a scene: its setting, or the default.
+inline int lanes_of(const RestState& rest, const compare::Scene& scene) {
+  if (scene.settings.lanes > 0) return static_cast<int>(scene.settings.lanes);
+  const unsigned kinds = kinds_of(Kinds{}, rest);
+  const bool has_only_curves = (kinds & Kinds::bit<SegmentKind>) != 0 && (kinds & ~curves(Kinds{})) == 0;
+  return default_lanes(rest.mass.size(), has_only_curves);
+}
+
+/// Returns whether the sweep moves a prescribed vertex to its target. Vertices of driven volumes are there already.
+inline bool is_moved_to_target(const RestState& rest, const compare::Scene& scene, std::size_t v) {
+  return rest.mobility[v] == Mobility::prescribed && !scene.bodies[as_index(rest.body[v])].is_volume();
+}
+
 /// Returns the features that a scene needs in the sum over a vertex's stencils, one bit each (sums.hpp).
 inline unsigned asked_of_sum(const RestState& rest, const compare::Scene& scene) {
   bool usual_models = true;
@@ -76,8 +89,7 @@ class Sweep {
         colour_begin_(colouring.begin),
         colours_(colouring.count),
         vertex_count_(static_cast<int>(rest.mass.size())),
-        lanes_(scene.settings.lanes > 0 ? static_cast<int>(scene.settings.lanes)
-                                        : default_lanes(rest.mass.size(), has_only_curves(rest))),
+        lanes_(lanes_of(rest, scene)),
         sum_(Sums::first_that_gives(asked_of_sum(rest, scene))),
         activation_(rest.activation),
         streams_(rest, colouring, scene.settings.time_step),
@@ -92,11 +104,8 @@ class Sweep {
     contact_rows_.fill_zero();
     const int bodies = static_cast<int>(rest.materials.size());
     tables_ = {body_.data(), contact_materials_.data(), bodies, rest_squared_.data(), nullptr};
-    for (std::size_t v = 0; v < rest.mobility.size(); ++v) {
-      // vertices of driven volumes are at their targets already
-      if (rest.mobility[v] == Mobility::prescribed && !is_of_volume(scene, rest.body[v]))
-        prescribed_host_.push_back(static_cast<int>(v));
-    }
+    for (std::size_t v = 0; v < rest.mobility.size(); ++v)
+      if (is_moved_to_target(rest, scene, v)) prescribed_host_.push_back(static_cast<int>(v));
     upload(prescribed_, prescribed_host_);
   }
 
@@ -191,15 +200,6 @@ class Sweep {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
   using Sums = typename Backend::Sums;
-
-  static bool has_only_curves(const RestState& rest) {
-    const unsigned kinds = kinds_of(Kinds{}, rest);
-    return (kinds & Kinds::bit<SegmentKind>) != 0 && (kinds & ~curves(Kinds{})) == 0;
-  }
-
-  static bool is_of_volume(const compare::Scene& scene, int body) {
-    return scene.bodies[static_cast<std::size_t>(body)].is_volume();
-  }
 
   template <class T>
   static void upload(Buffer<T>& buffer, const std::vector<T>& items) {

@@ -14,7 +14,9 @@ constexpr int most_scalings = 16;
 /// Sides that come too near are moved apart to the least separation plus this share of (gap − least separation).
 /// Without the addition the sweeps might not end.
 constexpr double given_back = 0x1p-6;
-/// Rounding of a difference of two sums of three products in double: each operation rounds by 2⁻⁵³ of its result.
+/// Error of a computed separation, divided by the largest modulus of a coordinate. A height n·x in double has three
+/// rounding errors of 2⁻⁵³ (a product, two sums) of Σ|n_k x_k|, which is at most √3 times this modulus. The difference
+/// of two heights has one more of itself: 2√3 (3 + 1) 2⁻⁵³ < 14 · 2⁻⁵³ in all, rounded up to a power of two.
 constexpr double height_noise = 0x1p-49;
 
 double largest(const Triple<double>& a) { return std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])}); }
@@ -51,9 +53,9 @@ MovingPlanes::MovingPlanes(const std::vector<NearPair>& pairs, const std::vector
       pair.vertices[k] = static_cast<std::size_t>(near.vertices[k]);
       size = std::max(size, largest(centre_[pair.vertices[k]]) + radius_[pair.vertices[k]]);
     }
-    // The limit of the separation's error has two terms:
+    // By how much the separation of x must exceed that of its stored value:
     //   - the difference between x and its stored value, on both sides of the pair; n is a unit vector up to 2⁻²²
-    //   - rounding of heights n·x in double
+    //   - the errors of both computed separations, and as much again, which kept_by requires
     const double noise = 2 * (1 + 0x1p-20) * rounding_of(size) + 3 * height_noise * size;
     pair.gap = separation(pair, [&](std::size_t v) { return centre_[v]; });
     pair.least = (1 - 2 * relaxation) * pair.gap + noise;
@@ -186,7 +188,7 @@ bool MovingPlanes::kept_by(const std::vector<compare::Vec3f>& stored) const {
   return std::ranges::all_of(pairs_, [&](const Pair& pair) {
     double size = 0;
     for (const std::size_t v : pair.vertices) size = std::max(size, largest(widened(stored[v])));
-    return separation(pair, [&](std::size_t v) { return widened(stored[v]); }) > 3 * height_noise * size;
+    return separation(pair, [&](std::size_t v) { return widened(stored[v]); }) > height_noise * size;
   });
 }
 
