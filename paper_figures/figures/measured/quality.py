@@ -157,6 +157,7 @@ def write(out, rows):
 
 def curves(axes, steps, style, kinds):
     """Draws the residuals of one scene: a colour for each kind of bounds, a dash for each state."""
+    from matplotlib.ticker import LogLocator, NullFormatter  # imported here, as in `picture`
     for step in steps:
         axes.plot(step.times[1:], step.residuals[1:], style.DASHES[commands.QUALITY_SHARES.index(step.share)],
                   color=style.COLOURS[kinds.index(commands.bounds_of(step.row))], linewidth=1.2)
@@ -167,6 +168,10 @@ def curves(axes, steps, style, kinds):
         axes.axhline(limit, color="black", linewidth=0.5)
     axes.set(xscale="log", yscale="log", title=commands.scene_of(steps[0].row), xlabel="time into the step [ms]",
              ylabel="residual [1]")
+    # a panel often spans less than a decade, where the usual labels overlap
+    axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axes.xaxis.set_major_formatter(lambda time, _: f"{time:g}")
+    axes.xaxis.set_minor_formatter(NullFormatter())
 
 
 def bars(axes, steps, style, kinds, scenes):
