@@ -11,7 +11,8 @@
 namespace ogc::fast {
 
 /// Copies positions into aligned vectors, clears the lists, sets smallest distances to r_q, prepares planes, and refits
-/// the trees. The five operations are independent of each other. Runs once for each index below count(), in whole warps.
+/// the trees. The five operations are independent of each other. Runs once for each index below count(), in whole
+/// warps.
 struct BeginDetection {
   const Vec* positions;  ///< by vertex [m]
   PaddedVec* padded;     ///< the same positions in aligned vectors, written
