@@ -82,7 +82,9 @@ struct UpdateVertex {
     const int v = vertex.vertex, count = view.regions.count(v);
     HalfSpace ahead{};  // is read while the thread solves
     if constexpr (Team::reads_ahead) {
-      if (view.regions.has_planes()) ahead = view.regions.first(v)[team.number()];
+      // a lane beyond the last place reads that one, and no test asks for it
+      const int place = team.number() < most_planes ? team.number() : most_planes - 1;
+      if (view.regions.has_planes()) ahead = view.regions.first(v)[place];
     }
     add_inertia(vertex.inertia, state.own, state.target, total);
     const Vec change = solve_symmetric(total.block, total.force, 1.0f / vertex.inertia);
