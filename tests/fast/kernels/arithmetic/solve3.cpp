@@ -56,6 +56,22 @@ TEST_CASE("singular, indefinite and not finite blocks give the inertia's gradien
   }
 }
 
+TEST_CASE("a solve by factors has the bits of a solve at once, for definite and indefinite blocks", "[property]") {
+  std::mt19937 random(4);
+  int fallbacks = 0;
+  for (int i = 0; i < 20000; ++i) {
+    ForceAndBlock s = random_block(random, i % 3);
+    if (i % 4 == 0) s.block.zz = -s.block.zz;
+    const Factors factors = factors_of(s.block);
+    fallbacks += factors.is_definite ? 0 : 1;
+    const Vec once = solve_symmetric(s.block, s.force, 0.5f), factored = solve(factors, s.force, 0.5f);
+    REQUIRE(once.x == factored.x);
+    REQUIRE(once.y == factored.y);
+    REQUIRE(once.z == factored.z);
+  }
+  CHECK(fallbacks >= 5000);
+}
+
 TEST_CASE("a pivot of one unit in the last place of its diagonal entry is noise, whatever the entry's size", "[unit]") {
   const Vec force{1, -2, 3};
   for (const float size : {0x1p20f, 0x1p-20f}) {
