@@ -52,7 +52,24 @@ struct FeasibleRegion {
   /// false: a position outside is moved back along the line to X_prev (bounds=dat); true: it slides along the
   /// half-spaces
   bool slides = true;
+  /// inner_radius of the half-spaces [m]; 0: not known
+  float inner = 0;
 };
+
+/// Returns a radius [m] about `centre` within which every position certainly lies in all half-spaces (is_behind); 0 if
+/// no such radius is found. Let g = n·x − o, g₀ its value at the centre and S₀ the size of g₀'s terms. Within the
+/// radius ρ, g ≤ g₀ + (1 + 2⁻²²) ρ, as n is a unit vector up to rounding, and S ≤ S₀ + 1.8 |g₀|. is_behind holds if g ≤
+/// −2⁻⁴⁹ S, which covers the error of g and the slack. With ρ = 0.9999 |g₀| − 2⁻⁴⁵ S₀, g is at most −(10⁻⁴ − 2⁻²²) |g₀|
+/// − (2⁻⁴⁵ − 2⁻⁵¹) S₀, which is less.
+OGC_HD inline float inner_radius(const HalfSpace* planes, int count, const Vec& centre) {
+  double least = 0x1p100;
+  for (int k = 0; k < count; ++k) {
+    const Excess e = excess(planes[k].normal, planes[k].offset, centre);
+    const double radius = sub(mul(-0.9999, e.value), mul(0x1p-45, e.size));
+    least = radius < least ? radius : least;
+  }
+  return least > 0 ? round_down(least) : 0.0F;
+}
 
 /// N, the largest number of planes of a vertex. At collapsed triangles a vertex would otherwise have hundreds.
 inline constexpr int most_planes = 16;
@@ -65,6 +82,7 @@ struct FeasibleRegions {
   const int* counts = nullptr;        ///< half-spaces by vertex; null: there are only balls
   bool is_off = false;                ///< true: regions are unbounded
   bool slides = true;                 ///< as in FeasibleRegion
+  const float* inner = nullptr;       ///< FeasibleRegion::inner by vertex [m]; null: there are only balls
 
   OGC_HD bool has_planes() const { return counts != nullptr; }
   /// Returns the ball of a vertex, so that a kernel can load it early, together with other data.
@@ -77,7 +95,7 @@ struct FeasibleRegions {
   OGC_HD FeasibleRegion region(int v, const Ball& ball, int count) const {
     if (is_off) return {{ball.centre, unbounded}};
     if (counts == nullptr) return {ball};
-    return {ball, first(v), count, slides};
+    return {ball, first(v), count, slides, inner[v]};
   }
   OGC_HD FeasibleRegion operator[](int v) const { return region(v, ball(v), count(v)); }
 

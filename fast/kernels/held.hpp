@@ -8,6 +8,13 @@
 
 namespace ogc::fast {
 
+/// Returns whether the proposal is so near the region's centre that it lies in the region. Most proposals are; then no
+/// half-space is tested. Returns false if the proposal is not finite.
+OGC_HD inline bool is_near_centre(const FeasibleRegion& region, const Vec& proposal) {
+  return is_certainly_within({region.ball.centre, region.inner}, proposal) &&
+         is_certainly_within(region.ball, proposal);
+}
+
 /// Truncates a proposal that is not in the region.
 template <class Metric, class Lanes>
 OGC_HD Truncated moved_into(const FeasibleRegion& region, const Vec& current, const Vec& proposal, const Metric& metric,
@@ -22,6 +29,7 @@ template <class Metric, class Lanes = OneLane>
 OGC_HD Truncated held(const FeasibleRegion& region, const Vec& current, const Vec& proposal, const Metric& metric,
                       const Lanes& lanes = {}) {
   if (region.count == 0) return truncate(region.ball, proposal);
+  if (is_near_centre(region, proposal)) return {proposal, false};
   if (is_within(region, proposal, lanes)) return {proposal, false};
   return moved_into(region, current, proposal, metric, lanes);
 }
@@ -30,6 +38,7 @@ template <class Metric, class Lanes>
 OGC_HD Truncated held(const FeasibleRegion& region, const HalfSpace& own, const Vec& current, const Vec& proposal,
                       const Metric& metric, const Lanes& lanes) {
   if (region.count == 0) return truncate(region.ball, proposal);
+  if (is_near_centre(region, proposal)) return {proposal, false};
   if (is_within(region, own, proposal, lanes)) return {proposal, false};
   return moved_into(region, current, proposal, metric, lanes);
 }

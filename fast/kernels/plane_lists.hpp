@@ -59,6 +59,7 @@ struct PlaneListsView {
   /// by vertex: distance within which the next search must note all of its pairs [m]; infinity: r_q
   float* search_limit = nullptr;
   float contact_radius = 0;  ///< r, with the contact margin [m]
+  float* inner = nullptr;    ///< inner_radius by vertex [m]
   int* counts = nullptr;     ///< half-spaces by vertex, at most most_planes
   float* bound = nullptr;    ///< b_v by vertex [m]: γ_p times `unplaned`
 
@@ -228,8 +229,8 @@ struct PlacePlanes {
   }
 };
 
-/// Moves each plane to its place in ascending order of pairs; the thread of place 0 also writes the ball's radius. Runs
-/// once for each of the N places of each vertex.
+/// Moves each plane to its place in ascending order of pairs; the thread of place 0 also writes the ball's radius and
+/// the inner radius. Runs once for each of the N places of each vertex.
 struct SortHalfSpaces {
   PlaneListsView lists;
 
@@ -240,6 +241,7 @@ struct SortHalfSpaces {
                            ? largest_float
                            : round_down(mul(static_cast<double>(lists.share), static_cast<double>(lists.unplaned[v])));
     if (k == 0) lists.search_limit[v] = lists.is_fixed[v] != 0 || lists.threshold[v] < infinity ? 0.0F : infinity;
+    if (k == 0) lists.inner[v] = inner_radius(lists.placed + i, count, lists.positions[v]);
     if (k >= count) return;
     const NotedPair own = lists.placed_pairs[i];
     int before = 0;

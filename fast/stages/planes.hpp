@@ -27,7 +27,8 @@ class Planes {
       counts->fill_zero();
     }
     pair_offsets_.resize(vertices + 1), no_sum_.resize(1);
-    for (Buffer<float>* by_vertex : {&threshold_, &nearest_, &unplaned_, &search_limit_}) by_vertex->resize(vertices);
+    for (Buffer<float>* by_vertex : {&threshold_, &nearest_, &unplaned_, &search_limit_, &inner_})
+      by_vertex->resize(vertices);
     for (Buffer<HalfSpace>* planes : {&placed_, &rows_}) planes->resize(vertices * most_planes);
     for (Buffer<NotedPair>* pairs : {&placed_pairs_, &pairs_}) pairs->resize(vertices * most_planes);
   }
@@ -52,7 +53,7 @@ class Planes {
   /// Returns the feasible regions: X_prev, b_v and the half-spaces of the last detection.
   FeasibleRegions regions(const Vec* centre, const float* radius) const {
     FeasibleRegions regions{.centre = centre, .radius = radius, .is_off = !policy_.certifies, .slides = policy_.slides};
-    if (is_used()) regions.planes = rows_.data(), regions.counts = counts_.data();
+    if (is_used()) regions.planes = rows_.data(), regions.counts = counts_.data(), regions.inner = inner_.data();
     return regions;
   }
   /// Returns, by vertex, a lower bound of the distance of its nearest pair, at most r_q [m].
@@ -166,6 +167,7 @@ class Planes {
             .rows = rows_.data(),
             .pairs = pairs_.data(),
             .search_limit = search_limit_.data(),
+            .inner = inner_.data(),
             .counts = counts_.data()};
   }
 
@@ -175,7 +177,7 @@ class Planes {
   compare::BoundsTraits policy_;
   const Vec* displacement_ = nullptr;
   Buffer<std::uint8_t> is_fixed_;
-  Buffer<float> distance_, pair_rows_, threshold_, nearest_, unplaned_, search_limit_;
+  Buffer<float> distance_, pair_rows_, threshold_, nearest_, unplaned_, search_limit_, inner_;
   Buffer<RowPlaces> places_;
   Buffer<int> pair_counts_, pair_offsets_, counts_, no_sum_;
   Buffer<HalfSpace> placed_, rows_;

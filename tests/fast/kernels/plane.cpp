@@ -368,6 +368,47 @@ TEST_CASE("plane: turned axes turn the answer, but for the spacing of stored num
   CHECK(far == 0);
 }
 
+TEST_CASE(
+    "plane: within the inner radius every position is behind all half-spaces, and it is hardly less than their "
+    "distance",
+    "[property]") {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> unit(-1, 1);
+  const auto direction = [&] {
+    Vec d;
+    do d = {unit(random), unit(random), unit(random)};
+    while (!(dot(d, d) > 0.01f));
+    return (1.0f / std::sqrt(dot(d, d))) * d;
+  };
+  int outside = 0, pessimistic = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const float size = i % 3 == 0 ? 1e-3f : i % 3 == 1 ? 1.0f : 1e3f;
+    const Vec centre = size * direction();
+    // the least distance is a few spacings of floats, or far more
+    const double distance = size * (i % 2 == 0 ? 0x1p-22 : 0.1) * (1 + std::abs(unit(random)));
+    HalfSpace sides[16];
+    for (HalfSpace& side : sides) {
+      side.normal = direction();
+      side.offset = excess(side.normal, 0, centre).value + distance * (1 + std::abs(unit(random)));
+    }
+    sides[i % 16].offset = excess(sides[i % 16].normal, 0, centre).value + distance;
+    const float inner = inner_radius(sides, 16, centre);
+    pessimistic += !(inner > 0.9998 * distance && inner < distance);
+    for (int k = 0; k < 20; ++k) {
+      // towards the nearest half-space, or anywhere
+      const Vec x = centre + inner * (k % 2 == 0 ? sides[i % 16].normal : direction());
+      if (!is_certainly_within(Ball{centre, inner}, x)) continue;
+      for (const HalfSpace& side : sides) outside += !is_behind(side, x);
+    }
+  }
+  CHECK(outside == 0);
+  CHECK(pessimistic == 0);
+  // a half-space through the centre, or beyond it, leaves none
+  const HalfSpace through{{1, 0, 0}, 2.0}, beyond{{1, 0, 0}, 1.5};
+  CHECK(inner_radius(&through, 1, {2, 0, 0}) == 0);
+  CHECK(inner_radius(&beyond, 1, {2, 0, 0}) == 0);
+}
+
 TEST_CASE("plane: touching pairs have none", "[unit]") {
   CHECK_FALSE(plane_of(PairPoints<1, 3>{{{0, 0, 0}}, {{-1, -1, 0}, {1, -1, 0}, {0, 2, 0}}, false, false}).exists());
   CHECK_FALSE(plane_of(PairPoints<2, 2>{{{-1, 0, 0}, {1, 0, 0}}, {{0, -1, 0}, {0, 1, 0}}, false, false}).exists());
