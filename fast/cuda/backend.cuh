@@ -162,7 +162,7 @@ __global__ void __launch_bounds__(serial_block_size) run_serial_teams(int n, F f
   f(min(i, n - 1), SerialLaneTeam<W>(i < n));
 }
 
-/// Returns whether F has CompactTeams of this width: updates of vertices may have them.
+/// Returns whether large launches of F run CompactTeams of this width. Only updates of vertices may (can_be_compact).
 template <int W, class F>
 constexpr bool has_compact_teams() {
   if constexpr (requires(const F& f) { f.shares_end(); }) return can_be_compact(W, F::parts);

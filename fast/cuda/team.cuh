@@ -31,7 +31,6 @@
 #include <cuda_runtime.h>
 #include <cub/block/block_scan.cuh>
 
-#include "fast/kernels/feasible_region.hpp"
 #include "fast/kernels/team.hpp"
 #include "fast/stages/team_choice.hpp"
 
@@ -169,7 +168,7 @@ class NeighbourLanes {
   __device__ static unsigned everyone() { return (0xffffffffu >> (32 - W)) << begin(); }
 };
 
-/// W neighbouring threads that share the work of one item.
+/// The lanes of for_each_group: W neighbouring threads that share the work of one item.
 template <int W>
 struct GroupLanes : NeighbourLanes<W> {
   __device__ static bool leader() { return NeighbourLanes<W>::lane() == 0; }
@@ -186,7 +185,6 @@ class SpreadTeam : public NeighbourLanes<W> {
   static_assert(W >= 1 && W <= 32 && (W & (W - 1)) == 0, "W is a power of two, at most 32");
   static constexpr int width = W;  ///< W, team lanes
   static constexpr bool moves_totals = false;
-  static constexpr bool reads_ahead = W >= most_planes;
 
   __device__ explicit SpreadTeam(bool present) : present_(present) {}
 
@@ -214,8 +212,6 @@ class SpreadTeam : public NeighbourLanes<W> {
     return detail::total_of_lanes<W>(total);
   }
 
-  /// Returns the number of the team lane.
-  __device__ static int number() { return lane(); }
   /// Returns whether the thread is in warp 0, whose team lanes have the total.
   __device__ bool holds_total() const { return warp() == 0; }
   /// Returns whether the thread is team lane 0 of warp 0.
@@ -236,7 +232,6 @@ class SerialLaneTeam : public NeighbourLanes<W> {
   static_assert(W >= 1 && W <= 32 && (W & (W - 1)) == 0, "W is a power of two, at most 32");
   static constexpr int width = W;  ///< W, team lanes
   static constexpr bool moves_totals = false;
-  static constexpr bool reads_ahead = false;  ///< other warps run while one waits, and registers are scarce
 
   __device__ explicit SerialLaneTeam(bool present) : present_(present) {}
 
@@ -286,7 +281,6 @@ class SerialLaneTeam : public NeighbourLanes<W> {
 
 /// A thread that does the work of a vertex after the sum alone.
 struct EndThread : OneLane {
-  static constexpr bool reads_ahead = false;
   bool has_total, present;  ///< whether it has a total; whether it is the total of an item
 
   __device__ EndThread(bool total, bool item) : has_total(total), present(item) {}

@@ -56,11 +56,11 @@ struct FeasibleRegion {
   float inner = 0;
 };
 
-/// Returns a radius [m] about `centre` within which every position certainly lies in all half-spaces (is_behind); 0 if
-/// no such radius is found. Let g = n·x − o, g₀ its value at the centre and S₀ the size of g₀'s terms. Within the
-/// radius ρ, g ≤ g₀ + (1 + 2⁻²²) ρ, as n is a unit vector up to rounding, and S ≤ S₀ + 1.8 |g₀|. is_behind holds if g ≤
-/// −2⁻⁴⁹ S, which covers the error of g and the slack. With ρ = 0.9999 |g₀| − 2⁻⁴⁵ S₀, g is at most −(10⁻⁴ − 2⁻²²) |g₀|
-/// − (2⁻⁴⁵ − 2⁻⁵¹) S₀, which is less.
+/// Returns a radius ρ [m]: is_behind holds in all half-spaces for every position that is nearer to `centre`. Returns 0
+/// if the centre is not far enough inside. Let g = n·x − o, g₀ its value at the centre and S₀ the size of g₀'s terms.
+/// Within the radius, g ≤ g₀ + (1 + 2⁻²²) ρ, as n is a unit vector up to rounding, and S ≤ S₀ + 1.8 |g₀|. is_behind
+/// holds if g ≤ −2⁻⁴⁹ S, which covers the error of g and the slack. With ρ = 0.9999 |g₀| − 2⁻⁴⁵ S₀, g is at most −(10⁻⁴
+/// − 2⁻²²) |g₀| − (2⁻⁴⁵ − 2⁻⁵¹) S₀, which is less.
 OGC_HD inline float inner_radius(const HalfSpace* planes, int count, const Vec& centre) {
   double least = 0x1p100;
   for (int k = 0; k < count; ++k) {
@@ -87,17 +87,13 @@ struct FeasibleRegions {
   OGC_HD bool has_planes() const { return counts != nullptr; }
   /// Returns the ball of a vertex, so that a kernel can load it early, together with other data.
   OGC_HD Ball ball(int v) const { return {centre[v], radius[v]}; }
-  /// Returns the number of half-spaces of a vertex.
-  OGC_HD int count(int v) const { return counts == nullptr ? 0 : counts[v]; }
-  /// Returns the first half-space of a vertex; there is memory for most_planes of them.
-  OGC_HD const HalfSpace* first(int v) const { return planes + static_cast<std::ptrdiff_t>(v) * most_planes; }
-  /// Returns the region of a vertex; `ball` must be ball(v), `count` must be count(v).
-  OGC_HD FeasibleRegion region(int v, const Ball& ball, int count) const {
+  /// Returns the region of a vertex; `ball` must be ball(v).
+  OGC_HD FeasibleRegion region(int v, const Ball& ball) const {
     if (is_off) return {{ball.centre, unbounded}};
     if (counts == nullptr) return {ball};
-    return {ball, first(v), count, slides, inner[v]};
+    return {ball, planes + static_cast<std::ptrdiff_t>(v) * most_planes, counts[v], slides, inner[v]};
   }
-  OGC_HD FeasibleRegion operator[](int v) const { return region(v, ball(v), count(v)); }
+  OGC_HD FeasibleRegion operator[](int v) const { return region(v, ball(v)); }
 
  private:
   /// radius of an unbounded ball [m]; its square fits into single precision

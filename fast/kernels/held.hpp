@@ -15,14 +15,6 @@ OGC_HD inline bool is_near_centre(const FeasibleRegion& region, const Vec& propo
          is_certainly_within(region.ball, proposal);
 }
 
-/// Truncates a proposal that is not in the region.
-template <class Metric, class Lanes>
-OGC_HD Truncated moved_into(const FeasibleRegion& region, const Vec& current, const Vec& proposal, const Metric& metric,
-                            const Lanes& lanes) {
-  if (!region.slides) return scale_into(region, region.ball.centre, proposal, lanes);
-  return slide_into(region, current, proposal, metric, lanes);
-}
-
 /// Returns the proposal for a free vertex, truncated to its region; `cut`: truncation changed it. All lanes of a team
 /// must call this together.
 template <class Metric, class Lanes = OneLane>
@@ -31,16 +23,8 @@ OGC_HD Truncated held(const FeasibleRegion& region, const Vec& current, const Ve
   if (region.count == 0) return truncate(region.ball, proposal);
   if (is_near_centre(region, proposal)) return {proposal, false};
   if (is_within(region, proposal, lanes)) return {proposal, false};
-  return moved_into(region, current, proposal, metric, lanes);
-}
-/// Does the same; `own` is the half-space that this lane read ahead (see is_within).
-template <class Metric, class Lanes>
-OGC_HD Truncated held(const FeasibleRegion& region, const HalfSpace& own, const Vec& current, const Vec& proposal,
-                      const Metric& metric, const Lanes& lanes) {
-  if (region.count == 0) return truncate(region.ball, proposal);
-  if (is_near_centre(region, proposal)) return {proposal, false};
-  if (is_within(region, own, proposal, lanes)) return {proposal, false};
-  return moved_into(region, current, proposal, metric, lanes);
+  if (!region.slides) return scale_into(region, region.ball.centre, proposal, lanes);
+  return slide_into(region, current, proposal, metric, lanes);
 }
 
 /// Returns the target of a prescribed vertex, truncated to its region on the straight line to the target.

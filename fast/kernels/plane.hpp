@@ -170,13 +170,6 @@ template <class Lanes = OneLane>
 OGC_HD bool is_within(const FeasibleRegion& region, const Vec& x, const Lanes& lanes = {}) {
   return first_left(region, x, lanes) == region.count && is_within(region.ball, x);
 }
-/// Does the same. `own` is the half-space of the region that has the number of this lane; it was read ahead. No region
-/// may have more half-spaces than there are lanes.
-template <class Lanes>
-OGC_HD bool is_within(const FeasibleRegion& region, const HalfSpace& own, const Vec& x, const Lanes& lanes) {
-  const int left = lanes.first(region.count, 0, [&](int) { return !is_behind(own, x); });
-  return left == region.count && is_within(region.ball, x);
-}
 
 /// A metric returns, for the normal n of a half-space, the direction in which a vertex enters the half-space with the
 /// least increase of its energy: H⁻¹ n. `prepared` does the work that does not depend on n.

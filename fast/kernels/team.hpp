@@ -92,9 +92,6 @@ struct SerialTeam : OneLane {
   /// false: the thread that has the total also does the work after the sum. Some teams of a device move totals to other
   /// threads (fast/cuda/team.cuh).
   static constexpr bool moves_totals = false;
-  /// true: each team lane with the total has a number(), and reads its half-space of a region before the solve. Then W
-  /// is at least most_planes.
-  static constexpr bool reads_ahead = false;
 
   /// Does nothing. Teams on a device may load this number of bytes, beginning at this address, into a cache.
   OGC_HD static void prefetch(const void*, int) {}

@@ -15,19 +15,11 @@ namespace ogc::fast {
 /// Truncates the proposal to the vertex's region. The leader writes the position, counts a cut and returns the
 /// position; other threads return `stay`. If the proposal is not finite, the vertex stays and the step fails. All
 /// threads for which holds_total() is true must call this together.
-///
-/// `own` is read only if Team::reads_ahead: the half-space of the region that has the number of the team lane.
 template <class Metric, class Team>
 OGC_HD Vec write_held(const SweepView& view, int v, const Vec& proposal, const Vec& stay, const FeasibleRegion& region,
-                      const HalfSpace& own, const Metric& metric, const Team& team) {
+                      const Metric& metric, const Team& team) {
   const bool may_be_written = is_finite(proposal);
-  Truncated kept{stay, false};
-  if (may_be_written) {
-    if constexpr (Team::reads_ahead)
-      kept = held(region, own, stay, proposal, metric, team);
-    else
-      kept = held(region, stay, proposal, metric, team);
-  }
+  const Truncated kept = may_be_written ? held(region, stay, proposal, metric, team) : Truncated{stay, false};
   if (!team.leader()) return stay;
   view.write(v, kept.position);
   if (!may_be_written) view.control->count_not_finite();
@@ -79,16 +71,10 @@ struct UpdateVertex {
   template <class Team>
   OGC_HD void finish(int slot, const SweepVertex& vertex, const State& state, ForceAndBlock& total,
                      const Team& team) const {
-    const int v = vertex.vertex, count = view.regions.count(v);
-    HalfSpace ahead{};  // is read while the thread solves
-    if constexpr (Team::reads_ahead) {
-      // a lane beyond the last place reads that one, and no test asks for it
-      const int place = team.number() < most_planes ? team.number() : most_planes - 1;
-      if (view.regions.has_planes()) ahead = view.regions.first(v)[place];
-    }
     add_inertia(vertex.inertia, state.own, state.target, total);
     const Vec change = solve_symmetric(total.block, total.force, 1.0f / vertex.inertia);
-    const Vec x = write_held(view, v, state.own + change, state.own, view.regions.region(v, state.ball, count), ahead,
+    const Vec x = write_held(view, vertex.vertex, state.own + change, state.own,
+                             view.regions.region(vertex.vertex, state.ball),
                              BlockMetric{total.block, 1.0f / vertex.inertia}, team);
     if constexpr (Gather::has_volumes) {
       if (team.leader() && lies_deep_in_volume(view, slot, x)) view.control->count_deep_inside();

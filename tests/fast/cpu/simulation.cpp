@@ -58,6 +58,16 @@ double mean(const std::vector<compare::Vec3f>& x, std::size_t first, std::size_t
   return sum / static_cast<double>(count);
 }
 
+// A cloth of 64 vertices, laid a hundredth of a millimetre within the radius above a fixed plane.
+compare::Scene cloth_on_plane() {
+  compare::Scene scene = empty_scene();
+  compare::Material material;
+  material.contact_stiffness = 10;
+  add_sheet(scene, 8, 0.06, 0.00499, false, material);
+  add_sheet(scene, 6, 0.10, 0, true, material);
+  return scene;
+}
+
 }  // namespace
 
 TEST_CASE("a cloth far from everything falls as -g h^2 n(n+1)/2 until the guess loop runs out of rounds, and says when",
@@ -106,11 +116,7 @@ TEST_CASE("the printed single round falls behind free fall at once where bounds 
 
 TEST_CASE("a cloth laid on a fixed plane rests just below a radius where sets are found before each iteration",
           "[property]") {
-  compare::Scene scene = empty_scene();
-  compare::Material material;
-  material.contact_stiffness = 10;
-  add_sheet(scene, 8, 0.06, 0.00499, false, material);
-  add_sheet(scene, 6, 0.10, 0, true, material);
+  compare::Scene scene = cloth_on_plane();
   scene.settings.detection_every = 1;
   const Outcome outcome = run(scene, 60);
   REQUIRE(outcome.rows.size() == 60);
@@ -127,11 +133,7 @@ TEST_CASE(
     "found once a step, the sets miss what a vertex just above a radius falls into, and the cloth chatters within a "
     "step of free fall",
     "[property]") {
-  compare::Scene scene = empty_scene();
-  compare::Material material;
-  material.contact_stiffness = 10;
-  add_sheet(scene, 8, 0.06, 0.00499, false, material);
-  add_sheet(scene, 6, 0.10, 0, true, material);
+  compare::Scene scene = cloth_on_plane();
   const double h = scene.settings.time_step;
   const Outcome outcome = run(scene, 100);
   for (std::size_t v = 0; v < 64; ++v) CHECK(std::abs(outcome.end.positions[v].y - 0.005) < 9.81 * h * h);
@@ -282,11 +284,7 @@ TEST_CASE("a step that settles has the row and the bits of a step with as many i
 }
 
 TEST_CASE("a cloth that comes to rest settles, whether iterations are asked one by one or in groups", "[property]") {
-  compare::Scene scene = empty_scene();
-  compare::Material material;
-  material.contact_stiffness = 10;
-  add_sheet(scene, 8, 0.06, 0.00499, false, material);
-  add_sheet(scene, 6, 0.10, 0, true, material);
+  compare::Scene scene = cloth_on_plane();
   scene.settings.detection_every = 2;
   scene.settings.settled_move = 1e-6;
   const Outcome grouped = run(scene, 60);

@@ -380,11 +380,11 @@ TEST_CASE(
     while (!(dot(d, d) > 0.01f));
     return (1.0f / std::sqrt(dot(d, d))) * d;
   };
-  int outside = 0, pessimistic = 0;
+  int outside = 0, pessimistic = 0, differences = 0;
   for (int i = 0; i < 20000; ++i) {
     const float size = i % 3 == 0 ? 1e-3f : i % 3 == 1 ? 1.0f : 1e3f;
     const Vec centre = size * direction();
-    // the least distance is a few spacings of floats, or far more
+    // the nearest half-space is a few spacings of floats away, or far more
     const double distance = size * (i % 2 == 0 ? 0x1p-22 : 0.1) * (1 + std::abs(unit(random)));
     HalfSpace sides[16];
     for (HalfSpace& side : sides) {
@@ -394,15 +394,24 @@ TEST_CASE(
     sides[i % 16].offset = excess(sides[i % 16].normal, 0, centre).value + distance;
     const float inner = inner_radius(sides, 16, centre);
     pessimistic += !(inner > 0.9998 * distance && inner < distance);
+    // a region that knows its inner radius truncates to the same bits, also where its ball is the smaller one
+    const FeasibleRegion region{{centre, static_cast<float>((i % 5 == 0 ? 0.5 : 3) * distance)}, sides, 16};
+    FeasibleRegion knowing = region;
+    knowing.inner = inner;
     for (int k = 0; k < 20; ++k) {
       // towards the nearest half-space, or anywhere
       const Vec x = centre + inner * (k % 2 == 0 ? sides[i % 16].normal : direction());
+      const Vec proposal = centre + (k < 10 ? 1.0f : 2.0f) * (x - centre);
+      const Truncated one = held(region, centre, proposal, InertiaMetric{}),
+                      other = held(knowing, centre, proposal, InertiaMetric{});
+      differences += !same_bits(one.position, other.position) || one.cut != other.cut;
       if (!is_certainly_within(Ball{centre, inner}, x)) continue;
       for (const HalfSpace& side : sides) outside += !is_behind(side, x);
     }
   }
   CHECK(outside == 0);
   CHECK(pessimistic == 0);
+  CHECK(differences == 0);
   // a half-space through the centre, or beyond it, leaves none
   const HalfSpace through{{1, 0, 0}, 2.0}, beyond{{1, 0, 0}, 1.5};
   CHECK(inner_radius(&through, 1, {2, 0, 0}) == 0);
