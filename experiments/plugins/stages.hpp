@@ -39,10 +39,10 @@ std::string_view list_name(List list);
 
 /// Holds what one call of a plug-in's function needs besides its structures.
 struct CallArrays {
-  const QuestionSizes& sizes;
+  const QuestionSizes& sizes;           ///< numbers of the question
   std::span<const void* const> inputs;  ///< in the order of the structures' members
   std::span<void* const> outputs;       ///< in the order of the structures' members
-  const ListSizes& capacities;
+  const ListSizes& capacities;          ///< room in the lists
 };
 
 /// Describes one stage of compare/plugin.h.
@@ -54,10 +54,10 @@ struct PluginStage {
   std::vector<OutputInfo> outputs;  ///< in the order of the structures' members
 };
 
-/// Result of a call: what the function returned, and the lengths of the lists that it set; 1 for `none`.
+/// Result of a call.
 struct CallReturn {
-  int status = 0;
-  ListSizes counts{1};
+  int status = 0;       ///< what the function returned
+  ListSizes counts{1};  ///< lengths of the lists; 1 for `none`
 };
 
 /// Fills both structures of a stage and calls the function with them.

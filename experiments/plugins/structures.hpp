@@ -28,9 +28,10 @@ struct QuestionSizes {
   ogc_vec3 gravity{};
 };
 
-/// `Element` is the type of an array's elements; `structure` is one of those described here. An output has one group of
-/// elements in all (`one`), or one for each case (`item`), each vertex, …, each pair of bodies (`two_bodies`).
+/// The type of an array's elements; `structure` is one of those described here.
 enum class Element : std::uint8_t { number, byte, index, real, wide, structure };
+/// An output has one group of elements in all (`one`), or one for each case (`item`), each vertex, …, each pair of
+/// bodies (`two_bodies`).
 enum class Per : std::uint8_t { one, item, vertex, edge, triangle, two_bodies };
 /// Lists of outputs whose length the plug-in determines.
 enum class List : std::uint8_t {
@@ -45,7 +46,7 @@ enum class List : std::uint8_t {
   planes,
   volume_contacts
 };
-inline constexpr std::size_t list_count = 10;
+inline constexpr std::size_t list_count = 10;  ///< with `none`
 
 /// Returns the size of one element [bytes]; 0 for a structure.
 constexpr std::size_t bytes_of(Element element) {
@@ -93,8 +94,8 @@ struct Member {
 
 /// Describes one structure of compare/plugin.h.
 struct Structure {
-  std::string_view name;
-  std::size_t bytes = 0;
+  std::string_view name;        ///< as in the header
+  std::size_t bytes = 0;        ///< its size
   std::vector<Member> members;  ///< all members, in the header's order
 };
 
@@ -113,12 +114,14 @@ constexpr std::string_view argument_in(std::string_view function, std::string_vi
   return function.substr(0, function.find_first_of(";]"));
 }
 
+/// Returns the name of a member.
 template <auto MemberPointer>
 constexpr std::string_view member_name() {
   const std::string_view qualified = argument_in(__PRETTY_FUNCTION__, "MemberPointer = &");
   return qualified.substr(qualified.rfind(':') + 1);
 }
 
+/// Returns the name of a structure.
 template <class StructureType>
 constexpr std::string_view structure_name() {
   return argument_in(__PRETTY_FUNCTION__, "StructureType = ");
@@ -126,6 +129,7 @@ constexpr std::string_view structure_name() {
 static_assert(member_name<&ogc_truncate_in::previous>() == "previous");
 static_assert(structure_name<ogc_truncate_in>() == "ogc_truncate_in");
 
+/// Structure and type of a member, from a pointer to it.
 template <class>
 struct Pointer;
 template <class S, class T>
@@ -133,9 +137,11 @@ struct Pointer<T S::*> {
   using Of = S;
   using To = T;
 };
+/// Type of a member.
 template <auto M>
 using TypeOf = typename Pointer<decltype(M)>::To;
 
+/// Returns the place of a member in its structure [bytes].
 template <auto M>
 std::size_t offset() {
   static const typename Pointer<decltype(M)>::Of whole{};
@@ -171,6 +177,7 @@ void set_type(Member& member) {
   }
 }
 
+/// Returns name, place and type of a member.
 template <auto M>
 Member member(Role role) {
   Member described_member{.name = member_name<M>(), .offset = offset<M>(), .role = role};
@@ -180,13 +187,16 @@ Member member(Role role) {
 
 }  // namespace detail
 
-/// These functions describe a member; Role says what each means.
+// These functions describe a member; Role says what each means.
+
+/// Describes a member of an element of an array.
 template <auto M>
 Member field() {
   static_assert(!std::is_pointer_v<detail::TypeOf<M>>);
   return detail::member<M>(Role::field);
 }
 
+/// Describes a number of the question, which stands in the member `Question` of QuestionSizes.
 template <auto M, auto Question>
 Member value() {
   static_assert(std::is_same_v<detail::TypeOf<M>, detail::TypeOf<Question>>);
@@ -195,7 +205,7 @@ Member value() {
   return member;
 }
 
-/// `length` names members of the structure that holds the array, as the header does.
+/// Describes an input array. `length` names members of the structure that holds the array, as the header does.
 template <auto M>
 Member input(std::string_view length) {
   static_assert(std::is_const_v<std::remove_all_extents_t<std::remove_pointer_t<detail::TypeOf<M>>>>);
@@ -204,6 +214,7 @@ Member input(std::string_view length) {
   return member;
 }
 
+/// Describes an output array; with a list, the plug-in determines its length.
 template <auto M>
 Member output(Per per, List list = List::none) {
   static_assert(std::is_pointer_v<detail::TypeOf<M>>);
@@ -214,6 +225,7 @@ Member output(Per per, List list = List::none) {
   return member;
 }
 
+/// Describes the room in a list.
 template <auto M>
 Member capacity(List list) {
   static_assert(std::is_same_v<detail::TypeOf<M>, std::int64_t>);
@@ -222,6 +234,7 @@ Member capacity(List list) {
   return member;
 }
 
+/// Describes the length of a list.
 template <auto M>
 Member count(List list) {
   static_assert(std::is_same_v<detail::TypeOf<M>, std::int64_t>);
@@ -230,11 +243,13 @@ Member count(List list) {
   return member;
 }
 
+/// Describes a structure within the structure.
 template <auto M>
 Member nested() {
   return detail::member<M>(Role::nested);
 }
 
+/// Describes a member that is null.
 template <auto M>
 Member reserved() {
   return {.name = detail::member_name<M>(), .offset = detail::offset<M>(), .role = Role::reserved};

@@ -1,10 +1,6 @@
 """Marks functions as kernels of stages, which `ogc compare STAGE --plugin FILE.py` judges."""
 
 
-class EndOfKernels(BaseException):
-    """Raised by `judge` in a file that is being judged: the file's kernels stand above that line."""
-
-
 def kernel(stage):
     """Marks a function as kernel of a stage, such as "truncate".
 

@@ -7,7 +7,6 @@ length. Kernels get views of the received bytes, and what they return is sent fr
 """
 
 import fcntl
-import importlib.abc
 import importlib.util
 import inspect
 import json
@@ -218,7 +217,8 @@ def structured(value, dtype, name):
     """Returns an array of structures from a dictionary of its members, or from rows if all members have one type."""
     if isinstance(value, dict):
         if set(value) != set(dtype.names):
-            raise Wrong(f"{name} with the members {', '.join(map(str, value)) or 'none'}; it has {', '.join(dtype.names)}")
+            given = ", ".join(map(str, value)) or "none"
+            raise Wrong(f"{name} with the members {given}; it has {', '.join(dtype.names)}")
         parts = {part: host_array(value[part], f"{name}[{part}]") for part in dtype.names}
         lengths = {part: array.shape[:1] for part, array in parts.items()}
         if len(set(lengths.values())) > 1:
@@ -267,16 +267,14 @@ def answer_of(returned, outputs, question):
         dtype, name = output["dtype"], f"`{output['name']}`"
         value = returned[output["name"]]
         array = structured(value, dtype, name) if dtype.names else converted(host_array(value, name), dtype, name)
-        words = list(output["shape"])
-        right = question.shape(words[1:]) if "list" in output else question.shape(words)
+        words, due = output["shape"], ""
         if "list" in output:
-            length = array.shape[0] if array.ndim > 0 else "any"
-            length = counts.setdefault(output["list"], length)
+            length = counts.setdefault(output["list"], array.shape[0] if array.ndim > 0 else "any")
             first = first_of.setdefault(output["list"], name)
             due = f" (as many as {first})" if first != name else ""
-            right = [length, *right]
+            right = [length, *question.shape(words[1:])]
         else:
-            due = ""
+            right = question.shape(words)
         if right == [1] and array.shape == ():
             array = array.reshape(1)
         if list(array.shape) != right:
@@ -301,28 +299,26 @@ def words_of(error, file):
     return f"{type(error).__name__}{': ' if said else ''}{said[:LONGEST_TEXT // 2]}{place_of(error, file)}"
 
 
-class Package(importlib.abc.MetaPathFinder, importlib.abc.Loader):
-    """Provides `ogc_testbed` to files of an interpreter in which it is not installed."""
-
-    def find_spec(self, name, path=None, target=None):
-        return importlib.util.spec_from_loader(name, self, is_package=True) if name == "ogc_testbed" else None
-
-    def exec_module(self, module):
-        module.kernel = sys.modules["ogc_testbed.kernels"].kernel
-        module.judge = end_of_kernels
+class EndOfKernels(BaseException):
+    """Raised where a file calls judge: its kernels stand above."""
 
 
 def end_of_kernels(*_, **__):
-    raise sys.modules["ogc_testbed.kernels"].EndOfKernels
+    raise EndOfKernels
 
 
 def provide_package(source):
-    """Makes `ogc_testbed.kernels` this program's own, and the package importable."""
-    kernels = types.ModuleType("ogc_testbed.kernels")
+    """Gives `ogc_testbed` this program's own mark of kernels and a judge that ends the file. Where the package is not
+    installed, it consists of these two."""
+    kernels, judging = types.ModuleType("ogc_testbed.kernels"), types.ModuleType("ogc_testbed.judging")
     exec(source, kernels.__dict__)
-    sys.modules["ogc_testbed.kernels"] = kernels
-    sys.meta_path.append(Package())
-    return kernels
+    judging.judge = end_of_kernels
+    if importlib.util.find_spec("ogc_testbed") is None:
+        package = types.ModuleType("ogc_testbed")
+        package.__path__ = []
+        package.kernel, package.judge = kernels.kernel, end_of_kernels
+        sys.modules[package.__name__] = package
+    sys.modules.update({module.__name__: module for module in (kernels, judging)})
 
 
 class Kernel:
@@ -350,7 +346,7 @@ class Kernel:
         return self.function(*(values[n] for n in self.positions), **{n: values[n] for n in self.keywords})
 
 
-def load(file, table, kernels):
+def load(file, table):
     """Returns the kernels of the file by the number of their stage."""
     module = types.ModuleType("ogc_plugin_file")
     module.__file__ = file
@@ -360,7 +356,7 @@ def load(file, table, kernels):
     try:
         with open(file, "rb") as source:
             exec(compile(source.read(), file, "exec"), module.__dict__)
-    except kernels.EndOfKernels:
+    except EndOfKernels:
         pass
     except BaseException as error:
         end_if_copy()
@@ -425,7 +421,6 @@ def serve(layout, table, kernels, file):
 
 def main():
     file = sys.argv[1]
-    os.environ["OGC_PLUGIN_WORKER"] = "1"
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     os.dup2(2, 1)  # what kernels print must not appear in a result
     sys.stdout.reconfigure(line_buffering=True)
@@ -443,7 +438,8 @@ def main():
         global numpy
         numpy = imported
         table = Table(layout["table"])
-        kernels = load(file, table, provide_package(layout["kernels"]))
+        provide_package(layout["kernels"])
+        kernels = load(file, table)
     except Refusal as refusal:
         send(struct.pack("=B", REFUSED), text(str(refusal)))
         os._exit(2)
