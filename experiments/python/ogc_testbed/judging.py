@@ -1,6 +1,7 @@
 """Judges a kernel in Python against the exact reference, as `ogc compare STAGE --plugin FILE.py` does."""
 
 import ast
+import dis
 import inspect
 import json
 import os
@@ -8,6 +9,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import textwrap
 import types
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -68,9 +70,9 @@ def judge(function, stage=None, cases=100_000, seed=1, program=None, time_limit=
     """Judges a kernel, which `@kernel(stage)` has marked, and returns its verdict.
 
     `stage` is needed only if the kernel has several marks. `program` is the program `ogc`; without it, the
-    environment's OGC_PROGRAM, `ogc` on the PATH and build/default/ogc of a checkout are tried. A call of the kernel may
-    take `time_limit` seconds, and so may the import of its file. Raises ValueError for what is no kernel, and
-    RuntimeError if there is no program or no verdict.
+    environment's OGC_PROGRAM, `ogc` on the PATH or beside Python, and build/default/ogc of a checkout are tried. A call
+    of the kernel may take `time_limit` seconds, and so may the import of its file. Raises ValueError for what is no
+    kernel, and RuntimeError if there is no program or no verdict.
 
     The kernel runs in a process of its own, which runs the file that defines it down to the first call of judge, where
     this function is another one. A kernel of a notebook has no file: its source is saved with the functions, modules
@@ -106,13 +108,13 @@ def find_program(program=None):
             raise RuntimeError(f"{named}, which {'program' if program else 'OGC_PROGRAM'} names, can't be started")
         return found
     checkout = Path(__file__).resolve().parents[3] / "build/default/ogc"
-    for place in ("ogc", "build/default/ogc", str(checkout)):
+    for place in ("ogc", str(Path(sys.executable).parent / "ogc"), "build/default/ogc", str(checkout)):
         found = shutil.which(place)
         if found:
             return str(Path(found).resolve())
     raise RuntimeError(
-        f"the program ogc is not on the PATH, nor is it build/default/ogc or {checkout}; build it, or name it by "
-        "program=… or the environment's OGC_PROGRAM"
+        f"the program ogc is not on the PATH or beside {sys.executable}, nor is it build/default/ogc or {checkout}; "
+        "build it, or name it by program=… or the environment's OGC_PROGRAM"
     )
 
 
@@ -141,7 +143,7 @@ def collect(value, name, parts, path):
         return
     if isinstance(value, types.ModuleType):
         parts[name] = f"import {value.__name__} as {name}"
-    elif isinstance(value, (bool, int, float, str, type(None))):
+    elif type(value) in (bool, int, float, str, type(None)):
         parts[name] = f"{name} = float('{value!r}')" if isinstance(value, float) else f"{name} = {value!r}"
     elif getattr(value, "__module__", "__main__") not in ("__main__", None) and hasattr(value, "__qualname__"):
         parts[name] = f"from {value.__module__} import {value.__qualname__} as {name}"
@@ -165,13 +167,13 @@ def collect(value, name, parts, path):
 def names_in(code):
     """Returns the global names of a function and of those inside it."""
     inner = (names_in(constant) for constant in code.co_consts if isinstance(constant, types.CodeType))
-    return set(code.co_names).union(*inner)
+    return {step.argval for step in dis.get_instructions(code) if step.opname == "LOAD_GLOBAL"}.union(*inner)
 
 
 def without_marks(function):
     """Returns the source of a function without its decorators."""
     try:
-        source = inspect.cleandoc("\n" + inspect.getsource(function))
+        source = textwrap.dedent(inspect.getsource(function))
     except (OSError, TypeError):
         raise ValueError(f"`{function.__name__}` has no source here; keep the kernel in a file") from None
     definition = ast.parse(source).body[0]

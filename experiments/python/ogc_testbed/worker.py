@@ -101,22 +101,26 @@ class Table:
     def __init__(self, described):
         self.structures = {structure["name"]: structure for structure in described["structures"]}
         self.stages = described["stages"]
+        self.dtypes = {}
+        for structure in described["structures"]:  # each follows those that it contains
+            self.dtypes[structure["name"]] = self.structured(structure)
 
-    def members(self, structure):
-        return [member for member in self.structures[structure]["members"] if member["role"] != "reserved"]
-
-    def dtype(self, name):
-        if name not in self.structures:
-            return numpy.dtype(name)
-        members = self.members(name)
+    def structured(self, structure):
+        members = [member for member in structure["members"] if member["role"] == "field"]
         return numpy.dtype(
             {
                 "names": [member["name"] for member in members],
                 "formats": [(self.dtype(member["type"]), tuple(member["shape"])) for member in members],
                 "offsets": [member["offset"] for member in members],
-                "itemsize": self.structures[name]["bytes"],
+                "itemsize": structure["bytes"],
             }
         )
+
+    def members(self, structure):
+        return [member for member in self.structures[structure]["members"] if member["role"] != "reserved"]
+
+    def dtype(self, name):
+        return self.dtypes.get(name) or numpy.dtype(name)
 
     def arguments(self, structure):
         """Returns the names that parameters of a kernel may have."""
@@ -324,11 +328,17 @@ def provide_package(source):
 class Kernel:
     """A kernel and the arguments that it wants."""
 
-    def __init__(self, function, names, file):
+    def __init__(self, function, names):
         self.function, self.keywords, self.positions = function, [], []
+        self.name = f"`{getattr(function, '__name__', type(function).__name__)}`"
         code = getattr(inspect.unwrap(function), "__code__", None)
-        self.line = f"line {code.co_firstlineno} of {os.path.basename(file)}" if code else os.path.basename(file)
-        for parameter in inspect.signature(function).parameters.values():
+        if code:
+            self.name += f" (line {code.co_firstlineno} of {os.path.basename(code.co_filename)})"
+        try:
+            parameters = inspect.signature(function).parameters.values()
+        except (TypeError, ValueError) as error:
+            raise Refusal(f"its kernel {self.name}: {error}; call it in a function by def, and mark this") from None
+        for parameter in parameters:
             if parameter.kind is parameter.VAR_KEYWORD:
                 self.keywords = [name for name in names if name not in self.positions]
             elif parameter.kind is parameter.VAR_POSITIONAL:
@@ -337,10 +347,7 @@ class Kernel:
                 wanted = self.positions if parameter.kind is parameter.POSITIONAL_ONLY else self.keywords
                 wanted.append(parameter.name)
             elif parameter.default is parameter.empty:
-                raise Refusal(
-                    f"its kernel `{function.__name__}`, {self.line}, takes `{parameter.name}`; "
-                    f"the stage has {', '.join(names)}"
-                )
+                raise Refusal(f"its kernel {self.name} takes `{parameter.name}`; the stage has {', '.join(names)}")
 
     def __call__(self, values):
         return self.function(*(values[n] for n in self.positions), **{n: values[n] for n in self.keywords})
@@ -363,19 +370,19 @@ def load(file, table):
         raise Refusal(f"it can't be loaded: {words_of(error, file)}") from None
     end_if_copy()
     names, found = [stage["name"] for stage in table.stages], {}
-    marked = {id(value): value for value in vars(module).values() if hasattr(value, "ogc_stages")}
+    marked = {id(v): v for v in vars(module).values() if isinstance(getattr(v, "ogc_stages", None), tuple)}
     for function in marked.values():
         for stage in function.ogc_stages:
             if stage not in names:
-                raise Refusal(f"its kernel `{function.__name__}` is of the stage `{stage}`; known: {', '.join(names)}")
-            made = Kernel(function, table.arguments(table.stages[names.index(stage)]["in"]), file)
-            if names.index(stage) in found:
-                other = found[names.index(stage)]
+                raise Refusal(f"it has a kernel of the stage `{stage}`; known: {', '.join(names)}")
+            number = names.index(stage)
+            made = Kernel(function, table.arguments(table.stages[number]["in"]))
+            if number in found:
                 raise Refusal(
-                    f"it has two kernels of the stage {stage}: `{other.function.__name__}`, {other.line}, and "
-                    f"`{function.__name__}`, {made.line}; take the mark off one of them"
+                    f"it has two kernels of the stage {stage}: {found[number].name} and {made.name}; take the mark "
+                    "off one of them"
                 )
-            found[names.index(stage)] = made
+            found[number] = made
     if not found:
         raise Refusal('it has no kernel; write @ogc_testbed.kernel("truncate") above a function')
     return found
@@ -387,7 +394,7 @@ def load(file, table):
 def serve(layout, table, kernels, file):
     """Answers questions until `ogc` closes the socket."""
     request_of, result_of = layout["request"], layout["result"]
-    outputs = [table.outputs(stage["out"]) for stage in table.stages]
+    outputs, told = [table.outputs(stage["out"]) for stage in table.stages], set()
     while True:
         request = receive()
         (number,) = struct.unpack_from("=Q", request, request_of["stage"])
@@ -410,6 +417,9 @@ def serve(layout, table, kernels, file):
         except BaseException as error:
             end_if_copy()
             status, why = FAILED, f"your kernel raised {words_of(error, file)}"
+            if number not in told:  # once: the judge repeats the call to find the case
+                told.add(number)
+                traceback.print_exception(type(error), error, error.__traceback__.tb_next)
         signal.alarm(0)
         result = bytearray(result_of["bytes"])
         struct.pack_into("=B", result, result_of["status"], status)
@@ -448,4 +458,5 @@ def main():
     serve(layout, table, kernels, file)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -322,11 +322,12 @@ class Refused(Judged):
         two = RIGHT + RIGHT[RIGHT.index("@ogc") :].replace("def mine", "def other")
         self.refused(None, "there is no such file", name="nowhere.py")
         self.refused("x = 1\n", "it has no kernel; write @ogc_testbed.kernel")
-        self.refused(RIGHT.replace('"truncate"', '"truncated"'), "is of the stage `truncated`; known: closest_face, ")
-        self.refused(two, "two kernels of the stage truncate: `mine`, line 7 of mine.py, and `other`, line")
+        self.refused(RIGHT.replace('"truncate"', '"truncated"'), "a kernel of the stage `truncated`; known: closest_face, ")
+        self.refused(two, "two kernels of the stage truncate: `mine` (line 7 of mine.py) and `other` (line")
         self.refused(RIGHT.replace(HEAD, HEAD.replace("bound", "bounds")), "takes `bounds`; the stage has n")
         self.refused(RIGHT.replace('("truncate")', ""), "can't be loaded: TypeError: kernel takes the name of a stage")
         self.refused("x = = 1\n", "it can't be loaded: SyntaxError: invalid syntax, line 1 of mine.py")
+        self.refused(RIGHT + "\nodd = ogc.kernel('ccd')(type('Odd', (), {})())\n", "is not a callable object")
         self.refused("\nimport nothing_of_this_name\n", "No module named 'nothing_of_this_name', line 2 of mine.py")
         self.refused("raise SystemExit(3)\n", "it can't be loaded: SystemExit: 3, line 1 of mine.py")
         self.refused(RIGHT, "it has no kernel of bound; its stages: truncate", "bound")
@@ -410,7 +411,7 @@ class FromPython(Judged):
         self.assertIn("truncate: passed, 0 of 200", done.stdout)
 
     def test_kernels_of_a_notebook(self):
-        values = self.in_notebook("eps = 2.0**-50\n" + RIGHT.replace("2.0**-50", "eps"))
+        values = self.in_notebook("eps = 2.0**-50\nsum = object()\n" + RIGHT.replace("2.0**-50", "eps"))
         self.assertTrue(ogc_testbed.judge(values["mine"], cases=2000, program=OGC).passed)
         values = self.in_notebook("import numpy\ntable = numpy.zeros(3)\n" + RIGHT.replace("2.0**-50", "table[0]"))
         with self.assertRaisesRegex(ValueError, "`mine.table` is of type ndarray, which has no source"):
@@ -421,7 +422,7 @@ class FromPython(Judged):
             ogc_testbed.judge(len, program=OGC)
         with self.assertRaisesRegex(ValueError, "is a kernel of truncate, not of bound"):
             self.judged(RIGHT, stage="bound")
-        with self.assertRaisesRegex(ValueError, "is of the stage `truncated`"):
+        with self.assertRaisesRegex(ValueError, "a kernel of the stage `truncated`"):
             self.judged(RIGHT.replace('"truncate"', '"truncated"'))
         with self.assertRaisesRegex(RuntimeError, "/nowhere/ogc, which program names, can't be started"):
             ogc_testbed.judge(self.in_notebook(RIGHT)["mine"], program="/nowhere/ogc")
