@@ -28,7 +28,10 @@ OutputInfo output_of(const Member& member) {
 
 template <class In, class Out>
 PluginStage stage(std::string_view name) {
-  PluginStage stage{.name = name, .in = &described<In>, .out = &described<Out>, .outputs = {}};
+  PluginStage stage{.name = name,
+                    .in = &plugin_structure(detail::structure_name<In>()),
+                    .out = &plugin_structure(detail::structure_name<Out>()),
+                    .outputs = {}};
   visit_members(*stage.in, 0, [&](const Member& member, std::size_t) { stage.inputs += member.role == Role::input; });
   visit_members(*stage.out, 0, [&](const Member& member, std::size_t) {
     if (member.role == Role::output) stage.outputs.push_back(output_of(member));

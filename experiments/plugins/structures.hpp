@@ -102,9 +102,14 @@ struct Structure {
 /// Returns all structures, each after those that it contains.
 std::vector<const Structure*> plugin_structures();
 
-/// The description of one structure.
+/// Returns the structure of this name, which must be one of plugin_structures().
+const Structure& plugin_structure(std::string_view name);
+
+/// Holds the description of one structure; for structures.cpp alone, which defines it for each S.
 template <class S>
-extern const Structure described;
+struct Described {
+  static const Structure structure;  ///< the description
+};
 
 namespace detail {
 
@@ -173,7 +178,7 @@ void set_type(Member& member) {
     member.element = Element::real;
   } else {
     member.element = Element::structure;
-    member.structure = &described<Item>;
+    member.structure = &Described<Item>::structure;
   }
 }
 

@@ -322,7 +322,7 @@ class Refused(Judged):
         two = RIGHT + RIGHT[RIGHT.index("@ogc") :].replace("def mine", "def other")
         self.refused(None, "there is no such file", name="nowhere.py")
         self.refused("x = 1\n", "it has no kernel; write @ogc_testbed.kernel")
-        self.refused(RIGHT.replace('"truncate"', '"truncated"'), "a kernel of the stage `truncated`; known: closest_face, ")
+        self.refused(RIGHT.replace('"truncate"', '"truncated"'), "of the stage `truncated`; known: closest_face, ")
         self.refused(two, "two kernels of the stage truncate: `mine` (line 7 of mine.py) and `other` (line")
         self.refused(RIGHT.replace(HEAD, HEAD.replace("bound", "bounds")), "takes `bounds`; the stage has n")
         self.refused(RIGHT.replace('("truncate")', ""), "can't be loaded: TypeError: kernel takes the name of a stage")
