@@ -282,6 +282,15 @@ class ThatBreak(Judged):
                 if "print" in line:
                     self.assertIn("a kernel may print", err)
 
+    def test_tensors_of_others(self):
+        tensor = "class Tensor:\n    def __init__(self, a): self.a = a\n    def numpy(self):\n        {}\n" + RIGHT
+        tensor = tensor.replace("return x, cut", "return Tensor(x), Tensor(cut)")
+        status, out, err = self.compare(tensor.format("return self.a"), *ONE_CASE)
+        self.assertEqual(status, 0, out + err)
+        status, out, err = self.compare(tensor.format("raise TypeError('it is on the device')"), *ONE_CASE)
+        self.assertEqual(status, 1, out + err)
+        self.assertIn("returned `position` as Tensor, which is no array on the host: it is on the device", out)
+
     def test_the_failing_case_is_found_in_its_batch(self):
         line = "if (bound == 0).any(): raise ValueError('a bound is 0')"
         said = "your kernel raised ValueError: a bound is 0, line 9 of mine.py"
