@@ -179,6 +179,7 @@ TEST_CASE("guard: along a half-space a vertex slides, and the report tells the n
     CHECK(after[v].y == Approx(0.55F * gap).epsilon(1e-5));
     CHECK(after[v].z == mesh.positions[v].z);
   }
+  CHECK(within.most_restricted == 3);
   CHECK(within.lost_normal == Approx(within.lost));
   CHECK(within.lost_tangential == 0);
   // Beyond the ball the tangential part is lost, too.
