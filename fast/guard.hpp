@@ -106,7 +106,9 @@ class Guard {
   /// within the region is returned bit for bit. A ball stops a vertex on the way from X_prev to the proposal (Eq. 27);
   /// half-spaces let it slide (method.md §5.6). `positions` are usually the guard's state; if they are others, only the
   /// proposals change. `out` may be `positions` or `moves`. Throws compare::InputError if a length is not the number of
-  /// vertices, or if a coordinate of an argument or of a proposal is not finite. Then the state is as before.
+  /// vertices, or if a coordinate of an argument or of a proposal is not finite. Throws compare::ResourceError if a
+  /// detection needs more memory than there is; the next step then begins with another one. In both cases the state is
+  /// as before.
   GuardReport step(std::span<const compare::Vec3f> positions, std::span<const compare::Vec3f> moves,
                    std::span<compare::Vec3f> out);
   /// Does the same in the backend's memory.

@@ -57,6 +57,38 @@ struct Expected {
   }
 };
 
+/// Checks what holds for all bounds. The vertices are `count`.
+void check_report(const fast::GuardReport& report, const Expected& expected, std::size_t count) {
+  CHECK(report.cut == expected.cut);
+  CHECK(report.not_finite == 0);
+  CHECK(report.most_restricted == expected.most_restricted);
+  CHECK(report.most_lost == expected.most_lost);
+  // A sum of n positive numbers errs by 2⁻⁵³ n of itself, in any order; their roots and squares by less.
+  const double slack = 0x1p-50 * static_cast<double>(count);
+  CHECK(report.asked == Approx(expected.asked).epsilon(slack));
+  CHECK(report.lost * report.asked == Approx(expected.lost).epsilon(slack));
+  CHECK(report.lost_normal <= report.lost * (1 + slack));
+  CHECK(report.lost_tangential <= report.lost * (1 + slack));
+  CHECK(report.lost_normal + report.lost_tangential >= report.lost * (1 - slack));
+}
+
+/// Checks the parts of what balls about `centre` took.
+void check_balls(const fast::GuardReport& report, const Positions& centre, const Positions& wanted,
+                 const Positions& after) {
+  double normal = 0, largest = 0;
+  for (std::size_t v = 0; v < centre.size(); ++v) {
+    if (wanted[v] == after[v]) continue;
+    const compare::Vec3 n = tests::gap_of(wanted[v], centre[v]), lost = tests::gap_of(wanted[v], after[v]);
+    normal += std::abs(n.x * lost.x + n.y * lost.y + n.z * lost.z) / tests::length_of(n);
+    for (const float c : {after[v].x, after[v].y, after[v].z}) largest = std::max(largest, double{std::abs(c)});
+  }
+  // Products and roots of both sides err by a few 2⁻⁵³, sums by 2⁻⁵³ for each vertex.
+  CHECK(report.lost_normal * report.asked == Approx(normal).epsilon(0x1p-50 * static_cast<double>(centre.size())));
+  // A ball stores each coordinate within 2⁻²³ of itself, so it leaves the way by √3 times this at most. A vertex with
+  // b_v < 2⁻²³ max|x| may go back to X_prev, which is on the way.
+  CHECK(report.lost_tangential * report.asked <= 2 * 0x1p-23 * largest * report.cut);
+}
+
 /// Returns a large triangle in the plane y = 0 and a small one `gap` [m] above its middle.
 tests::TestMesh small_above_large(float gap) {
   tests::TestMesh mesh;
@@ -128,39 +160,25 @@ TEST_CASE("guard: parallel triangles with gaps from 1e-12 m to 0.1 m stay apart"
 }
 
 TEST_CASE("guard: a step reports what it did", "[property]") {
+  std::mt19937 random(5);
+  // With a gap of 1e-9 m most losses are far smaller than a coordinate's spacing of floats.
+  const tests::TestMesh faces = tests::random_faces(5), near_pair = tests::parallel_triangles(1e-9F, random);
   for (const compare::Bounds bounds : both_bounds) {
-    const tests::TestMesh mesh = tests::random_faces(5);
-    fast::Guard guard = guard_of(mesh, 0.5F, bounds);
-    Positions centre = mesh.positions;  // X_prev
-    tests::run_guard(
-        guard, 5, 16, {.size = 0.3F, .foreign = true},
-        [&](const Positions& before, const Positions& wanted, const Positions& after, const fast::GuardReport& report) {
-          const Expected expected(before, wanted, after);
-          CHECK(report.cut == expected.cut);
-          CHECK(report.not_finite == 0);
-          CHECK(report.most_restricted == expected.most_restricted);
-          CHECK(report.most_lost == expected.most_lost);
-          // A sum of n positive numbers errs by 2⁻⁵³ n of itself, in any order; their roots and squares by less.
-          const double slack = 0x1p-50 * static_cast<double>(before.size());
-          CHECK(report.asked == Approx(expected.asked).epsilon(slack));
-          CHECK(report.lost * report.asked == Approx(expected.lost).epsilon(slack));
-          CHECK(report.lost_normal <= report.lost * (1 + slack));
-          CHECK(report.lost_tangential <= report.lost * (1 + slack));
-          CHECK(report.lost_normal + report.lost_tangential >= report.lost * (1 - slack));
-          if (report.detected) centre = before;
-          if (bounds != compare::Bounds::ball) return;
-          double normal = 0, largest = 0;
-          for (std::size_t v = 0; v < before.size(); ++v) {
-            if (wanted[v] == after[v]) continue;
-            const compare::Vec3 n = tests::gap_of(wanted[v], centre[v]), lost = tests::gap_of(wanted[v], after[v]);
-            normal += std::abs(n.x * lost.x + n.y * lost.y + n.z * lost.z) / tests::length_of(n);
-            for (const float c : {after[v].x, after[v].y, after[v].z}) largest = std::max(largest, double{std::abs(c)});
-          }
-          CHECK(report.lost_normal * report.asked == Approx(normal).epsilon(slack));
-          // A ball stores each coordinate within 2⁻²³ of itself, so it leaves the way by √3 times this at most. A
-          // vertex with b_v < 2⁻²³ max|x| may go back to X_prev, which is on the way.
-          CHECK(report.lost_tangential * report.asked <= 2 * 0x1p-23 * largest * report.cut);
-        });
+    for (const auto& [mesh, size] : {std::pair(&faces, 0.3F), std::pair(&near_pair, 4e-9F)}) {
+      INFO("bounds " << static_cast<int>(bounds) << ", moves up to " << size);
+      fast::Guard guard = guard_of(*mesh, 0.5F, bounds);
+      Positions centre = mesh->positions;  // X_prev
+      std::int64_t cut = 0;
+      tests::run_guard(guard, 5, 16, {.size = size, .foreign = true},
+                       [&](const Positions& before, const Positions& wanted, const Positions& after,
+                           const fast::GuardReport& report) {
+                         if (report.detected) centre = before;
+                         check_report(report, Expected(before, wanted, after), before.size());
+                         if (bounds == compare::Bounds::ball) check_balls(report, centre, wanted, after);
+                         cut += report.cut;
+                       });
+      CHECK(cut > 16);
+    }
   }
 }
 
@@ -196,6 +214,24 @@ TEST_CASE("guard: along a half-space a vertex slides, and the report tells the n
   CHECK(tangential > 3);
   CHECK(beyond.lost_normal * beyond.asked == Approx(normal));
   CHECK(beyond.lost_tangential * beyond.asked == Approx(tangential));
+}
+
+TEST_CASE("guard: of two half-spaces that a proposal violates the report takes the deeper one", "[unit]") {
+  // A floor and a wall, each 1 m from vertex 6. The next nearest faces are the edges of both, 1.25 m from it.
+  tests::TestMesh mesh;
+  mesh.positions = {{0.25F, 0, -8}, {0.25F, 0, 8}, {16, 0, 0},        {0, 0.25F, -8},   {0, 0.25F, 8},
+                    {0, 16, 0},     {1, 1, 0},     {1.01F, 1.01F, 0}, {1.01F, 1, 0.01F}};
+  mesh.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
+  for (const bool is_wall : {false, true}) {
+    fast::Guard guard = guard_of(mesh, 1.2F, compare::Bounds::planes);
+    Positions moves = every(9, {}), after(9);
+    moves[6] = is_wall ? compare::Vec3f{-0.9F, -0.6F, 0} : compare::Vec3f{-0.6F, -0.9F, 0};
+    const fast::GuardReport report = guard.step(mesh.positions, moves, after);
+    CHECK(report.cut == 1);
+    const compare::Vec3 lost = tests::gap_of(tests::sum_of(mesh.positions[6], moves[6]), after[6]);
+    CHECK(report.lost_normal * report.asked == Approx(std::abs(is_wall ? lost.x : lost.y)));
+    CHECK(report.lost_tangential * report.asked == Approx(std::abs(is_wall ? lost.y : lost.x)));
+  }
 }
 
 TEST_CASE("guard: a proposal within the region comes back bit for bit, also after steps within the same region",
