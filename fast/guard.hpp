@@ -14,8 +14,8 @@
 //   caller's; the guard still holds its own state, and the next step begins there.
 //
 // "Meet" is defined for pairs of a vertex and a triangle, and of two edges, that share no vertex and are not excluded
-// by the mesh (method.md §2.3). No vertex is fixed or prescribed: the caller's moves decide, and a move of 0 keeps a
-// vertex where it is.
+// by the mesh (method.md §2.3). No vertex is fixed or prescribed: the caller's moves decide, and a move of 0 from the
+// guard's state keeps a vertex where it is.
 #pragma once
 
 #include <memory>
