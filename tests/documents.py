@@ -288,7 +288,7 @@ class AsPrinted(Scratch):
         self.assertEqual(status, 0, said[-1500:])
 
     def test_planted_lines_are_found(self):
-        for language, command in (("python", "from plots.run_folder import Runs\n"),
+        for language, command in (("python", "from ogc_testbed.runs import Runs\n"),
                                   ("sh", "build/default/ogc audit nothing.obj"),
                                   ("sh", "build/default/ogc run twist --set iteration=3 --scale smoke")):
             with self.assertRaises(AssertionError, msg=command):
