@@ -44,7 +44,7 @@ NOT_RUN = {
     r"data=input": "a data set that is not part of this repository",
     r"ogc laws --quick": "a test of its own asks them, and knows which are broken today",
     r"ogc bench": "seconds a repetition, and it wants a machine for itself",
-    r"mine\.(cpp|so)": "the reader's own file; a test builds and judges those of this page",
+    r"mine\.(cpp|so|py)": "the reader's own file; a test builds and judges those of this page",
 }
 SPANS = re.compile(r"(?:[\w./]*\bogc|experiments/\w+|tests/\w+(?:\.py)?|python3|\.venv/bin/python)(?: |$)")
 
@@ -284,7 +284,7 @@ class AsPrinted(Scratch):
     def check(self, language, command):
         time.sleep(1 - time.time() % 1)  # two runs that begin in the same second would have the same folder name
         program = [".venv/bin/python", "-c"] if language == "python" else ["bash", "-euc"]
-        status, _, said = self.place.run([*program, command])
+        status, _, said = self.place.run([*program, command], PYTHONPATH=str(SOURCE / "experiments/python"))
         self.assertEqual(status, 0, said[-1500:])
 
     def test_planted_lines_are_found(self):
