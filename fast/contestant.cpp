@@ -1,5 +1,5 @@
-// Turns the two backends into contestants. Only this file and contact_sets.cpp depend on whether the program was built
-// with CUDA.
+// Turns the two backends into contestants. Only this file, contact_sets.cpp and guard.cpp depend on whether the program
+// was built with CUDA.
 #include "fast/contestant.hpp"
 
 #include "compare/problem/error.hpp"

@@ -59,10 +59,10 @@ PROJECT = {
     "reference/ipc/ccd.cpp": PROBLEM + CONTESTANT + ("reference/", "compare/oracle/first_meeting.hpp"),
     "fast": PROBLEM + CONTESTANT + ("fast/",),
     "experiments": ("compare/", "experiments/", "reference/contestant.hpp", "fast/contestant.hpp"),
-    "experiments/examples": ("compare/", "fast/contact_sets.hpp"),
     # What the modules link: the fast path, scenes, and the oracle.
     "experiments/python": PROBLEM + CONTESTANT + ("compare/oracle/", "experiments/python/", "experiments/scenes/",
                                                   "fast/contact_sets.hpp", "fast/contestant.hpp", "fast/guard.hpp"),
+    "experiments/examples": ("compare/", "fast/contact_sets.hpp", "fast/contestant.hpp", "fast/guard.hpp"),
     "experiments/program/commands/contacts.cpp": ("compare/", "experiments/", "reference/contestant.hpp",
                                                   "fast/contestant.hpp", "fast/contact_sets.hpp"),
     "tests": ("",),

@@ -7,6 +7,7 @@
 #include "compare/contestant.hpp"
 #include "fast/contact_sets.hpp"
 #include "fast/contestant.hpp"
+#include "fast/guard.hpp"
 
 namespace ogc::fast {
 
@@ -19,5 +20,8 @@ compare::Contestant cpu_contestant();
 /// Returns the engine of a ContactFinder; `topology` must outlive it.
 std::unique_ptr<ContactEngine> cpu_contact_engine(const compare::Topology& topology,
                                                   const compare::ExclusionView& exclusions);
+
+/// Returns the engine of a Guard.
+std::unique_ptr<GuardEngine> cpu_guard_engine(const Mesh& mesh, const GuardOptions& options);
 
 }  // namespace ogc::fast

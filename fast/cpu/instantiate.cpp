@@ -1,5 +1,5 @@
-// Instantiates the stages, the resident simulation and the detection of ContactFinder for the host's threads. They
-// share one source, because they run the same kernels. update_vertices.cpp has the updates of vertices.
+// Instantiates the stages, the resident simulation, the detection of ContactFinder and the guard for the host's
+// threads. They share one source, because they run the same kernels. update_vertices.cpp has the updates of vertices.
 #include <string>
 #include <utility>
 
@@ -9,6 +9,7 @@
 #include "fast/cpu/backend.hpp"
 #include "fast/cpu/cpu.hpp"
 #include "fast/cpu/simulation.hpp"
+#include "fast/probes/guard_engine.hpp"
 #include "fast/probes/probes.hpp"
 #include "fast/stages/simulation.hpp"
 
@@ -31,10 +32,23 @@ std::unique_ptr<compare::Simulation> start_cpu(const compare::Scene& scene, cons
   return std::make_unique<ResidentSimulation<CpuBackend>>(CpuBackend{}, scene, options, device, list_capacity);
 }
 
+namespace {
+
+/// Returns the backend of all engines of outside solvers. Several threads may use it, since no engine calls `replay`.
+CpuBackend& shared_backend() {
+  static CpuBackend backend;
+  return backend;
+}
+
+}  // namespace
+
 std::unique_ptr<ContactEngine> cpu_contact_engine(const compare::Topology& topology,
                                                   const compare::ExclusionView& exclusions) {
-  static CpuBackend backend;
-  return std::make_unique<BackendContactEngine<CpuBackend>>(backend, topology, exclusions);
+  return std::make_unique<BackendContactEngine<CpuBackend>>(shared_backend(), topology, exclusions);
+}
+
+std::unique_ptr<GuardEngine> cpu_guard_engine(const Mesh& mesh, const GuardOptions& options) {
+  return std::make_unique<BackendGuardEngine<CpuBackend>>(shared_backend(), mesh, options);
 }
 
 }  // namespace ogc::fast

@@ -7,6 +7,7 @@
 #include "compare/contestant.hpp"
 #include "fast/contact_sets.hpp"
 #include "fast/contestant.hpp"
+#include "fast/guard.hpp"
 
 namespace ogc::fast {
 
@@ -28,5 +29,8 @@ std::unique_ptr<compare::Simulation> start_cuda(const compare::Scene& scene, con
 /// stream must be complete before.
 std::unique_ptr<ContactEngine> cuda_contact_engine(const compare::Topology& topology,
                                                    const compare::ExclusionView& exclusions);
+
+/// Makes the engine of a Guard. Throws as cuda_contestant does. Its streams are those of a contact engine.
+std::unique_ptr<GuardEngine> cuda_guard_engine(const Mesh& mesh, const GuardOptions& options);
 
 }  // namespace ogc::fast

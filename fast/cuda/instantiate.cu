@@ -1,11 +1,12 @@
-// Instantiates the stages, the resident simulation and the detection of ContactFinder for the device. They share one
-// source, because they run the same kernels, which two sources would compile twice. update_vertices.cu has the updates
-// of vertices, which take longest to compile.
+// Instantiates the stages, the resident simulation, the detection of ContactFinder and the guard for the device. They
+// share one source, because they run the same kernels, which two sources would compile twice. update_vertices.cu has
+// the updates of vertices, which take longest to compile.
 #include <memory>
 
 #include "fast/cuda/backend.cuh"
 #include "fast/cuda/cuda.hpp"
 #include "fast/probes/contact_engine.hpp"
+#include "fast/probes/guard_engine.hpp"
 #include "fast/probes/probes.hpp"
 #include "fast/stages/simulation.hpp"
 
@@ -46,11 +47,26 @@ class CudaContactEngine : public ContactEngine {
   BackendContactEngine<CudaBackend> engine_;
 };
 
+/// The backend of CudaGuardEngine: a base, so that it exists before the engine that refers to it.
+struct OwnBackend {
+  CudaBackend backend;
+};
+
+/// A guard engine with its own backend.
+class CudaGuardEngine : OwnBackend, public BackendGuardEngine<CudaBackend> {
+ public:
+  CudaGuardEngine(const Mesh& mesh, const GuardOptions& options) : BackendGuardEngine(backend, mesh, options) {}
+};
+
 }  // namespace
 
 std::unique_ptr<ContactEngine> cuda_contact_engine(const compare::Topology& topology,
                                                    const compare::ExclusionView& exclusions) {
   return std::make_unique<CudaContactEngine>(topology, exclusions);
+}
+
+std::unique_ptr<GuardEngine> cuda_guard_engine(const Mesh& mesh, const GuardOptions& options) {
+  return std::make_unique<CudaGuardEngine>(mesh, options);
 }
 
 }  // namespace ogc::fast

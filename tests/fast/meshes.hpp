@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compare/problem/mesh.hpp"
+#include "fast/mesh.hpp"
 
 namespace ogc::tests {
 
@@ -16,6 +17,10 @@ struct TestMesh {
 
   compare::Topology topology() const {
     return compare::build_topology(static_cast<compare::Index>(positions.size()), triangles, loose_edges);
+  }
+  /// Returns the same connectivity as solvers outside this project give it.
+  fast::Mesh connectivity() const {
+    return fast::Mesh(static_cast<compare::Index>(positions.size()), triangles, loose_edges);
   }
   /// Adds another surface as a separate component.
   void add(const TestMesh& other) {

@@ -13,7 +13,7 @@ int main() {
   const auto vertex_count = static_cast<ogc::compare::Index>(positions.size());
 
   // For positions in device memory use Backend::cuda here and find_resident(device_pointer, query) below.
-  ogc::fast::ContactFinder finder(vertex_count, triangles, {}, ogc::fast::Backend::cpu);
+  ogc::fast::ContactFinder finder(ogc::fast::Mesh(vertex_count, triangles), ogc::fast::Backend::cpu);
   const ogc::fast::ContactSets sets = finder.find(positions, {.contact_radius = 0.005f, .query_radius = 0.01f});
 
   std::printf("%zu vertex-facet and %zu edge-edge contacts\n", sets.vertex_facet.size(), sets.edge_edge.size());

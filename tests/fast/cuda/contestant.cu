@@ -123,8 +123,8 @@ TEST_CASE("closest faces and closest points have the host's bits", "[gpu]") {
 TEST_CASE("contact sets, smallest distances and bounds have the host's bits", "[gpu]") {
   const Crumpled sheets = crumpled_sheets(60);
   const auto vertices = static_cast<compare::Index>(sheets.positions.size());
-  fast::ContactFinder host(vertices, sheets.triangles, {}, fast::Backend::cpu),
-      device(vertices, sheets.triangles, {}, fast::Backend::cuda);
+  const fast::Mesh mesh(vertices, sheets.triangles);
+  fast::ContactFinder host(mesh), device(mesh, fast::Backend::cuda);
   for (const float radius : {0.001f, 0.004f, 0.02f}) {
     const fast::ContactQuery query{.contact_radius = radius, .query_radius = 1.5f * radius};
     const fast::ContactSets a = host.find(sheets.positions, query), b = device.find(sheets.positions, query);
@@ -136,7 +136,7 @@ TEST_CASE("contact sets, smallest distances and bounds have the host's bits", "[
 TEST_CASE("positions that are on the device already give the same sets", "[gpu]") {
   const Crumpled sheets = crumpled_sheets(30);
   const auto vertices = static_cast<compare::Index>(sheets.positions.size());
-  fast::ContactFinder finder(vertices, sheets.triangles, {}, fast::Backend::cuda);
+  fast::ContactFinder finder(fast::Mesh(vertices, sheets.triangles), fast::Backend::cuda);
   const fast::ContactQuery query{.contact_radius = 0.004f, .query_radius = 0.006f};
   const fast::ContactSets sets = finder.find(sheets.positions, query);
   fast::CudaBuffer<Vec3f> positions;

@@ -1,0 +1,44 @@
+// Holds what does not change while a mesh moves. Solvers outside this project make one mesh and pass it to as many
+// finders (fast/contact_sets.hpp) and guards (fast/guard.hpp) as they need.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "compare/problem/exclusions.hpp"
+#include "compare/problem/mesh.hpp"
+
+namespace ogc::fast {
+
+/// The connectivity of a surface, and the pairs of faces that may meet. It has no positions and never changes. Copies
+/// are cheap and refer to the same data, also from several threads.
+class Mesh {
+ public:
+  /// `triangles` and `loose_edges` (edges of no triangle) name vertices from 0 to vertex_count − 1. `exclusions`: pairs
+  /// that are excluded by groups of vertices or by partners; excluded pairs are no contacts, and nothing keeps them
+  /// apart. A vector with one number per vertex converts to groups. All arguments are copied. Throws
+  /// compare::InputError if the number of vertices is negative, an index is out of range or repeated, or groups or
+  /// partners do not have one entry per vertex.
+  explicit Mesh(compare::Index vertex_count, std::span<const compare::Triangle> triangles,
+                std::span<const compare::Edge> loose_edges = {}, const compare::ExclusionView& exclusions = {});
+
+  /// Return the adjacency, which defines the numbers of edges, and the exclusions. Both live as long as a copy of the
+  /// mesh.
+  const compare::Topology& topology() const { return data_->topology; }
+  const compare::Exclusions& exclusions() const { return data_->exclusions; }
+  compare::Index vertex_count() const { return data_->topology.vertex_count; }  ///< number of vertices
+
+  /// Throws compare::InputError unless `vectors` has one finite vector for each vertex. The message begins with
+  /// `argument` and names the vertex and its coordinates.
+  void check(std::string_view argument, std::span<const compare::Vec3f> vectors) const;
+
+ private:
+  struct Data {
+    compare::Topology topology;
+    compare::Exclusions exclusions;
+  };
+  std::shared_ptr<const Data> data_;
+};
+
+}  // namespace ogc::fast
