@@ -1,6 +1,8 @@
 #include "experiments/python/arrays.hpp"
 
 #include <exception>
+#include <memory>
+#include <utility>
 
 #include "compare/problem/error.hpp"
 
@@ -62,15 +64,25 @@ std::string order_of(Library library, const Wanted& wanted) {
 /// Returns the call that copies the argument to the host or to a device.
 std::string copy_of(Library library, const Wanted& wanted) {
   const std::string name = wanted.name;
-  if (wanted.is_on_device)
-    return library == Library::torch ? name + ".cuda()" : "torch.from_numpy(" + name + ").cuda()";
+  const bool to_device = wanted.place == Place::device;
   switch (library) {
-    case Library::torch: return name + ".cpu()";
+    case Library::torch: return name + (to_device ? ".cuda()" : ".cpu()");
     case Library::cupy: return "cp.asnumpy(" + name + ")";
     case Library::numpy:
+      if (to_device) return "torch.from_numpy(" + name + ").cuda() or cp.asarray(" + name + ")";
+      break;
     case Library::other: break;
   }
-  return "a copy on the host, " + name + ".numpy()";
+  return std::string("a copy on ") + (to_device ? "a CUDA device" : "the host");
+}
+
+std::string place_of(Place place) {
+  switch (place) {
+    case Place::host: return "on the host";
+    case Place::device: return "on a CUDA device";
+    case Place::either: break;
+  }
+  return "on the host or a CUDA device";
 }
 
 std::string shape_of(const Array& array) {
@@ -81,8 +93,7 @@ std::string shape_of(const Array& array) {
 
 [[noreturn]] void refuse(const Wanted& wanted, const std::string& came, const std::string& remedy) {
   const std::string text = std::string(wanted.name) + ": " + wanted.dtype + " " + wanted.shape + " in C order " +
-                           (wanted.is_on_device ? "on a CUDA device" : "on the host") + " is needed, but " + came +
-                           " came; pass " + remedy;
+                           place_of(wanted.place) + " is needed, but " + came + " came; pass " + remedy;
   throw nb::type_error(text.c_str());
 }
 
@@ -107,25 +118,48 @@ bool is_c_order(const Array& array) {
 
 }  // namespace
 
+bool is_on_device(const Array& array) {
+  return array.device_type() == nb::device::cuda::value || array.device_type() == nb::device::cuda_managed::value;
+}
+
 Array checked(nb::handle value, const Wanted& wanted) {
   Array array;
   if (!nb::try_cast(value, array, false) || !array.is_valid()) refuse_no_array(value, wanted);
-  const Library library = library_of(value);
-  const std::string dtype = name_of(array.dtype()), what = dtype + " " + shape_of(array);
-  if (dtype != wanted.dtype) refuse(wanted, what, cast_of(library, wanted));
+  const auto refuse_this = [&](const std::string& how, std::string (*remedy)(Library, const Wanted&)) {
+    refuse(wanted, name_of(array.dtype()) + " " + shape_of(array) + how, remedy(library_of(value), wanted));
+  };
+  if (name_of(array.dtype()) != wanted.dtype) refuse_this("", cast_of);
   if (array.ndim() != wanted.dimensions || (wanted.columns != 0 && array.shape(array.ndim() - 1) != wanted.columns))
-    refuse(wanted, what, "an array of shape " + std::string(wanted.shape));
-  const bool is_on_device = array.device_type() == nb::device::cuda::value;
-  const bool is_on_host = array.device_type() == nb::device::cpu::value;
-  if (wanted.is_on_device ? !is_on_device : !is_on_host)
-    refuse(wanted, what + (is_on_host ? " on the host" : " on a device"), copy_of(library, wanted));
-  if (!is_c_order(array)) refuse(wanted, what + " in another order", order_of(library, wanted));
+    refuse_this("", [](Library, const Wanted& one) { return "an array of shape " + std::string(one.shape); });
+  const bool is_there = is_on_device(array);
+  const bool is_on_host = array.device_type() == nb::device::cpu::value ||
+                          array.device_type() == nb::device::cuda_host::value;
+  if (wanted.place == Place::device ? !is_there : wanted.place == Place::host ? !is_on_host : !is_there && !is_on_host)
+    refuse_this(is_on_host ? " on the host" : " on a device", copy_of);
+  if (!is_c_order(array)) refuse_this(" in another order", order_of);
   return array;
+}
+
+void* checked_output(nb::handle value, const Wanted& wanted) {
+  checked(value, wanted);
+  nb::ndarray<> array;
+  if (!nb::try_cast(value, array, false) || !array.is_valid())
+    refuse(wanted, "a read-only array", "one that can be written");
+  return array.data();
 }
 
 bool has_dtype(nb::handle value, const char* dtype) {
   Array array;
   return nb::try_cast(value, array, false) && array.is_valid() && name_of(array.dtype()) == dtype;
+}
+
+nb::object owned(std::vector<compare::Vec3f>&& rows) {
+  auto all = std::make_unique<std::vector<compare::Vec3f>>(std::move(rows));
+  auto* data = static_cast<float*>(static_cast<void*>(all->data()));
+  const std::size_t count = all->size();
+  const nb::capsule owner(all.release(),
+                          [](void* gone) noexcept { delete static_cast<std::vector<compare::Vec3f>*>(gone); });
+  return nb::cast(nb::ndarray<nb::numpy, float, nb::ndim<2>>(data, {count, 3}, owner), nb::rv_policy::reference);
 }
 
 void translate_errors() {

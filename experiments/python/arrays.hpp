@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
@@ -23,6 +24,9 @@ namespace nb = nanobind;
 /// An array of any dtype and shape that is read where it lies.
 using Array = nb::ndarray<nb::ro>;
 
+/// Where an array must lie: in the memory of the host, of a CUDA device, or of either.
+enum class Place { host, device, either };
+
 /// What an array must be. Lengths: `columns` numbers in the last dimension, `dimensions` dimensions.
 struct Wanted {
   const char* name;           ///< the argument's name
@@ -30,12 +34,19 @@ struct Wanted {
   const char* shape;          ///< for messages: "(V, 3)"
   std::size_t dimensions;     ///< number of dimensions
   std::size_t columns = 0;    ///< length of the last dimension; 0: any
-  bool is_on_device = false;  ///< whether the array must be in the memory of a CUDA device; otherwise on the host
+  Place place = Place::host;  ///< where it must lie
 };
 
 /// Returns the array that `value` offers. Throws TypeError if it is no array, or if its dtype, shape, order or device
 /// is not the wanted one; the message names the argument, what came, and the call that converts it.
 Array checked(nb::handle value, const Wanted& wanted);
+
+/// Returns the address of an array that `value` offers for writing. Throws TypeError as `checked` does, and if the
+/// array is read-only.
+void* checked_output(nb::handle value, const Wanted& wanted);
+
+/// Returns whether an array lies in the memory of a CUDA device.
+bool is_on_device(const Array& array);
 
 /// Returns whether the value is an array of the dtype ("float64"); false if it is no array.
 bool has_dtype(nb::handle value, const char* dtype);
@@ -56,9 +67,9 @@ Given<Item> given(nb::handle value, const Wanted& wanted) {
   return {std::move(array), {items, rows}};
 }
 
-/// Returns positions: float32 (V, 3), in C order, on the host.
-inline Given<compare::Vec3f> given_positions(nb::handle value, const char* name) {
-  return given<compare::Vec3f>(value, {name, "float32", "(V, 3)", 2, 3});
+/// Returns positions: float32 (V, 3), in C order.
+inline Given<compare::Vec3f> given_positions(nb::handle value, const char* name, Place place = Place::host) {
+  return given<compare::Vec3f>(value, {name, "float32", "(V, 3)", 2, 3, place});
 }
 /// Returns triangles: int32 (T, 3), in C order, on the host.
 inline Given<compare::Triangle> given_triangles(nb::handle value, const char* name) {
@@ -77,6 +88,9 @@ nb::object lent(const void* rows, std::size_t count, nb::handle owner) {
         nb::rv_policy::reference);
   }
 }
+
+/// Returns a NumPy array that owns these rows.
+nb::object owned(std::vector<compare::Vec3f>&& rows);
 
 /// Makes InputError a ValueError and ResourceError a RuntimeError.
 void translate_errors();

@@ -20,9 +20,13 @@ fast::ContactQuery query_of(double radius, double query_radius, double relaxatio
 }
 
 ContactSets find_in(ContactFinder& finder, nb::handle x, const fast::ContactQuery& query) {
-  const Given<compare::Vec3f> positions = given_positions(x, "x");
+  const bool has_device = finder.backend() == fast::Backend::cuda;
+  const Given<compare::Vec3f> positions = given_positions(x, "x", has_device ? Place::either : Place::host);
   const nb::gil_scoped_release release;
-  return finder.find(positions.items, query);
+  return in_terms_of_python([&] {
+    return is_on_device(positions.array) ? finder.find_on_device(positions.items, query)
+                                         : finder.find(positions.items, query);
+  });
 }
 
 void init_mesh(Mesh* self, nb::handle triangles, nb::handle edges, nb::handle groups,
@@ -51,18 +55,20 @@ void bind_mesh(nb::module_& module) {
                "(None, 2)") " | None = None, groups: " OGC_GIVEN("int32",
                                                                  "(None,)") " | None = None, "
                                                                             "vertex_count: int | None = None) -> None"))
-      .def_prop_ro("vertex_count", &Mesh::vertex_count, "V, also counts vertices that no face contains")
+      .def_prop_ro(
+          "vertex_count", [](const Mesh& mesh) { return mesh.mesh().vertex_count(); },
+          "V, also counts vertices that no face contains")
       .def_prop_ro(
           "triangles",
           [](nb::handle self) {
-            const auto& rows = nb::cast<Mesh&>(self).triangles();
+            const auto& rows = nb::cast<Mesh&>(self).mesh().topology().triangles;
             return lent<compare::Index, 3>(rows.data(), rows.size(), self);
           },
           nb::sig("def triangles(self) -> " OGC_LENT("int32", "(None, 3)")), "int32 (T, 3), read-only, as given")
       .def_prop_ro(
           "edges",
           [](nb::handle self) {
-            const auto& rows = nb::cast<Mesh&>(self).edges();
+            const auto& rows = nb::cast<Mesh&>(self).mesh().topology().edges;
             return lent<compare::Index, 2>(rows.data(), rows.size(), self);
           },
           nb::sig("def edges(self) -> " OGC_LENT("int32", "(None, 2)")),
@@ -71,13 +77,15 @@ void bind_mesh(nb::module_& module) {
       .def_prop_ro(
           "groups",
           [](nb::handle self) {
-            const auto& rows = nb::cast<Mesh&>(self).groups();
+            const auto& rows = nb::cast<Mesh&>(self).mesh().exclusions().groups;
             return lent<compare::Index, 1>(rows.data(), rows.size(), self);
           },
           nb::sig("def groups(self) -> " OGC_LENT("int32", "(None,)")), "int32 (V,), read-only; empty without groups")
       .def("__repr__", [](const Mesh& mesh) {
-        return "Mesh of " + std::to_string(mesh.vertex_count()) + " vertices, " + std::to_string(mesh.edges().size()) +
-               " edges, " + std::to_string(mesh.triangles().size()) + " triangles";
+        const compare::Topology& topology = mesh.mesh().topology();
+        return "Mesh of " + std::to_string(topology.vertex_count) + " vertices, " +
+               std::to_string(topology.edges.size()) + " edges, " + std::to_string(topology.triangles.size()) +
+               " triangles";
       });
 }
 
@@ -139,7 +147,9 @@ void bind_sets(nb::module_& module) {
 
 constexpr const char* find_doc =
     "Finds the contact sets of a state.\n\n"
-    "x: float32 (V, 3), positions on the host [m]. radius: r > 0 [m]. query_radius: r_q ≥ r, range of the search [m].\n"
+    "x: float32 (V, 3), positions [m], on the host or, for \"cuda\", also on a device: written on the default stream,\n"
+    "or on one that was synchronised; coordinates on a device are not checked. Results are on the host.\n"
+    "radius: r > 0 [m]. query_radius: r_q ≥ r, range of the search [m].\n"
     "relaxation: γ_p of Eq. 21, in (0, 0.5). The same positions give the same bits. Other Python threads run "
     "meanwhile.\n\n"
     "TypeError: x has another dtype, shape, order or device; the message has the call that converts it.\n"
@@ -155,9 +165,9 @@ void bind_finder(nb::module_& module) {
           [](ContactFinder* self, const Mesh& mesh, std::string_view backend) {
             const fast::Backend chosen = parse_backend(backend);
             const nb::gil_scoped_release release;
-            new (self) ContactFinder(mesh, chosen);
+            new (self) ContactFinder(mesh.mesh(), chosen);
           },
-          nb::arg("mesh"), nb::arg("backend") = "cpu", nb::keep_alive<1, 2>())
+          nb::arg("mesh"), nb::arg("backend") = "cpu")
       .def(
           "find",
           [](ContactFinder& self, nb::handle x, double radius, double query_radius, double relaxation) {

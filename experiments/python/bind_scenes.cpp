@@ -137,17 +137,6 @@ Body add_moving_body(compare::Scene& scene, nb::handle frames, nb::handle faces,
   return body_of(scene, body);
 }
 
-/// Binds an array of a scene or snapshot, rounded or copied to single precision and owned by the result.
-nb::object owned_positions(std::vector<compare::Vec3f>&& positions) {
-  auto owner = std::make_unique<std::vector<compare::Vec3f>>(std::move(positions));
-  const auto* rows = owner->data();
-  const std::size_t count = owner->size();
-  const nb::capsule capsule(owner.release(),
-                            [](void* all) noexcept { delete static_cast<std::vector<compare::Vec3f>*>(all); });
-  return nb::cast(nb::ndarray<nb::numpy, float, nb::ndim<2>>(const_cast<compare::Vec3f*>(rows), {count, 3}, capsule),
-                  nb::rv_policy::reference);
-}
-
 /// Returns rows as a structured array, numpy.recarray.
 nb::object table_of(const std::vector<compare::StepMetrics>& rows) {
   const auto columns = metric_columns();
@@ -354,7 +343,7 @@ void bind_scene(nb::module_& module) {
           "steps report them. The start must be free of intersections: ogc_testbed.audit tells.\n\n"
           "ValueError: the scene is not valid; the message lists what to mend. RuntimeError: the backend is not there.")
       .def_prop_ro(
-          "positions", [](const compare::Scene& scene) { return owned_positions(to_single(scene.mesh.positions)); },
+          "positions", [](const compare::Scene& scene) { return owned(to_single(scene.mesh.positions)); },
           nb::sig("def positions(self) -> " OGC_LENT("float32", "(None, 3)")),
           "float32 (V, 3): start of all bodies [m]")
       .def_prop_ro(
@@ -438,12 +427,11 @@ void bind_simulation(nb::module_& module) {
           },
           nb::arg("snapshot"), "Goes on from a snapshot, to the same bits; `metrics` begins anew.")
       .def_prop_ro(
-          "positions", [](const Simulation& simulation) { return owned_positions(snapshot_of(simulation).positions); },
+          "positions", [](const Simulation& simulation) { return owned(snapshot_of(simulation).positions); },
           nb::sig("def positions(self) -> " OGC_LENT("float32", "(None, 3)")),
           "float32 (V, 3): positions, copied to the host at each call [m]")
       .def_prop_ro(
-          "velocities",
-          [](const Simulation& simulation) { return owned_positions(snapshot_of(simulation).velocities); },
+          "velocities", [](const Simulation& simulation) { return owned(snapshot_of(simulation).velocities); },
           nb::sig("def velocities(self) -> " OGC_LENT("float32", "(None, 3)")),
           "float32 (V, 3): velocities, copied to the host at each call [m/s]")
       .def_prop_ro(

@@ -48,29 +48,32 @@ fast::Backend parse_backend(std::string_view name) {
   throw compare::InputError("backend: there is no '" + std::string(name) + "'; give \"cpu\" or \"cuda\"");
 }
 
-ContactFinder::ContactFinder(const Mesh& mesh, fast::Backend backend)
-    : finder_(mesh.vertex_count(), mesh.triangles(), mesh.loose_edges(), backend, mesh.groups()) {}
-
 ContactSets ContactFinder::find(std::span<const compare::Vec3f> positions, const fast::ContactQuery& query) {
   const std::lock_guard lock(busy_);
   return in_columns(finder_.find(positions, query), query.query_radius);
 }
 
+ContactSets ContactFinder::find_on_device(std::span<const compare::Vec3f> positions, const fast::ContactQuery& query) {
+  const std::lock_guard lock(busy_);
+  expect_vertices("x", positions.size(), finder_.mesh());
+  return in_columns(finder_.find_at_resident(positions.data(), query), query.query_radius);
+}
+
+void expect_vertices(const char* argument, std::size_t count, const fast::Mesh& mesh) {
+  if (count != compare::at(mesh.vertex_count()))
+    throw compare::InputError(std::string(argument) + ": " + std::to_string(count) + " rows came for " +
+                              std::to_string(mesh.vertex_count()) + " vertices");
+}
+
 Mesh::Mesh(std::span<const compare::Triangle> triangles, std::span<const compare::Edge> loose_edges,
            std::span<const compare::Index> groups, std::optional<compare::Index> vertex_count)
-    : vertex_count_(vertex_count ? *vertex_count : after_last(after_last(0, triangles), loose_edges)),
-      triangles_(triangles.begin(), triangles.end()),
-      loose_edges_(loose_edges.begin(), loose_edges.end()),
-      groups_(groups.begin(), groups.end()) {
-  if (vertex_count_ < 0)
-    throw compare::InputError("vertex_count: " + std::to_string(vertex_count_) + " came; give at least 0");
-  finders_[0] = std::make_unique<ContactFinder>(*this, fast::Backend::cpu);
-}
+    : mesh_(vertex_count ? *vertex_count : after_last(after_last(0, triangles), loose_edges), triangles, loose_edges,
+            groups) {}
 
 ContactFinder& Mesh::finder(fast::Backend backend) {
   const std::lock_guard lock(making_);
   std::unique_ptr<ContactFinder>& finder = finders_[static_cast<std::size_t>(backend)];
-  if (!finder) finder = std::make_unique<ContactFinder>(*this, backend);
+  if (!finder) finder = std::make_unique<ContactFinder>(mesh_, backend);
   return *finder;
 }
 

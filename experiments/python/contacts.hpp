@@ -7,9 +7,12 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "compare/problem/error.hpp"
 #include "fast/contact_sets.hpp"
 
 namespace ogc::python {
@@ -28,50 +31,56 @@ struct ContactSets {
   float smallest_distance = 0;
 };
 
-class Mesh;
+/// Throws compare::InputError unless an array has one row for each vertex.
+void expect_vertices(const char* argument, std::size_t count, const fast::Mesh& mesh);
+
+/// Calls `work`; messages of compare::InputError about the arguments `positions` and `moves` name x and dx instead.
+template <class Work>
+auto in_terms_of_python(Work work) {
+  try {
+    return work();
+  } catch (const compare::InputError& error) {
+    const std::string_view text = error.what();
+    for (const auto& [name, ours] :
+         {std::pair<std::string_view, const char*>{"positions: ", "x: "}, {"moves: ", "dx: "}})
+      if (text.starts_with(name)) throw compare::InputError(ours + std::string(text.substr(name.size())));
+    throw;
+  }
+}
 
 /// Finds the contacts of one mesh; several threads may call it, one after the other is served.
 class ContactFinder {
  public:
-  ContactFinder(const Mesh& mesh, fast::Backend backend);
+  ContactFinder(const fast::Mesh& mesh, fast::Backend backend) : backend_(backend), finder_(mesh, backend) {}
+  fast::Backend backend() const { return backend_; }
   /// fast::ContactFinder::find
   ContactSets find(std::span<const compare::Vec3f> positions, const fast::ContactQuery& query);
-  const compare::Topology& topology() const { return finder_.topology(); }
+  /// The same with positions in the memory of a device. Throws compare::InputError if there are not as many as
+  /// vertices.
+  ContactSets find_on_device(std::span<const compare::Vec3f> positions, const fast::ContactQuery& query);
 
  private:
+  fast::Backend backend_;
   fast::ContactFinder finder_;
   std::mutex busy_;
 };
 
-/// A mesh that never changes: its triangles, loose edges, and the groups of its vertices.
+/// A mesh that never changes, and its finders.
 class Mesh {
  public:
-  /// Throws compare::InputError as fast::ContactFinder does. Without `vertex_count` the mesh has as many vertices as
-  /// its triangles and edges name.
+  /// Throws compare::InputError as fast::Mesh does. Without `vertex_count` the mesh has as many vertices as its
+  /// triangles and edges name.
   Mesh(std::span<const compare::Triangle> triangles, std::span<const compare::Edge> loose_edges,
        std::span<const compare::Index> groups, std::optional<compare::Index> vertex_count);
-  /// V, also counts vertices that no face contains.
-  compare::Index vertex_count() const { return vertex_count_; }
-  /// As given.
-  const std::vector<compare::Triangle>& triangles() const { return triangles_; }
-  /// Edges of no triangle, as given.
-  const std::vector<compare::Edge>& loose_edges() const { return loose_edges_; }
-  /// Group of each vertex; empty without groups.
-  const std::vector<compare::Index>& groups() const { return groups_; }
-  /// All edges, whose numbers contact sets have.
-  const std::vector<compare::Edge>& edges() const { return topology().edges; }
-  /// Adjacency of the mesh.
-  const compare::Topology& topology() const { return finders_[0]->topology(); }
+  /// The mesh itself, whose copies are cheap.
+  const fast::Mesh& mesh() const { return mesh_; }
   /// Returns the finder of a backend, which is made at its first use and kept.
   ContactFinder& finder(fast::Backend backend);
 
  private:
-  compare::Index vertex_count_ = 0;
-  std::vector<compare::Triangle> triangles_;
-  std::vector<compare::Edge> loose_edges_;
-  std::vector<compare::Index> groups_;
+  fast::Mesh mesh_;
   std::mutex making_;
-  std::array<std::unique_ptr<ContactFinder>, 2> finders_;  // by backend; that of the CPU also has the topology
+  std::array<std::unique_ptr<ContactFinder>, 2> finders_;  // by backend
 };
 
 }  // namespace ogc::python

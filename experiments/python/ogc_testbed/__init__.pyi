@@ -3,6 +3,8 @@ from ._fast import (
     Body as Body,
     ContactFinder as ContactFinder,
     ContactSets as ContactSets,
+    Guard as Guard,
+    GuardReport as GuardReport,
     Mesh as Mesh,
     Scene as Scene,
     Simulation as Simulation,

@@ -233,10 +233,10 @@ class Errors(unittest.TestCase):
 
     def test_of_numbers_name_them(self):
         find = ogc.find_contacts
-        self.expect(ValueError, ("71 positions for 72 vertices",), find, self.mesh, self.x[:-1], RADIUS, QUERY)
+        self.expect(ValueError, ("x: 71", "72 vertices"), find, self.mesh, self.x[:-1], RADIUS, QUERY)
         bad = self.x.copy()
         bad[7, 1] = np.nan
-        self.expect(ValueError, ("vertex 7 is not finite",), find, self.mesh, bad, RADIUS, QUERY)
+        self.expect(ValueError, ("x: vertex 7", "nan"), find, self.mesh, bad, RADIUS, QUERY)
         self.expect(ValueError, ("contact_radius <= query_radius", "0.01"), find, self.mesh, self.x, QUERY, RADIUS)
         self.expect(ValueError, ("bounds_relaxation", "0.5"), find, self.mesh, self.x, RADIUS, QUERY, relaxation=0.5)
         self.expect(ValueError, ("backend", "'gpu'", '"cpu"'), find, self.mesh, self.x, RADIUS, QUERY, backend="gpu")

@@ -18,7 +18,7 @@ PAGE = (Path(SOURCE) / "experiments/python/README.md").read_text(encoding="utf-8
 class Programs(unittest.TestCase):
     def test_run_as_printed(self):
         programs = re.findall(r"^```python\n(.*?)^```", PAGE, re.M | re.S)
-        self.assertEqual(len(programs), 3)
+        self.assertEqual(len(programs), 4)
         for program in programs:
             with self.subTest(program.splitlines()[3]), contextlib.redirect_stdout(io.StringIO()) as said:
                 exec(compile(program, "README.md", "exec"), {})
