@@ -121,7 +121,9 @@ class Versions(unittest.TestCase):
         self.assertEqual(ogc_testbed.__version__, version)
         source = re.search(r"^CMAKE_HOME_DIRECTORY:INTERNAL=(.*)$", cache, re.M)[1]
         with open(f"{source}/pyproject.toml", encoding="utf-8") as file:
-            self.assertEqual(re.search(r'^version = "(.*)"$', file.read(), re.M)[1], version)
+            project = file.read()
+        self.assertEqual(re.search(r'^version = "(.*)"$', project, re.M)[1], version)
+        self.assertEqual(re.search(r"ogc-testbed-judge==([\d.]+)", project)[1], version)
 
 
 if __name__ == "__main__":
