@@ -44,6 +44,9 @@ NOT_RUN = {
     r"data=input": "a data set that is not part of this repository",
     r"ogc laws --quick": "a test of its own asks them, and knows which are broken today",
     r"ogc bench": "seconds a repetition, and it wants a machine for itself",
+    r"^pip install \.": "minutes; tests/experiments/python/wheel.py builds the wheel",
+    r"^experiments/python/wheels": "minutes, and one wheel needs nvcc",
+    r"somewhere": "installs; a test builds and runs these examples (tests/experiments/examples)",
     r"mine\.(cpp|so|py)": "the reader's own file; a test builds and judges those of this page",
 }
 SPANS = re.compile(r"(?:[\w./]*\bogc|experiments/\w+|tests/\w+(?:\.py)?|python3|\.venv/bin/python)(?: |$)")
@@ -274,6 +277,8 @@ class AsPrinted(Scratch):
         for name, text in texts.items():
             for language, block in blocks(text):
                 for command in lines_of(block) if language == "sh" else [block] if language == "python" else []:
+                    if language == "python" and "import ogc_testbed" in command:
+                        continue  # tests/experiments/python/programs.py runs these
                     rules = {rule for rule in NOT_RUN if language == "sh" and re.search(rule, command)}
                     used |= rules
                     if not rules:
