@@ -1,5 +1,5 @@
-"""Meshes of other libraries and of files become arrays of the right kind. The libraries' meshes are stood for by objects
-with their attributes.
+"""Meshes of other libraries and of files become arrays of the right kind. Objects with the attributes of the libraries'
+meshes stand for these.
 
 Usage: meshes.py BUILD_DIR. Exit status 77: skipped, a Python package is missing.
 """
