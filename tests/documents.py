@@ -46,7 +46,8 @@ NOT_RUN = {
     r"ogc bench": "seconds a repetition, and it wants a machine for itself",
     r"^pip install \.": "minutes; tests/experiments/python/wheel.py builds the wheel",
     r"^experiments/python/wheels": "minutes, and one wheel needs nvcc",
-    r"mine\.(cpp|so)": "the reader's own file; a test builds and judges those of this page",
+    r"somewhere": "installs; a test builds and runs these examples (tests/experiments/examples)",
+    r"mine\.(cpp|so|py)": "the reader's own file; a test builds and judges those of this page",
 }
 SPANS = re.compile(r"(?:[\w./]*\bogc|experiments/\w+|tests/\w+(?:\.py)?|python3|\.venv/bin/python)(?: |$)")
 
@@ -288,11 +289,11 @@ class AsPrinted(Scratch):
     def check(self, language, command):
         time.sleep(1 - time.time() % 1)  # two runs that begin in the same second would have the same folder name
         program = [".venv/bin/python", "-c"] if language == "python" else ["bash", "-euc"]
-        status, _, said = self.place.run([*program, command])
+        status, _, said = self.place.run([*program, command], PYTHONPATH=str(SOURCE / "experiments/python"))
         self.assertEqual(status, 0, said[-1500:])
 
     def test_planted_lines_are_found(self):
-        for language, command in (("python", "from plots.run_folder import Runs\n"),
+        for language, command in (("python", "from ogc_testbed.runs import Runs\n"),
                                   ("sh", "build/default/ogc audit nothing.obj"),
                                   ("sh", "build/default/ogc run twist --set iteration=3 --scale smoke")):
             with self.assertRaises(AssertionError, msg=command):

@@ -1,7 +1,7 @@
 """OGC Testbed: Offset Geometric Contact on arrays.
 
-Contact sets and bounds of a mesh (find_contacts), cloth simulations (Scene), and exact audits of anybody's frames
-(audit). Arrays are float32 and int32 in C order, from any library with DLPack; nothing is cast or copied silently.
+Contact sets and bounds of a mesh (find_contacts), cloth simulations (Scene), a solver's moves kept apart (Guard), exact
+audits of anybody's frames (audit), kernels before the judge (kernel, judge), and runs of the program (Run). Arrays are float32 and int32 in C order, from any library with DLPack; nothing is cast or copied silently.
 Names are loaded at their first use, so that the import takes milliseconds.
 """
 
@@ -13,7 +13,10 @@ _MODULES = {
     "_fast": ("Body", "ContactFinder", "ContactSets", "Guard", "GuardReport", "Mesh", "Scene", "Simulation",
               "Snapshot", "Steps", "backend_info", "find_contacts", "scene", "scenes"),
     "_audit": ("AuditReport", "audit"),
+    "judging": ("judge",),
+    "kernels": ("kernel",),
     "meshes": ("from_mesh", "load"),
+    "runs": ("Run", "RunError"),
 }
 _MODULE_OF = {name: module for module, names in _MODULES.items() for name in names}
 

@@ -15,7 +15,10 @@ from ._fast import (
     scene as scene,
     scenes as scenes,
 )
+from .judging import judge as judge
+from .kernels import kernel as kernel
 from .meshes import from_mesh as from_mesh, load as load
+from .runs import Run as Run, RunError as RunError
 
 __version__: str
 __all__: list[str]
