@@ -3,7 +3,7 @@
 
 packages=(
   build-essential cmake ninja-build git ca-certificates
-  python3 python3-venv python3-yaml
+  python3 python3-dev python3-venv python3-yaml
   libcgal-dev libgmp-dev libmpfr-dev libboost-dev libtbb-dev libhdf5-dev zlib1g-dev
   libeigen3-dev libsuitesparse-dev libopenblas-dev
   nlohmann-json3-dev libcli11-dev libbenchmark-dev catch2
@@ -43,7 +43,8 @@ install_packages() {
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
 }
 
-# Sets $python, and OGC_PYTHON for the build, to an interpreter with as many of the plots' packages as possible.
+# Sets $python, and OGC_PYTHON for the build, to an interpreter with as many packages of the plots and of the Python
+# package's build as possible.
 prepare_python() {
   find_python "$1" || return 1
   export OGC_PYTHON=$python
@@ -51,7 +52,8 @@ prepare_python() {
 
 find_python() {
   local root=$1 wanted stamp
-  wanted=$(cat "$root/plots/requirements.txt" | cksum)
+  local lists=("$root/plots/requirements.txt" "$root/experiments/python/requirements.txt")
+  wanted=$(cat "${lists[@]}" | cksum)
   stamp=$root/.venv/requirements.cksum
   if [ -x "$root/.venv/bin/python" ] && [ "$(cat "$stamp" 2>/dev/null)" = "$wanted" ]; then
     python=$root/.venv/bin/python
@@ -60,14 +62,14 @@ find_python() {
   say "Preparing the Python environment in .venv"
   rm -rf "$root/.venv"
   if /usr/bin/env python3 -m venv "$root/.venv" && "$root/.venv/bin/python" -m pip install -q \
-      --disable-pip-version-check -r "$root/plots/requirements.txt" >&2; then
+      --disable-pip-version-check "${lists[@]/#/--requirement=}" >&2; then
     printf '%s' "$wanted" > "$stamp"
     python=$root/.venv/bin/python
     return 0
   fi
   rm -rf "$root/.venv"
   say "The Python package index can't be reached: curves are drawn with the distribution's matplotlib; meshes are not" \
-    "rendered and VTK checks are skipped."
+    "rendered, VTK checks are skipped, and the Python package is not built."
   install_packages "${fallback_packages[@]}" || return 1
   python=/usr/bin/python3
 }

@@ -53,4 +53,9 @@ ContactView ContactFinder::find_resident(const compare::Vec3f* positions, const 
   return engine_->find_resident(positions, query);
 }
 
+ContactSets ContactFinder::find_at_resident(const compare::Vec3f* positions, const ContactQuery& query) {
+  check(query);
+  return engine_->find_at_resident(positions, query);
+}
+
 }  // namespace ogc::fast

@@ -40,6 +40,8 @@ class ContactEngine {
   virtual ContactSets find(std::span<const compare::Vec3f> positions, const ContactQuery& query) = 0;
   /// Implements ContactFinder::find_resident for a checked query.
   virtual ContactView find_resident(const compare::Vec3f* positions, const ContactQuery& query) = 0;
+  /// Implements ContactFinder::find_at_resident for a checked query.
+  virtual ContactSets find_at_resident(const compare::Vec3f* positions, const ContactQuery& query) = 0;
 };
 
 /// Finds contacts of one mesh at any number of positions. Only one thread at a time may use it.
@@ -59,6 +61,8 @@ class ContactFinder {
   /// results stay in that memory, complete on return and valid until the next call. Coordinates are not checked. Throws
   /// compare::InputError if the query is out of range.
   ContactView find_resident(const compare::Vec3f* positions, const ContactQuery& query);
+  /// Does the same, and returns the results on the host.
+  ContactSets find_at_resident(const compare::Vec3f* positions, const ContactQuery& query);
 
  private:
   Mesh mesh_;

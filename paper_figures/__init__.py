@@ -1,0 +1,1 @@
+import plots  # noqa: F401, finds the package `ogc_testbed` of this checkout

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from plots import render
-from plots.run_folder import Run, RunError
+from ogc_testbed.runs import Run, RunError
 from plots.scene_figure import bodies_of, draw_movie, is_cloth
 
 UP, TOWARDS_EYE = (0, 1, 0), np.array([0.55, 0.35, 1.0])

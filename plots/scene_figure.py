@@ -8,7 +8,7 @@ import h5py  # imported first, so that a missing reader is reported before anyth
 import numpy as np
 
 from plots import render, style, yarn
-from plots.run_folder import RunError, commits_in_words
+from ogc_testbed.runs import RunError, commits_in_words
 
 UNEVEN = 100  # longest step over median step above which times have a logarithmic axis
 NEAR = (1280, 560)  # pixels of a picture as wide as the figure

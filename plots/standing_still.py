@@ -9,7 +9,7 @@ import sys
 
 import numpy as np
 
-from plots.run_folder import RunError, Run
+from ogc_testbed.runs import RunError, Run
 
 COLLAPSED = 1e-3  # share of the triangle's area in the run's first frame
 

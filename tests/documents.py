@@ -44,7 +44,10 @@ NOT_RUN = {
     r"data=input": "a data set that is not part of this repository",
     r"ogc laws --quick": "a test of its own asks them, and knows which are broken today",
     r"ogc bench": "seconds a repetition, and it wants a machine for itself",
-    r"mine\.(cpp|so)": "the reader's own file; a test builds and judges those of this page",
+    r"^pip install \.": "minutes; tests/experiments/python/wheel.py builds the wheel",
+    r"^experiments/python/wheels": "minutes, and one wheel needs nvcc",
+    r"somewhere": "installs; a test builds and runs these examples (tests/experiments/examples)",
+    r"mine\.(cpp|so|py)": "the reader's own file; a test builds and judges those of this page",
 }
 SPANS = re.compile(r"(?:[\w./]*\bogc|experiments/\w+|tests/\w+(?:\.py)?|python3|\.venv/bin/python)(?: |$)")
 
@@ -274,6 +277,8 @@ class AsPrinted(Scratch):
         for name, text in texts.items():
             for language, block in blocks(text):
                 for command in lines_of(block) if language == "sh" else [block] if language == "python" else []:
+                    if language == "python" and "import ogc_testbed" in command:
+                        continue  # tests/experiments/python/programs.py runs these
                     rules = {rule for rule in NOT_RUN if language == "sh" and re.search(rule, command)}
                     used |= rules
                     if not rules:
@@ -284,11 +289,11 @@ class AsPrinted(Scratch):
     def check(self, language, command):
         time.sleep(1 - time.time() % 1)  # two runs that begin in the same second would have the same folder name
         program = [".venv/bin/python", "-c"] if language == "python" else ["bash", "-euc"]
-        status, _, said = self.place.run([*program, command])
+        status, _, said = self.place.run([*program, command], PYTHONPATH=str(SOURCE / "experiments/python"))
         self.assertEqual(status, 0, said[-1500:])
 
     def test_planted_lines_are_found(self):
-        for language, command in (("python", "from plots.run_folder import Runs\n"),
+        for language, command in (("python", "from ogc_testbed.runs import Runs\n"),
                                   ("sh", "build/default/ogc audit nothing.obj"),
                                   ("sh", "build/default/ogc run twist --set iteration=3 --scale smoke")):
             with self.assertRaises(AssertionError, msg=command):

@@ -28,7 +28,7 @@ PART = re.compile(r"^ *```(?P<language>\w*)\n.*?^ *```$|^ *\|[^\n]*$|^ {4}[^\n]*
 
 # Names that are allowed at the top, beside names that begin with a dot.
 TOP = {"compare", "reference", "fast", "experiments", "plots", "paper_figures", "tests", "README.md", "CHANGELOG.md",
-       "CONTRIBUTING.md", "LICENSE", "CITATION.cff", "CMakeLists.txt", "CMakePresets.json"}
+       "CONTRIBUTING.md", "LICENSE", "CITATION.cff", "CMakeLists.txt", "CMakePresets.json", "pyproject.toml"}
 
 PROBLEM = ("compare/problem/", "compare/stages/")
 FILES = PROBLEM + ("compare/files/", "compare/record/")
@@ -59,6 +59,10 @@ PROJECT = {
     "reference/ipc/ccd.cpp": PROBLEM + CONTESTANT + ("reference/", "compare/oracle/first_meeting.hpp"),
     "fast": PROBLEM + CONTESTANT + ("fast/",),
     "experiments": ("compare/", "experiments/", "reference/contestant.hpp", "fast/contestant.hpp"),
+    # What the modules link: the fast path, scenes, and the oracle.
+    "experiments/python": PROBLEM + CONTESTANT + ("compare/oracle/", "experiments/python/", "experiments/scenes/",
+                                                  "fast/contact_sets.hpp", "fast/contestant.hpp", "fast/guard.hpp",
+                                                  "fast/mesh.hpp"),
     "experiments/examples": ("compare/", "fast/contact_sets.hpp", "fast/contestant.hpp", "fast/guard.hpp"),
     "experiments/program/commands/contacts.cpp": ("compare/", "experiments/", "reference/contestant.hpp",
                                                   "fast/contestant.hpp", "fast/contact_sets.hpp"),
@@ -97,6 +101,7 @@ FOREIGN = {
     "cooperative_groups": ("fast/cuda",),
     "CLI/": ("experiments",),
     "benchmark/": ("experiments",),
+    "nanobind/": ("experiments/python",),
     "dlfcn.h": ("experiments/plugins",),
     "pthread.h": ("experiments/plugins",),
     "poll.h": ("experiments/plugins",),

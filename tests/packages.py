@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Finds packages that nothing uses: what experiments/dependencies.sh and plots/requirements.txt install must be
-included, imported or called somewhere.
+"""Finds packages that nothing uses: what experiments/dependencies.sh and the requirements of plots and of the Python
+package install must be included, imported or called somewhere.
 
     tests/packages.py SOURCE_DIR     the self-test, then one line for each package that is not; exit status 1 for any
 
@@ -18,6 +18,7 @@ STATED = {
     "build-essential": ("the compiler", r"project\([^)]*CXX"),
     "ca-certificates": ("the Python package index is reached by https", r"-m pip install"),
     "python3": ("plots, tests, the workflow", r"python3 -m"),
+    "python3-dev": ("headers for the Python package", r"Development\.Module"),
     "python3-venv": ("the Python environment", r"-m venv"),
     "libgmp-dev": ("CGAL's exact numbers", r"find_package\(CGAL"),
     "libmpfr-dev": ("CGAL's exact numbers", r"find_package\(CGAL"),
@@ -74,12 +75,13 @@ def brings(files, tree):
 
 
 def imported(tree):
-    python = (text for path, text in tree.items() if path.endswith((".py", ".sh", "reproduce", "Snakefile")))
+    kinds = (".py", ".sh", "reproduce", "Snakefile", "CMakeLists.txt")
+    python = (text for path, text in tree.items() if path.endswith(kinds))
     return {a or b for text in python for a, b in IMPORT.findall(text)}
 
 
 def unused(dependencies, requirements, tree, files=files_of):
-    """Returns sentences about packages of either file that nothing in the tree uses."""
+    """Returns sentences about packages of these files that nothing in the tree uses. `requirements`: {path: text}."""
     found, lists = [], arrays(dependencies)
     for package in dict.fromkeys(lists.get("packages", []) + lists.get("optional_packages", [])):
         if package in STATED:
@@ -92,10 +94,11 @@ def unused(dependencies, requirements, tree, files=files_of):
     executors = {f"snakemake_executor_plugin_{name}" for text in tree.values() for name in EXECUTOR.findall(text)}
     for package in lists.get("fallback_packages", []):
         found += [] if package.removeprefix("python3-") in imports else [f"{package} (experiments/dependencies.sh)"]
-    for package in re.findall(r"^([\w-]+)==", requirements, re.M):
-        name = IMPORTED_AS.get(package, package.replace("-", "_"))
-        plugin = any(name.startswith(executor) for executor in executors)
-        found += [] if name in imports or plugin else [f"{package} (plots/requirements.txt)"]
+    for path, text in requirements.items():
+        for package in re.findall(r"^([\w-]+)==", text, re.M):
+            name = IMPORTED_AS.get(package, package.replace("-", "_"))
+            plugin = any(name.startswith(executor) for executor in executors)
+            found += [] if name in imports or plugin else [f"{package} ({path})"]
     words = "nothing includes, imports or calls it: remove it, or say in STATED (tests/packages.py) what it is for"
     return [f"{what}: {words}" for what in found]
 
@@ -109,9 +112,10 @@ def self_test():
     tree = {"a.cpp": "#include <used/all.hpp>\n// idler\n", "b.sh": "tool --all\npython3 -m called\n",
             "c.py": "import used\n", "d.yaml": "executor: slurm\n"}
     sound = unused("packages=(libused-dev tool python3-used  # words\n not-installed)",
-                   "used==1\ncalled==1\nsnakemake-executor-plugin-slurm==2\n", tree, lambda name: brought.get(name, []))
+                   {"r.txt": "used==1\ncalled==1\nsnakemake-executor-plugin-slurm==2\n"}, tree,
+                   lambda name: brought.get(name, []))
     lists = "packages=(libidle-dev idler)\noptional_packages=(python3-idle)\nfallback_packages=(python3-idle)"
-    planted = unused(lists, "idle==1\n", tree, lambda name: brought[name])
+    planted = unused(lists, {"r.txt": "idle==1\n"}, tree, lambda name: brought[name])
     wrong = [f"a used package is called unused: {finding}" for finding in sound]
     return wrong + ([] if len(planted) == 5 else [f"of five planted packages {len(planted)} are found: {planted}"])
 
@@ -119,7 +123,8 @@ def self_test():
 def findings(root):
     kinds = re.compile(r"(\.(cpp|hpp|h|cu|cuh|py|sh|txt|yaml|cmake)|/(reproduce|Snakefile|run|bundle))$")
     tree = {name: text for name, text in tracked(root).items() if kinds.search(name) and name != "tests/packages.py"}
-    dependencies, requirements = tree["experiments/dependencies.sh"], tree.pop("plots/requirements.txt")
+    dependencies = tree["experiments/dependencies.sh"]
+    requirements = {path: tree.pop(path) for path in list(tree) if path.endswith("/requirements.txt")}
     how = re.sub(r"^\w+=\(.*?\)$", "", dependencies, flags=re.M | re.S)  # without the lists of packages
     return unused(dependencies, requirements, {**tree, "experiments/dependencies.sh": how})
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <variant>
 
 #include "compare/problem/error.hpp"
 
@@ -66,6 +67,12 @@ void refuse_unread(const Settings& settings, std::string_view solver) {
                          " with --solver " + std::string(solver) + ", " + std::string(row.why) + "; leave it out, or " +
                          "take --solver " + joined(row) + ", which reads it");
   }
+}
+
+bool has_declared_settings() {
+  return std::ranges::any_of(setting_table(), [](const SettingInfo& info) {
+    return std::holds_alternative<DeclaredSetting>(info.field);
+  });
 }
 
 }  // namespace ogc::compare

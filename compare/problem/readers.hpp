@@ -20,4 +20,13 @@ std::span<const RequiredSetting> required_settings();
 /// setting, its value and the solvers that read it. `solver` is "vbd", "newton", "reference_vbd", "ipc" or "penalty".
 void refuse_unread(const Settings& settings, std::string_view solver);
 
+/// Returns whether any contestant that is linked into this program declares settings.
+bool has_declared_settings();
+/// Sets a setting that a contestant declares. Does nothing in a program whose contestants declare none, such as one
+/// that links ogc::fast alone: nothing there reads the setting. Otherwise throws as set_setting does.
+template <class Value>
+void set_declared(Settings& settings, std::string_view name, Value value) {
+  if (has_declared_settings()) set_setting(settings, name, value);
+}
+
 }  // namespace ogc::compare

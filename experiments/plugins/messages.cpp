@@ -31,9 +31,9 @@ void check(const CallResult& result, const QuestionSizes& sizes) {
   const ListSizes most = most_entries(sizes);
   for (std::size_t k = 0; k < list_count; ++k)
     if (result.counts[k] < 0 || result.counts[k] > most[k])
-      throw MalformedBlock("counts " + std::to_string(result.counts[k]) + " " +
-                           std::string(list_name(static_cast<List>(k))) + ", at most " + std::to_string(most[k]) +
-                           " being possible");
+      throw ImpossibleCount("counts " + std::to_string(result.counts[k]) + " " +
+                            std::string(list_name(static_cast<List>(k))) + ", at most " + std::to_string(most[k]) +
+                            " being possible");
   if (result.counts[0] != most[0]) throw MalformedBlock("counts nothing where one is due");
 }
 

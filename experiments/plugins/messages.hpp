@@ -33,6 +33,11 @@ struct WorkerAnswer {
       outputs;  ///< outputs of the stage, in its order; the counts and the question's sizes determine their lengths
 };
 
+/// Thrown if an answer counts more entries of a list than are possible. what() completes the sentence "it …".
+struct ImpossibleCount : MalformedBlock {
+  using MalformedBlock::MalformedBlock;
+};
+
 /// read_greeting and read_answer read a message. Both throw MalformedBlock, which describes what is wrong with the
 /// message.
 Greeting read_greeting(const NextBlock& next);

@@ -11,6 +11,7 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <thread>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "compare/contestant.hpp"
 #include "compare/problem/error.hpp"
 #include "experiments/plugins/memory.hpp"
+#include "experiments/plugins/table.hpp"
 
 extern char** environ;
 
@@ -35,8 +37,17 @@ constexpr const char* lost_socket =
 
 std::string in_seconds(unsigned seconds) { return std::to_string(seconds) + (seconds == 1 ? " second" : " seconds"); }
 
-/// Starts `program plugin-worker file` with one end of a socket as its descriptor worker_descriptor. Sets `channel` to
-/// the other end. Returns the process.
+bool is_python(const std::filesystem::path& file) { return file.extension() == ".py"; }
+
+/// Returns the words of the worker's command.
+std::vector<std::string> command_of(const PluginOptions& options) {
+  if (!is_python(options.file)) return {options.program.string(), "plugin-worker", options.file.string()};
+  const char* const interpreter = std::getenv("OGC_PYTHON");
+  return {interpreter && *interpreter ? interpreter : "python3", "-c", python_worker(), options.file.string()};
+}
+
+/// Starts the worker with one end of a socket as its descriptor worker_descriptor. Sets `channel` to the other end.
+/// Returns the process.
 pid_t spawn(const PluginOptions& options, Channel& channel) {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
@@ -52,13 +63,18 @@ pid_t spawn(const PluginOptions& options, Channel& channel) {
   posix_spawnattr_init(&attributes);
   // The process gets a group of its own, so that it and all processes that it starts can be ended together.
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  std::string program = options.program.string(), command = "plugin-worker", file = options.file.string();
-  char* const words[] = {program.data(), command.data(), file.data(), nullptr};
+  std::vector<std::string> command = command_of(options);
+  std::vector<char*> words;
+  for (std::string& word : command) words.push_back(word.data());
+  words.push_back(nullptr);
   pid_t process = -1;
-  const int error = posix_spawn(&process, program.c_str(), &actions, &attributes, words, environ);
+  const int error = posix_spawnp(&process, words[0], &actions, &attributes, words.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   close(above);
+  if (error != 0 && is_python(options.file))
+    throw compare::InputError(options.file.string() + ": the interpreter " + command[0] + " can't be started: " +
+                              std::strerror(error) + "; name one with NumPy by the environment's OGC_PYTHON");
   if (error != 0) throw compare::ResourceError("plug-in: no process: " + std::string(std::strerror(error)));
   return process;
 }
@@ -90,14 +106,17 @@ PluginProcess::PluginProcess(PluginOptions options)
     : options_(std::move(options)), limit_seconds_(options_.limit_seconds) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(options_.file, error))
-    throw compare::InputError(options_.file.string() +
-                              ": there is no such file; give the shared library that holds your kernels");
+    throw compare::InputError(
+        options_.file.string() +
+        ": there is no such file; give the shared library or the Python file that holds your kernels");
   options_.file = std::filesystem::absolute(options_.file);  // dlopen searches elsewhere for a bare name
   start();
 }
 
 Patience PluginProcess::patience() const {
-  return {static_cast<double>(limit_seconds_), [process = process_] { return runs(process); }};
+  // Loading keeps its limit after a hang: an interpreter with its packages takes longer than a call.
+  const unsigned limit = is_loaded_ ? limit_seconds_ : options_.limit_seconds;
+  return {static_cast<double>(limit), [process = process_] { return runs(process); }};
 }
 
 void PluginProcess::send(Bytes block) {
@@ -114,6 +133,9 @@ auto PluginProcess::received(Read read) {
         throw ContestantFailure(ending(got));
       return block;
     });
+  } catch (const ImpossibleCount& wrong) {
+    stop();
+    throw ContestantFailure("it " + std::string(wrong.what()));
   } catch (const MalformedBlock& wrong) {
     stop();
     throw ContestantFailure("its worker sent a message that " + std::string(wrong.what()) +
@@ -125,6 +147,11 @@ auto PluginProcess::received(Read read) {
 bool PluginProcess::has(std::string_view stage) const {
   const auto at = find_plugin_stage(stage);
   return at && has_[*at] != 0;
+}
+
+std::string PluginProcess::missing(std::string_view stage) const {
+  const std::string what = is_python(options_.file) ? "kernel of " : "function ogc_";
+  return "it has no " + what + std::string(stage) + "; its stages: " + offered();
 }
 
 std::string PluginProcess::offered() const {
@@ -158,19 +185,26 @@ PluginProcess::Answer PluginProcess::ask(std::string_view stage_name, const Ques
 
 void PluginProcess::start() {
   stop();
+  is_loaded_ = false;
   process_ = spawn(options_, channel_);
+  if (is_python(options_.file)) {
+    const std::string layout = python_layout();
+    send(bytes_of(layout));
+  }
   const Greeting greeting = received(read_greeting);
   if (greeting.status == LoadStatus::refused) throw compare::InputError(options_.file.string() + ": " + greeting.text);
   if (greeting.status == LoadStatus::failed)
     throw compare::ResourceError(options_.file.string() + ": " + greeting.text);
   name_ = greeting.text;
   has_ = greeting.has;
+  is_loaded_ = true;
 }
 
 std::string PluginProcess::ending(Transfer how) {
   if (how == Transfer::timeout) {
     stop();
-    const std::string text = "it hangs: no answer within " + in_seconds(limit_seconds_);
+    const std::string text = "it hangs: no answer within " +
+                             in_seconds(is_loaded_ ? limit_seconds_ : options_.limit_seconds);
     limit_seconds_ = std::max(least_limit, options_.limit_seconds / 10);
     return text;
   }

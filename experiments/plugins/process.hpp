@@ -18,7 +18,8 @@ namespace ogc::experiments {
 
 /// Options of a plug-in's process.
 struct PluginOptions {
-  std::filesystem::path file;                        ///< the shared library
+  /// the shared library, or a Python file: the interpreter is `OGC_PYTHON` of the environment, else python3
+  std::filesystem::path file;
   std::filesystem::path program = "/proc/self/exe";  ///< the program `ogc`, which also contains the worker
   unsigned limit_seconds = 10;                       ///< limit for each call and for loading
 };
@@ -44,6 +45,8 @@ class PluginProcess {
   const std::string& name() const { return name_; }
   /// Returns whether the plug-in has this stage.
   bool has(std::string_view stage) const;
+  /// Returns a sentence: the plug-in lacks this stage, and which stages it has.
+  std::string missing(std::string_view stage) const;
   /// Returns the plug-in's stages, separated by commas.
   std::string offered() const;
 
@@ -77,6 +80,7 @@ class PluginProcess {
   PluginOptions options_;
   /// shortened after a hang, because the search for the hanging case runs into the limit many times
   unsigned limit_seconds_;
+  bool is_loaded_ = false;  ///< the process has sent its greeting
   pid_t process_ = -1;
   Channel channel_;
   std::string name_;

@@ -131,18 +131,18 @@ class Call {
     for (const OutputInfo& info : stage_.outputs)
       outputs.push_back(
           memory_.output(group_bytes(info) * groups(info, request_.sizes, capacities_), bytes_of(info.element)));
-    CallArrays arrays(request_.sizes, inputs_, outputs, capacities_);
+    const CallArrays arrays{request_.sizes, inputs_, outputs, capacities_};
     memory_.synchronize();
     const auto start = std::chrono::steady_clock::now();
-    const int status = stage_.call(function_, arrays);
+    const auto [status, counts] = call_plugin(stage_, function_, arrays);
     memory_.synchronize();
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (status != 0)
       throw std::runtime_error("ogc_" + std::string(stage_.name) + " returned " + std::to_string(status) +
                                " instead of 0");
     check_guards();
-    check_counts(arrays.counts);
-    return {CallResult::Status::answered, arrays.counts, seconds};
+    check_counts(counts);
+    return {CallResult::Status::answered, counts, seconds};
   }
 
   /// Returns the index of the first list that exceeds its capacity.

@@ -97,6 +97,23 @@ std::string stage_list_text() {
   return text;
 }
 
+Json stage_list_json() {
+  Json json = Json::array();
+  for (const Stage stage : compare::all_stages) {
+    const StageInfo& info = compare::stage_info(stage);
+    Json generators = Json::array(), parameters = Json::array();
+    for (const compare::Generator& row : compare::generators(stage)) generators.push_back(row.name);
+    for (const compare::ParameterInfo& row : compare::parameters(stage)) parameters.push_back(row.name);
+    json.push_back({{"name", info.name},
+                    {"question", info.question},
+                    {"case", info.unit},
+                    {"determinism", determinism_name(info.determinism)},
+                    {"generators", generators},
+                    {"parameters", parameters}});
+  }
+  return json;
+}
+
 std::vector<compare::DeterminismReport> determinism_of(fast::Backend backend, std::span<const Stage> stages,
                                                        std::uint64_t cases, std::uint64_t seed) {
   const compare::Contestant contestant = fast::contestant(backend);

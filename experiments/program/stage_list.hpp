@@ -18,6 +18,9 @@ std::string stage_list_markdown();
 /// Returns the same list for a terminal, with each stage's generators and parameters.
 std::string stage_list_text();
 
+/// Returns the same list for programs.
+Json stage_list_json();
+
 /// Checks whether the stages return the same bits in repeated calls on a backend. The CPU also repeats them with one
 /// thread and with two threads. A device also repeats them with other block sizes, and with launches that are divided
 /// for other numbers of multiprocessors.

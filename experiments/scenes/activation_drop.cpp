@@ -2,6 +2,7 @@
 // limit, because each step ends at its tolerance.
 #include "experiments/scenes/activation_drop.hpp"
 
+#include "compare/problem/readers.hpp"
 #include "experiments/scenes/cloth_on_sphere.hpp"
 #include "experiments/scenes/shapes.hpp"
 
@@ -14,7 +15,7 @@ compare::Scene activation_drop(const ActivationDropSizes& sizes) {
               ground(sizes.vertices_a_side, -0.272));
   scene.settings.iterations = sizes.iterations;
   scene.settings.detection_fraction = 0;
-  set_setting(scene.settings, "newton_iterations", 200);
+  set_declared(scene.settings, "newton_iterations", 200);
   return scene;
 }
 

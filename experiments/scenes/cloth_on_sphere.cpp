@@ -2,6 +2,7 @@
 // choice.
 #include "experiments/scenes/cloth_on_sphere.hpp"
 
+#include "compare/problem/readers.hpp"
 #include "experiments/scenes/materials.hpp"
 #include "experiments/scenes/shapes.hpp"
 
@@ -28,9 +29,9 @@ compare::Scene cloth_on_sphere(const ClothOnSphereSizes& sizes) {
   scene.settings.steps = sizes.steps;
   scene.settings.iterations = 40;
   scene.settings.contact_radius = 5e-3 * 69 / (sizes.vertices_a_side - 1);
-  set_setting(scene.settings, "ipc_distance", scene.settings.contact_radius / 5);
-  set_setting(scene.settings, "ipc_stopping", "velocity");
-  set_setting(scene.settings, "ipc_ccd", "full");
+  set_declared(scene.settings, "ipc_distance", scene.settings.contact_radius / 5);
+  set_declared(scene.settings, "ipc_stopping", "velocity");
+  set_declared(scene.settings, "ipc_ccd", "full");
   return scene;
 }
 

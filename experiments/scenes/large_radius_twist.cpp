@@ -3,6 +3,7 @@
 // Codimensional IPC's scripts.
 #include "experiments/scenes/large_radius_twist.hpp"
 
+#include "compare/problem/readers.hpp"
 #include "experiments/scenes/twist.hpp"
 
 namespace ogc::experiments {
@@ -13,9 +14,9 @@ compare::Scene large_radius_twist(const LargeRadiusTwistSizes& sizes) {
   for (compare::PrescribedMotion& motion : scene.motions) motion.angular_velocity /= 2;
   scene.settings.iterations = 20;
   scene.settings.contact_radius = 5e-3 * 199 / (sizes.vertices_a_side - 1);
-  set_setting(scene.settings, "ipc_distance", scene.settings.contact_radius);
-  set_setting(scene.settings, "ipc_stopping", "velocity");
-  set_setting(scene.settings, "ipc_ccd", "full");
+  set_declared(scene.settings, "ipc_distance", scene.settings.contact_radius);
+  set_declared(scene.settings, "ipc_stopping", "velocity");
+  set_declared(scene.settings, "ipc_ccd", "full");
   return scene;
 }
 

@@ -1,6 +1,7 @@
 // Numbers are the paper's Table 1; materials are those of cloth_on_sphere. The figure shows the last step.
 #include "experiments/scenes/three_cloths_on_sphere.hpp"
 
+#include "compare/problem/readers.hpp"
 #include "experiments/scenes/cloth_on_sphere.hpp"
 #include "experiments/scenes/shapes.hpp"
 
@@ -17,7 +18,7 @@ compare::Scene three_cloths_on_sphere(const ThreeClothsSizes& sizes) {
   scene.settings.time_step = 1.0 / 100;
   scene.settings.steps = sizes.steps;
   scene.settings.iterations = sizes.iterations;
-  set_setting(scene.settings, "newton_iterations", 50);
+  set_declared(scene.settings, "newton_iterations", 50);
   scene.settings.contact_radius = radius;
   return scene;
 }

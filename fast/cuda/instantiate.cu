@@ -42,6 +42,9 @@ class CudaContactEngine : public ContactEngine {
   ContactView find_resident(const compare::Vec3f* positions, const ContactQuery& query) override {
     return engine_.find_resident(positions, query);
   }
+  ContactSets find_at_resident(const compare::Vec3f* positions, const ContactQuery& query) override {
+    return engine_.find_at_resident(positions, query);
+  }
 
  private:
   CudaBackend backend_;

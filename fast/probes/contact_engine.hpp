@@ -25,6 +25,11 @@ class BackendContactEngine : public ContactEngine {
     return download_contacts(backend_, detection_, topology_);
   }
 
+  ContactSets find_at_resident(const compare::Vec3f* positions, const ContactQuery& query) override {
+    run(reinterpret_cast<const Vec*>(positions), query);
+    return download_contacts(backend_, detection_, topology_);
+  }
+
   ContactView find_resident(const compare::Vec3f* positions, const ContactQuery& query) override {
     run(reinterpret_cast<const Vec*>(positions), query);
     return detection_.view();

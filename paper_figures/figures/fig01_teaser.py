@@ -7,7 +7,7 @@ import sys
 from paper_figures.figures import (fig10_fifty_layers, fig11_knot, fig12_twist, fig13_dress, fig14_robot_shirt,
                                    fig18_cloth_on_sphere)
 from plots import render, style
-from plots.run_folder import Run, RunError, commits_in_words
+from ogc_testbed.runs import Run, RunError, commits_in_words
 from plots.scene_figure import bodies_of, is_cloth
 
 CAMERAS = {"fifty_layers": fig10_fifty_layers.CAMERA, "knot": fig11_knot.CAMERA, "twist": fig12_twist.CAMERA,

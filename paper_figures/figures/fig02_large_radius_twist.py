@@ -10,7 +10,7 @@ from paper_figures.workflow import commands
 from paper_figures.workflow.common import baseline_arguments, ipc_windows, label
 from paper_figures.workflow.runs import provenance, run_job, write_table
 from plots import render, style
-from plots.run_folder import Run, RunError, commits_in_words
+from ogc_testbed.runs import Run, RunError, commits_in_words
 from plots.scene_figure import bodies_of
 
 SCENE = commands.TWIST

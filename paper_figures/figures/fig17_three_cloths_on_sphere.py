@@ -26,7 +26,7 @@ from paper_figures.workflow.accept import not_run
 from paper_figures.workflow.evidence import CLAIMS
 from paper_figures.workflow.runs import iterations, provenance, run_job, write_table
 from plots import style
-from plots.run_folder import RunError, commits_in_words
+from ogc_testbed.runs import RunError, commits_in_words
 
 SCENE, STEPS = commands.THREE_CLOTHS, commands.THREE_CLOTHS_STEP
 # Deviations from the paper: their names in folders, and in words.

@@ -17,7 +17,7 @@ from paper_figures.workflow.evidence import CLAIMS
 from paper_figures.workflow.jobs import PROCESSOR_TIME
 from paper_figures.workflow.runs import provenance, run_job, write_table
 from plots import style
-from plots.run_folder import Run, RunError, commits_in_words
+from ogc_testbed.runs import Run, RunError, commits_in_words
 from plots.scene_figure import draw_frames
 
 SCENE = "cloth_on_sphere"

@@ -22,7 +22,7 @@ from paper_figures.workflow.jobs import ENDED_BY_TIME, Job, Limit, RunFailure
 from paper_figures.workflow.runs import provenance, write_table
 from plots import style
 from plots.movie import camera_of
-from plots.run_folder import Run, RunError, commits_in_words
+from ogc_testbed.runs import Run, RunError, commits_in_words
 from plots.scene_figure import draw_movie
 
 GIPC, GIPC_DEVICE = RESULTS / "h200" / "gipc_mat.csv", "NVIDIA H200"

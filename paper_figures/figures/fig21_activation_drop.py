@@ -28,7 +28,7 @@ from paper_figures.workflow import commands, contact_forces
 from paper_figures.workflow.accept import not_run
 from paper_figures.workflow.runs import iterations, provenance, run_job, write_table
 from plots import render, style
-from plots.run_folder import Run, RunError, commits_in_words
+from ogc_testbed.runs import Run, RunError, commits_in_words
 from plots.scene_figure import bodies_of
 
 SCENE, STEPS, VARIANTS = commands.ACTIVATIONS, commands.ACTIVATION_STEPS, commands.VARIANTS

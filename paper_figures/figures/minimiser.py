@@ -11,7 +11,7 @@ import numpy as np
 from paper_figures.workflow import commands
 from paper_figures.workflow.jobs import RunFailure, parser_of_figure
 from plots import style
-from plots.run_folder import Run
+from ogc_testbed.runs import Run
 
 DISTANCES = {"largest_distance [m]": "largest distance of a vertex", "rms_distance [m]": "root mean square",
              "rounding [m]": "half of a float's spacing"}

@@ -7,7 +7,7 @@ from pathlib import Path
 from paper_figures.workflow import commands
 from paper_figures.workflow.evidence import CLAIMS
 from paper_figures.workflow.runs import run_job
-from plots.run_folder import Run, RunError
+from ogc_testbed.runs import Run, RunError
 from plots.scene_figure import draw, draw_movie, load_claims
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from plots.run_folder import RunError
+from ogc_testbed.runs import RunError
 from plots.scene_figure import is_cloth
 
 DECADES, EACH = (-4, 2), 8

@@ -21,7 +21,7 @@ from pathlib import Path
 
 from paper_figures.workflow.jobs import AUDIT
 from paper_figures.workflow.thinned import Hundreds
-from plots.columns import column_and_unit
+from ogc_testbed.columns import column_and_unit
 
 ROOM = Path(__file__).parent.parent  # paper_figures
 RESULTS, CLAIMS = ROOM / "results", ROOM / "claims"

@@ -10,8 +10,8 @@ import numpy as np
 
 from paper_figures.workflow.evidence import membranes_of
 from paper_figures.workflow.jobs import Job, RunFailure
-from plots.columns import column_and_unit
-from plots.run_folder import Run, RunError
+from ogc_testbed.columns import column_and_unit
+from ogc_testbed.runs import Run, RunError
 
 
 @dataclass

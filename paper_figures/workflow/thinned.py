@@ -10,7 +10,7 @@ import io
 import math
 import statistics
 
-from plots.columns import FORMER_COLUMNS, column_and_unit
+from ogc_testbed.columns import FORMER_COLUMNS, column_and_unit
 
 BLOCK = 100  # steps
 LONGEST = 200  # rows; longer runs are thinned

@@ -104,7 +104,7 @@ def check_refused(source, module, folder, scratch):
 def check_former_columns(source, path, rows):
     """A run of format 1, whose columns of cut vertices have other names, reads as one of today."""
     sys.path.insert(0, str(source))
-    from plots.run_folder import Run
+    from ogc_testbed.runs import Run
     former = rows.replace("vertices_cut", "vertices_at_bound", 1).replace("share_cut", "share_at_bound", 1)
     if former == rows:
         sys.exit(f"{path} has no column of cut vertices")
@@ -139,7 +139,7 @@ def check_words(sentence, words, out):
 def check_mixture(source, folder):
     """Runs of one commit are said to be so; of several, which is whose."""
     sys.path.insert(0, str(source))
-    from plots.run_folder import Run, commits_in_words
+    from ogc_testbed.runs import Run, commits_in_words
 
     first, second = Run(folder), Run(folder)
     dirty = " (dirty)" if first.manifest.get("dirty") else ""
@@ -153,7 +153,7 @@ def check_damaged(source, folder, scratch):
     """A frame whose content is not what its checksum says is refused by name; one of format 1, without any, is read."""
     import h5py
     sys.path.insert(0, str(source))
-    from plots.run_folder import Run, RunError
+    from ogc_testbed.runs import Run, RunError
 
     run = Run(folder)
     path = scratch / run.frames[-1].name

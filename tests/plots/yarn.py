@@ -19,7 +19,7 @@ try:
 
     from plots import render, yarn
     from plots.movie import camera_of
-    from plots.run_folder import Run, RunError
+    from ogc_testbed.runs import Run, RunError
     from plots.scene_figure import bodies_of
 except ImportError as missing:
     print(f"SKIPPED: {missing}")

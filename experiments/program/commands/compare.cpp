@@ -16,6 +16,7 @@
 #include "compare/problem/error.hpp"
 #include "experiments/plugins/contestant.hpp"
 #include "experiments/plugins/report.hpp"
+#include "experiments/plugins/table.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/failures.hpp"
 #include "experiments/program/option_checks.hpp"
@@ -80,8 +81,7 @@ void choose_stages_of_plugin(CompareOptions& options, const Judged& judged) {
                      ": it has no stage's function; write one, such as ogc_truncate (compare/plugin.h)");
   for (const std::string& name : options.stages)
     if (compare::find_stage(name) && !judged.plugin->has(name))
-      throw InputError(options.plugin + ": it has no function ogc_" + name +
-                       "; its stages: " + judged.plugin->offered());
+      throw InputError(options.plugin + ": " + judged.plugin->missing(name));
   if (!options.stages.empty()) return;
   for (const Stage stage : compare::all_stages)
     if (judged.plugin->has(compare::stage_name(stage))) options.stages.emplace_back(compare::stage_name(stage));
@@ -158,8 +158,11 @@ void write_report(const std::filesystem::path& folder, const std::vector<StageRe
   compare::write_bytes(folder / "report.html", compare::report_page(reports, judged + " against the reference"));
 }
 
-int list_stages(const CompareOptions& options) {
-  print_result(options.markdown ? stage_list_markdown() : stage_list_text());
+int list_stages(const CompareOptions& options, const CommandContext& context) {
+  if (context.json)
+    print_result(Json{{"stages", stage_list_json()}, {"plugin", plugin_table()}});
+  else
+    print_result(options.markdown ? stage_list_markdown() : stage_list_text());
   return exit_success;
 }
 
@@ -200,7 +203,7 @@ void print_reports(const std::vector<StageReport>& reports, const std::optional<
 }
 
 int run_compare(CompareOptions options, const CommandContext& context) {
-  if (options.list) return list_stages(options);
+  if (options.list) return list_stages(options, context);
   if (!options.report.empty())
     // The folder is created first, so that a wrong path is reported before the cases are judged.
     std::filesystem::create_directories(options.report);
@@ -274,8 +277,8 @@ void add_compare_command(CLI::App& app, CommandContext& context) {
   problem->excludes(replay);
   batch->excludes(replay);
   command->add_option("--plugin", options->plugin,
-                      "This shared library has your kernels (compare/plugin.h), which are judged in place of ours and "
-                      "timed beside them");
+                      "This shared library (compare/plugin.h) or Python file has your kernels, which are judged in "
+                      "place of ours and timed beside them");
   command
       ->add_option("--time-limit", options->time_limit,
                    "A call of a plug-in may take so many seconds, and a tenth of that once a call hung")
@@ -287,8 +290,10 @@ void add_compare_command(CLI::App& app, CommandContext& context) {
   command->add_flag("--determinism", options->determinism,
                     "The backend alone is asked whether it gives the same bits again, shuffled, in small batches and "
                     "with other numbers of threads; digests of two machines or builds may be compared");
-  auto* list = command->add_flag("--list", options->list,
-                                 "Print all stages with their questions, generators and parameters");
+  auto* list = command->add_flag(
+      "--list", options->list,
+      "Print all stages with their questions, generators and parameters; with --json also the "
+      "structures of compare/plugin.h");
   command->add_flag("--markdown", options->markdown, "With --list: print the table of compare/README.md")->needs(list);
   command->add_flag("--json", context.json, "Print the result as JSON on standard output");
   command->footer(
@@ -302,6 +307,7 @@ void add_compare_command(CLI::App& app, CommandContext& context) {
       "  ogc compare --cases 1000000\n"
       "  ogc compare closest_face truncate --backend cuda --report reports/cuda\n"
       "  ogc compare truncate --plugin ./mine.so\n"
+      "  ogc compare truncate --plugin mine.py\n"
       "  ogc compare --problem \"stage=detect_edge_edge gen=few seed=7 index=12 r=2e-3 r_q=4e-3\"\n"
       "  ogc compare --determinism --backend cuda --json");
   command->callback([options, &context] { context.status = run_compare(*options, context); });

@@ -23,7 +23,7 @@ from paper_figures.workflow import commands, contact_forces
 from paper_figures.workflow.jobs import Job, RunFailure, parser_of_figure
 from paper_figures.workflow.runs import iterations, provenance, write_table
 from plots import style
-from plots.run_folder import Run, RunError
+from ogc_testbed.runs import Run, RunError
 
 NAME = "activation_load"
 STIFFNESSES = (10, 1, 0.2)  # k_c [N/m]: the paper's value, and softer ones, which compress contacts more

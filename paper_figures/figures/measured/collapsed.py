@@ -11,7 +11,7 @@ import numpy as np
 
 from paper_figures.figures.ablations.study import of_points
 from paper_figures.workflow.runs import provenance, write_table
-from plots.run_folder import Run, RunError
+from ogc_testbed.runs import Run, RunError
 from plots.standing_still import rows
 
 METRICS = {"vertices that can't move": 1, "vertices that can't along their largest coordinate": 2,

@@ -21,7 +21,7 @@ from paper_figures.workflow import layers, slide
 from paper_figures.workflow.jobs import Job, RunFailure, manifest_of, parser_of_figure
 from paper_figures.workflow.runs import provenance, write_table
 from plots import style
-from plots.run_folder import Run
+from ogc_testbed.runs import Run
 
 SIDE = 12  # vertices along a side of the sheet
 STEPS = {"smoke": 300, "small": 3000, "paper": 3000}  # 1 s and 10 s

@@ -18,7 +18,7 @@ from paper_figures.workflow import layers
 from paper_figures.workflow.jobs import Job, RunFailure, parser_of_figure
 from paper_figures.workflow.runs import provenance, write_table
 from plots import style
-from plots.run_folder import Run
+from ogc_testbed.runs import Run
 
 NAME = "falling"
 APART, RADIUS, GRAVITY = 0.01, 0.005, 9.81  # [m], [m], [m/s²]

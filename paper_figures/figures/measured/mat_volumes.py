@@ -18,7 +18,7 @@ from paper_figures.workflow.jobs import Limit, RunFailure, parser_of_figure
 from paper_figures.workflow.runs import provenance, write_table
 from plots import render, style
 from plots.movie import camera_of
-from plots.run_folder import Run, RunError, commits_in_words
+from ogc_testbed.runs import Run, RunError, commits_in_words
 from plots.scene_figure import bodies_of
 
 NAME = "mat_volumes"

@@ -25,7 +25,7 @@ from paper_figures.workflow.contact_forces import contacts_of, ogc_force
 from paper_figures.workflow.jobs import Job, RunFailure, manifest_of, parser_of_figure
 from paper_figures.workflow.runs import provenance, write_table
 from plots import style
-from plots.run_folder import Run
+from ogc_testbed.runs import Run
 
 SIDE, PLATE_SIDE = 12, 20  # vertices
 SPACING = 1 / 69  # [m], of fifty_layers

@@ -19,7 +19,7 @@ from paper_figures.workflow.first_meeting import FirstMeeting
 from paper_figures.workflow.jobs import Limit, RunFailure
 from paper_figures.workflow.runs import provenance, write_table
 from plots import render, style
-from plots.run_folder import Run, RunError, commits_in_words
+from ogc_testbed.runs import Run, RunError, commits_in_words
 from plots.scene_figure import bodies_of, draw_movie
 
 FIGURE = {commands.STRETCH: "fig15", commands.YARN_TWIST: "fig16"}

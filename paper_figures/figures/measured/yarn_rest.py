@@ -22,7 +22,7 @@ from paper_figures.workflow import commands
 from paper_figures.workflow.jobs import Limit, RunFailure, parser_of_figure
 from paper_figures.workflow.runs import provenance, write_table
 from plots import style
-from plots.run_folder import Run, RunError, commits_in_words
+from ogc_testbed.runs import Run, RunError, commits_in_words
 
 NAME, PICTURE = "fig16_rest", "fig16_rest.png"
 LAST = 1.0  # s

@@ -20,7 +20,7 @@ from paper_figures.workflow import commands, release
 from paper_figures.workflow.jobs import Job, Limit, RunFailure, parser_of_figure
 from paper_figures.workflow.runs import provenance, write_table
 from plots import style
-from plots.run_folder import Run, RunError, commits_in_words
+from ogc_testbed.runs import Run, RunError, commits_in_words
 
 NAME = "yarn_return"
 TURNS = {"smoke": (0.01, 0.02), "small": (1, 2, 5), "paper": (1, 2, 3, 5)}

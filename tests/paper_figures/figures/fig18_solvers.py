@@ -23,7 +23,7 @@ except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
 from paper_figures.workflow import commands  # noqa: E402
-from plots.run_folder import Run  # noqa: E402
+from ogc_testbed.runs import Run  # noqa: E402
 
 FIRST, STEPS = 12, 30
 THREADS = f"{len(os.sched_getaffinity(0))} threads"

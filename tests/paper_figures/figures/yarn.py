@@ -25,7 +25,7 @@ try:
     from paper_figures.workflow import commands, release
     from paper_figures.workflow.first_meeting import FirstMeeting, met_at
     from paper_figures.workflow.jobs import FINISHED, KEPT
-    from plots.run_folder import Frame, Run
+    from ogc_testbed.runs import Frame, Run
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)

@@ -20,7 +20,7 @@ except ImportError as missing:
     sys.exit(77)
 from paper_figures.workflow import accept  # noqa: E402
 from paper_figures.workflow.evidence import RESULTS, runs_in  # noqa: E402
-from plots.columns import column_and_unit  # noqa: E402
+from ogc_testbed.columns import column_and_unit  # noqa: E402
 
 LIMIT = 10e6  # bytes of all accepted results
 

@@ -7,10 +7,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
-import h5py
 import numpy as np
 
-from plots.columns import column_and_unit
+from ogc_testbed.columns import column_and_unit
 
 
 class RunError(Exception):
@@ -77,7 +76,7 @@ class Run:
         path = self.folder / "trajectory.vtkhdf"
         if not path.is_file():
             raise RunError(f"{path} is missing: the run is not finished; assemble it with: ogc export {self.folder}")
-        with h5py.File(path, "r") as file:
+        with _opened(path) as file:
             triangles = file["VTKHDF/Polygons/Connectivity"][:].reshape(-1, 3)
             edges = file["VTKHDF/Lines/Connectivity"][:].reshape(-1, 2)
         result, segment_count = [], 0
@@ -96,7 +95,7 @@ class Run:
         return self.frame(self.frames[0]).positions
 
     def frame(self, path):
-        with h5py.File(path, "r") as file:
+        with _opened(path) as file:
             frame = Frame(int(file.attrs["step"]), float(file.attrs["time"]),
                           file["positions"][:], file["velocities"][:], file["bounds"][:],
                           file["orientations"][:] if "orientations" in file else np.empty((0, 4), np.float32))
@@ -129,6 +128,15 @@ def commits_in_words(runs):
         return f"commit {commits[0]}"
     return "MIXED, not one program's runs: " + ", ".join(f"{run.folder.name} of commit {commit}"
                                                          for run, commit in zip(runs, commits))
+
+
+def _opened(path):
+    """Returns the HDF5 file, to be read. h5py is imported here, so that manifests and rows need only NumPy."""
+    try:
+        import h5py
+    except ImportError as error:
+        raise RunError(f"{path} is an HDF5 file, which h5py reads: pip install h5py") from error
+    return h5py.File(path, "r")
 
 
 def _checksum(frame):

@@ -1,0 +1,82 @@
+"""An array in the memory of a CUDA device, by the driver alone: tests need neither torch nor CuPy."""
+
+import ctypes
+
+import numpy as np
+
+KEPT_ALIVE = {}  # the memory behind capsules, by address of their tensors
+
+
+class Tensor(ctypes.Structure):
+    """DLTensor of dlpack.h."""
+
+    _fields_ = [("data", ctypes.c_void_p), ("device_type", ctypes.c_int32), ("device_id", ctypes.c_int32),
+                ("ndim", ctypes.c_int32), ("code", ctypes.c_uint8), ("bits", ctypes.c_uint8),
+                ("lanes", ctypes.c_uint16), ("shape", ctypes.POINTER(ctypes.c_int64)),
+                ("strides", ctypes.POINTER(ctypes.c_int64)), ("byte_offset", ctypes.c_uint64)]
+
+
+class ManagedTensor(ctypes.Structure):
+    """DLManagedTensor of dlpack.h."""
+
+
+DELETER = ctypes.CFUNCTYPE(None, ctypes.POINTER(ManagedTensor))
+ManagedTensor._fields_ = [("tensor", Tensor), ("context", ctypes.c_void_p), ("deleter", DELETER)]
+CUDA, FLOAT = 2, 2
+
+
+@DELETER
+def let_go(tensor):
+    KEPT_ALIVE.pop(ctypes.addressof(tensor.contents))
+
+
+def driver():
+    """Returns CUDA's driver with the context that its runtime uses."""
+    cuda = ctypes.CDLL("libcuda.so.1")
+    context = ctypes.c_void_p()
+    for name, arguments in (("cuInit", (0,)), ("cuDevicePrimaryCtxRetain", (ctypes.byref(context), 0)),
+                            ("cuCtxSetCurrent", (context,))):
+        status = getattr(cuda, name)(*arguments)
+        assert status == 0, (name, status)
+    return cuda
+
+
+class DeviceArray:
+    """float32 rows on the device; it counts how often it is asked for."""
+
+    cuda = None
+
+    def __init__(self, values):
+        DeviceArray.cuda = DeviceArray.cuda or driver()
+        values = np.ascontiguousarray(values, dtype=np.float32)
+        self.shape, self.bytes, self.asked = values.shape, values.nbytes, 0
+        memory = ctypes.c_uint64()
+        assert self.cuda.cuMemAlloc_v2(ctypes.byref(memory), ctypes.c_size_t(self.bytes)) == 0
+        self.address = memory.value
+        assert self.cuda.cuMemcpyHtoD_v2(memory, ctypes.c_void_p(values.ctypes.data), ctypes.c_size_t(self.bytes)) == 0
+
+    def __del__(self):
+        self.cuda.cuMemFree_v2(ctypes.c_uint64(self.address))
+
+    def copy(self):
+        return DeviceArray(self.numpy())
+
+    def numpy(self):
+        values = np.empty(self.shape, dtype=np.float32)
+        status = self.cuda.cuMemcpyDtoH_v2(ctypes.c_void_p(values.ctypes.data), ctypes.c_uint64(self.address),
+                                           ctypes.c_size_t(self.bytes))
+        assert status == 0, status
+        return values
+
+    def __dlpack_device__(self):
+        return CUDA, 0
+
+    def __dlpack__(self, **_):
+        self.asked += 1
+        shape = (ctypes.c_int64 * len(self.shape))(*self.shape)
+        managed = ManagedTensor(Tensor(self.address, CUDA, 0, len(self.shape), FLOAT, 32, 1, shape, None, 0), None,
+                                let_go)
+        KEPT_ALIVE[ctypes.addressof(managed)] = managed, shape, self
+        new = ctypes.pythonapi.PyCapsule_New
+        new.restype, new.argtypes = ctypes.py_object, [ctypes.c_void_p, ctypes.c_char_p, ctypes.c_void_p]
+        return new(ctypes.addressof(managed), b"dltensor", None)

@@ -1,0 +1,204 @@
+"""Simulations by the Python package: the program's bits, metrics, snapshots, and errors that say what to mend.
+
+Usage: scenes.py BUILD_DIR RUN, a run of `ogc run cloth_on_sphere --scale smoke`. Exit status 77: skipped, a Python
+package is missing.
+"""
+
+import csv
+import sys
+import unittest
+from pathlib import Path
+
+from package import grid, main, prepare
+
+_, (RUN,) = prepare(__doc__)
+import numpy as np  # noqa: E402
+
+import ogc_testbed as ogc  # noqa: E402
+
+try:
+    import h5py
+except ImportError as missing:
+    print(f"SKIPPED: {missing}")
+    sys.exit(77)
+
+
+def falling(**settings):
+    """Returns a scene of a cloth above a fixed triangle, and the cloth."""
+    x, faces = grid(8, 0.2, 0.01)
+    scene = ogc.Scene(dt=1 / 100, iterations=10, radius=5e-3, **settings)
+    cloth = scene.add_cloth(x, faces, density=0.2, young=100, bending=1e-6)
+    floor = np.array([[-1, 0, -1], [0, 0, 2], [2, 0, -1]], dtype=np.float32)
+    scene.add_fixed_body(floor, np.array([[0, 1, 2]], dtype=np.int32))
+    return scene, cloth
+
+
+class Bits(unittest.TestCase):
+    def test_a_built_in_scene_ends_where_the_program_ends(self):
+        scene = ogc.scene("cloth_on_sphere", scale="smoke")
+        sim = scene.start()
+        rows = sim.advance(int(scene.settings["steps"]))
+        with open(Path(RUN) / "steps.csv", newline="") as file:
+            program = list(csv.DictReader(file))
+        self.assertEqual(len(program), len(rows))
+        for column in ("vertex_facet_contacts", "edge_edge_contacts", "iterations"):
+            self.assertEqual([int(row[f"{column} [1]"]) for row in program], rows[column].tolist(), column)
+        self.assertEqual([float(row["elastic_energy [J]"]) for row in program], rows.elastic_energy.tolist())
+        last = sorted((Path(RUN) / "frames").iterdir())[-1]
+        with h5py.File(last) as frame:
+            state = sim.snapshot()
+            self.assertEqual(state.step, len(rows))
+            for found, name in ((state.positions, "positions"), (state.velocities, "velocities"),
+                                (state.bound, "bounds"), (sim.positions, "positions")):
+                self.assertEqual(found.tobytes(), frame[name][:].tobytes(), name)
+
+    def test_a_scene_of_its_arrays_is_the_same_scene(self):
+        """The built-in scene, rebuilt from arrays and constants, gives its bits."""
+        built_in = ogc.scene("cloth_on_sphere", scale="smoke")
+        cloth, sphere = built_in.bodies
+        x, faces = built_in.positions, built_in.faces
+        scene = ogc.Scene(dt=float(built_in.settings["time_step"]), iterations=40,
+                          radius=float(built_in.settings["contact_radius"]))
+        # E and ν of λ = μ = 10 N/m: ν = λ/(λ + 2μ) = 1/3, E = 2μ(1 + ν)
+        scene.add_cloth(x[cloth.vertices], faces[cloth.triangles], density=0.2, young=20 * (1 + 1 / 3), poisson=1 / 3,
+                        bending=5e-7, friction=0.5, contact_stiffness=10, damping=2e-6, bending_damping=2e-6)
+        scene.add_fixed_body(x[sphere.vertices], faces[sphere.triangles] - np.int32(sphere.vertices.start),
+                             friction=0.5, contact_stiffness=10)
+        sims = [built_in.start(), scene.start()]
+        for sim in sims:
+            sim.advance(15)
+        self.assertEqual(sims[0].positions.tobytes(), sims[1].positions.tobytes())
+
+    def test_division_into_calls_changes_no_bit(self):
+        scene, _ = falling()
+        one, two = scene.start(bounds="planes"), scene.start(bounds="planes")
+        one.advance(20)
+        self.assertEqual([step.step for step in two.run(seconds=0.2, every=3)], list(range(1, 21)))
+        self.assertEqual(one.positions.tobytes(), two.positions.tobytes())
+
+    def test_a_snapshot_goes_on_to_the_same_bits(self):
+        sim = falling()[0].start()
+        sim.advance(10)
+        state = sim.snapshot()
+        sim.advance(10)
+        end = sim.positions
+        sim.restore(state)
+        self.assertEqual(sim.positions.tobytes(), state.positions.tobytes())
+        self.assertEqual(sim.advance(10).step.tolist(), list(range(11, 21)))
+        self.assertEqual(sim.positions.tobytes(), end.tobytes())
+        self.assertEqual(len(sim.metrics), 10)
+
+
+class Scenes(unittest.TestCase):
+    def test_metrics_are_columns(self):
+        sim = falling()[0].start()
+        rows = sim.advance(12)
+        self.assertIsInstance(rows, np.recarray)
+        self.assertEqual(rows.step.tolist(), list(range(1, 13)))
+        self.assertEqual((rows.step.dtype, rows.wall_ms.dtype), (np.int64, np.float64))
+        self.assertTrue((rows.wall_ms > 0).all())
+        self.assertEqual(rows.vertex_facet_contacts[0], 0)
+        self.assertGreater(rows.vertex_facet_contacts[-1], 0, "the cloth reached the floor")
+        self.assertEqual(len(sim.advance(0)), 0)
+
+    def test_a_moving_body_is_where_its_frames_are(self):
+        scene, cloth = falling()
+        body_x = np.array([[3, 0, 3], [3, 0, 4], [4, 0, 3]], dtype=np.float32)
+        frames = np.stack([body_x, body_x + np.float32([0, 0.25, 0])])
+        body = scene.add_moving_body(frames, np.array([[0, 1, 2]], dtype=np.int32), times=np.array([0, 0.1]))
+        sim = scene.start()
+        sim.advance(5)
+        # half of the way, by the same rounding: 0.5 · 0.25 is a number of single precision
+        self.assertLess(np.abs(sim.positions[body.vertices] - (body_x + np.float32([0, 0.125, 0]))).max(), 1e-7)
+        sim.advance(10)
+        self.assertEqual(sim.positions[body.vertices].tolist(), frames[1].tolist())
+        self.assertEqual(len(sim.positions[cloth.vertices]), 64)
+
+    def test_held_vertices_stay(self):
+        scene, cloth = falling(gravity=(0, 0, -9.81))
+        x = scene.positions
+        corners = np.array([0, 7], dtype=np.int32)
+        scene.move(corners)
+        sim = scene.start()
+        sim.advance(10)
+        self.assertEqual(sim.positions[corners].tolist(), x[corners].tolist())
+        self.assertNotEqual(sim.positions[20].tolist(), x[20].tolist())
+
+    def test_rest_and_velocities_are_used(self):
+        x, faces = grid(4, 0.1)
+        fast = np.zeros_like(x)
+        fast[:, 0] = 1
+        scene = ogc.Scene(dt=1e-3, iterations=20, radius=1e-3, gravity=(0, 0, 0))
+        scene.add_cloth(x, faces, velocities=fast)
+        scene.add_cloth(x + np.float32([0, 1, 0]), faces, rest=x * np.float32(0.9), name="stretched")
+        self.assertEqual([body.name for body in scene.bodies], ["cloth_0", "stretched"])
+        sim = scene.start()
+        sim.advance(1)
+        # A free flight moves by h v = 1 mm. Positions below 2⁻³ m are rounded by at most 2⁻²⁸ m; the start of the step
+        # and each of its 20 sweeps round them once.
+        self.assertLess(np.abs(sim.positions[:16, 0] - x[:, 0] - 1e-3).max(), 21 * 2.0**-28)
+        self.assertLess(np.ptp(sim.positions[16:, 0]), 0.1, "the stretched cloth draws together")
+
+    def test_built_in_scenes_are_listed(self):
+        for name in ogc.scenes():
+            self.assertGreater(len(ogc.scene(name, "smoke").positions), 0, name)
+        with self.assertRaisesRegex(ValueError, "twist"):
+            ogc.scene("twits", "smoke")
+        with self.assertRaisesRegex(ValueError, "smoke"):
+            ogc.scene("twist", "tiny")
+
+
+class Errors(unittest.TestCase):
+    def test_of_settings_name_the_nearest(self):
+        with self.assertRaisesRegex(ValueError, "bounds_relaxation"):
+            ogc.Scene(dt=0.01, iterations=1, radius=1e-3, bound_relaxation=0.3)
+        with self.assertRaisesRegex(ValueError, "planes"):
+            falling()[0].start(bounds="plane")
+        with self.assertRaisesRegex(ValueError, "backend"):
+            falling()[0].start(backend="gpu")
+
+    def test_of_arrays_name_them(self):
+        x, faces = grid(4)
+        scene = ogc.Scene(dt=0.01, iterations=1, radius=1e-3)
+        for words, call in (
+                ("x: float32", lambda: scene.add_cloth(x.astype(float), faces)),
+                ("faces: int32", lambda: scene.add_cloth(x, faces.astype(np.int64))),
+                (r"frames: float32 \(F, V, 3\)", lambda: scene.add_moving_body(x, faces)),
+                ("times: float64", lambda: scene.add_moving_body(np.stack([x, x]), faces, times=[0, 1])),
+                ("vertices: int32", lambda: scene.move([1]))):
+            with self.assertRaisesRegex(TypeError, words):
+                call()
+        for words, call in (
+                ("faces: triangle 0 names vertex 4", lambda: scene.add_cloth(x[:4], faces)),
+                ("rest: 3 rows came for 16", lambda: scene.add_cloth(x, faces, rest=x[:3])),
+                ("frames: 1 came", lambda: scene.add_moving_body(x[None], faces)),
+                ("times: 3 came for 2", lambda: scene.add_moving_body(np.stack([x, x]), faces, times=np.zeros(3))),
+                ("poisson", lambda: scene.add_cloth(x, faces, poisson=1)),
+                ("stable_neo_hookean", lambda: scene.add_cloth(x, faces, membrane="stable_neohookean"))):
+            with self.assertRaisesRegex(ValueError, words):
+                call()
+        self.assertEqual(scene.bodies, [], "a refused body leaves the scene as it was")
+
+    def test_of_scenes_list_what_to_mend(self):
+        x, faces = grid(4)
+        x[5] = np.nan
+        scene = ogc.Scene(dt=0.01, iterations=1, radius=1e-3)
+        scene.add_cloth(x, faces)
+        with self.assertRaisesRegex(ValueError, "cannot be simulated"):
+            scene.start()
+
+    def test_of_runs(self):
+        sim = falling()[0].start()
+        for wrong in ({}, {"seconds": 1, "steps": 1}, {"steps": 1, "every": 0}):
+            with self.assertRaises(ValueError):
+                sim.run(**wrong)
+        with self.assertRaisesRegex(ValueError, "steps"):
+            sim.advance(-1)
+        other = ogc.Scene(dt=0.01, iterations=1, radius=1e-3)
+        other.add_cloth(*grid(3))
+        with self.assertRaisesRegex(ValueError, "9 vertices"):
+            sim.restore(other.start().snapshot())
+
+
+if __name__ == "__main__":
+    main()
