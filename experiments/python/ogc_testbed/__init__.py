@@ -1,7 +1,8 @@
 """OGC Testbed: Offset Geometric Contact on arrays.
 
 Contact sets and bounds of a mesh (find_contacts), cloth simulations (Scene), a solver's moves kept apart (Guard), exact
-audits of anybody's frames (audit), kernels before the judge (kernel, judge), and runs of the program (Run). Arrays are float32 and int32 in C order, from any library with DLPack; nothing is cast or copied silently.
+audits of anybody's frames (audit), kernels before the judge (kernel, judge), and runs of the program (Run). Arrays are
+float32 and int32 in C order, from any library with DLPack; nothing is cast or copied silently.
 Names are loaded at their first use, so that the import takes milliseconds.
 """
 
