@@ -6,12 +6,13 @@
 //   force     on vertex v: Σ −e_k g'(d) w n, with friction also Σ −μ λ f₁(‖u‖)/‖u‖ w u
 //   block     of vertex v: Σ e_k g''(d) |w| Σ |w_u| n nᵀ, with friction also Σ μ λ f₁(‖u‖)/‖u‖ |w| Σ |w_u| (I − n nᵀ)
 //
-// Each contact counts once, however many pairs of primitives generate it. d, n and the weights w are those of the
-// closest points at the positions of the call, not at the detection. e_k is 1, except between two edge interiors; there
-// it comes from the positions of the detection and the rest lengths, and stays until the next detection (§4.3). Σ |w_u|
-// is over the vertices of the contact that are updated together with v, v included. A contact that the positions have
-// left (d ≥ r) has no energy and no force, but its block has its value at r (§4.2). A contact that the positions enter
-// later is missing until the next detection; a detection with query radius r_q ≥ r lists contacts with d < r only.
+// Each contact of the sets counts once, however many pairs of primitives generate it. Two near vertices v and w may be
+// the contacts (v, w), (w, v) and {v, w}; then all three count. d, n and the weights w are those of the closest points
+// at the positions of the call, not at the detection. e_k is 1, except between two edge interiors; there it comes from
+// the positions of the detection and the rest lengths, and stays until the next detection (§4.3). Σ |w_u| is over the
+// vertices of the contact that are updated together with v, v included. A contact that the positions have left (d ≥ r)
+// has no energy and no force, but its block has its value at r (§4.2). A contact that the positions enter later is
+// missing until the next detection; a detection with query radius r_q ≥ r lists contacts with d < r only.
 //
 // Three things differ from a simulation. All contacts have one k_c and one μ, where a simulation takes the means of two
 // bodies (§4.5). Contacts with volumes are not included. Every vertex has forces, also those that a solver holds.
