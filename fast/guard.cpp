@@ -93,4 +93,6 @@ const compare::Vec3f* Guard::positions_resident() const { return engine_->positi
 
 ContactView Guard::contacts() const { return engine_->contacts(); }
 
+const compare::Vec3f* Guard::detected_at_resident() const { return engine_->detected_at_resident(); }
+
 }  // namespace ogc::fast

@@ -80,6 +80,7 @@ class GuardEngine {
   virtual std::vector<compare::Vec3f> positions() = 0;
   virtual const compare::Vec3f* positions_resident() const = 0;
   virtual ContactView contacts() = 0;
+  virtual const compare::Vec3f* detected_at_resident() const = 0;
 };
 
 /// Keeps one mesh free of intersections. Only one thread at a time may use it.
@@ -131,6 +132,8 @@ class Guard {
   /// Returns contacts and bounds of the last detection, at X_prev, in the backend's memory; valid until the next
   /// detection. So a solver whose contact radius is r needs no other detection.
   ContactView contacts() const;
+  /// Returns X_prev [m], the positions of the last detection, in the backend's memory; valid as long as `contacts`.
+  const compare::Vec3f* detected_at_resident() const;
 
  private:
   Mesh mesh_;

@@ -153,13 +153,27 @@ bool has_dtype(nb::handle value, const char* dtype) {
   return nb::try_cast(value, array, false) && array.is_valid() && name_of(array.dtype()) == dtype;
 }
 
-nb::object owned(std::vector<compare::Vec3f>&& rows) {
-  auto all = std::make_unique<std::vector<compare::Vec3f>>(std::move(rows));
+namespace {
+
+/// Returns a NumPy array of float32 that owns these rows.
+template <class Row>
+nb::object owned_rows(std::vector<Row>&& rows) {
+  auto all = std::make_unique<std::vector<Row>>(std::move(rows));
   auto* data = static_cast<float*>(static_cast<void*>(all->data()));
   const std::size_t count = all->size();
-  const nb::capsule owner(all.release(),
-                          [](void* gone) noexcept { delete static_cast<std::vector<compare::Vec3f>*>(gone); });
-  return nb::cast(nb::ndarray<nb::numpy, float, nb::ndim<2>>(data, {count, 3}, owner), nb::rv_policy::reference);
+  const nb::capsule owner(all.release(), [](void* gone) noexcept { delete static_cast<std::vector<Row>*>(gone); });
+  return nb::cast(nb::ndarray<nb::numpy, float, nb::ndim<2>>(data, {count, sizeof(Row) / sizeof(float)}, owner),
+                  nb::rv_policy::reference);
+}
+
+}  // namespace
+
+nb::object owned(std::vector<compare::Vec3f>&& rows) { return owned_rows(std::move(rows)); }
+nb::object owned(std::vector<std::array<float, 6>>&& rows) { return owned_rows(std::move(rows)); }
+
+nb::object output_like(nb::handle x, bool is_there, std::size_t count) {
+  if (!is_there) return owned(std::vector<compare::Vec3f>(count));
+  return x.attr(nb::hasattr(x, "clone") ? "clone" : "copy")();
 }
 
 void translate_errors() {

@@ -3,6 +3,7 @@
 // are checked here: a message names the argument, what came, and the call that converts it. Nothing is cast or copied.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -89,8 +90,12 @@ nb::object lent(const void* rows, std::size_t count, nb::handle owner) {
   }
 }
 
-/// Returns a NumPy array that owns these rows.
+/// Return a NumPy array that owns these rows.
 nb::object owned(std::vector<compare::Vec3f>&& rows);
+nb::object owned(std::vector<std::array<float, 6>>&& rows);
+
+/// Returns an array like x to write to: NumPy's on the host, else one of x's library.
+nb::object output_like(nb::handle x, bool is_there, std::size_t count);
 
 /// Makes InputError a ValueError and ResourceError a RuntimeError.
 void translate_errors();

@@ -1,5 +1,4 @@
 // Binds the guard of other people's solvers. Texts are for help() and the stubs.
-#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,8 +12,8 @@
 #include "compare/problem/text.hpp"
 #include "experiments/python/arrays.hpp"
 #include "experiments/python/contacts.hpp"
+#include "experiments/python/guard.hpp"
 #include "experiments/python/module.hpp"
-#include "fast/guard.hpp"
 
 namespace ogc::python {
 namespace {
@@ -28,43 +27,6 @@ compare::Bounds parse_bounds(std::string_view name) {
   throw compare::InputError(compare::unknown_name("bounds", name, names));
 }
 
-/// A guard that several threads may call, one after the other is served.
-class Guard {
- public:
-  Guard(const fast::Mesh& mesh, std::span<const Vec3f> x, const fast::GuardOptions& options, fast::Backend backend)
-      : backend_(backend), guard_(mesh, x, options, backend) {}
-
-  Place place() const { return backend_ == fast::Backend::cuda ? Place::either : Place::host; }
-  const fast::Mesh& mesh() const { return guard_.mesh(); }
-  const fast::GuardReport& report() const { return report_; }
-  void step(std::span<const Vec3f> x, std::span<const Vec3f> dx, std::span<Vec3f> out) {
-    const std::lock_guard lock(busy_);
-    report_ = guard_.step(x, dx, out);
-  }
-  void step_on_device(const Vec3f* x, const Vec3f* dx, Vec3f* out) {
-    const std::lock_guard lock(busy_);
-    report_ = guard_.step_resident(x, dx, out);
-  }
-  void reset(std::span<const Vec3f> x, bool is_on_device) {
-    const std::lock_guard lock(busy_);
-    is_on_device ? guard_.reset_resident(x.data()) : guard_.reset(x);
-  }
-  void detect() {
-    const std::lock_guard lock(busy_);
-    guard_.detect();
-  }
-  std::vector<Vec3f> positions() {
-    const std::lock_guard lock(busy_);
-    return guard_.positions();
-  }
-
- private:
-  fast::Backend backend_;
-  fast::Guard guard_;
-  fast::GuardReport report_;
-  std::mutex busy_;
-};
-
 void init_guard(Guard* self, const Mesh& mesh, nb::handle x, double query_radius, std::string_view bounds,
                 double radius, double relaxation, double detection_fraction, std::string_view backend) {
   const Given<Vec3f> positions = given_positions(x, "x");
@@ -73,12 +35,6 @@ void init_guard(Guard* self, const Mesh& mesh, nb::handle x, double query_radius
                                    static_cast<float>(relaxation), detection_fraction};
   const nb::gil_scoped_release release;
   in_terms_of_python([&] { return new (self) Guard(mesh.mesh(), positions.items, options, chosen); });
-}
-
-/// Returns an array like x to write to: NumPy's on the host, else one of x's library.
-nb::object output_like(nb::handle x, bool is_there, std::size_t count) {
-  if (!is_there) return owned(std::vector<Vec3f>(count));
-  return x.attr(nb::hasattr(x, "clone") ? "clone" : "copy")();
 }
 
 nb::object step(Guard& guard, nb::handle x, nb::handle dx, nb::object out) {

@@ -34,7 +34,7 @@ struct ContactSets {
 /// Throws compare::InputError unless an array has one row for each vertex.
 void expect_vertices(const char* argument, std::size_t count, const fast::Mesh& mesh);
 
-/// Calls `work`; messages of compare::InputError about the arguments `positions` and `moves` name x and dx instead.
+/// Calls `work`; messages of compare::InputError about `positions`, `moves` and `time_step` name x, dx and dt instead.
 template <class Work>
 auto in_terms_of_python(Work work) {
   try {
@@ -42,7 +42,7 @@ auto in_terms_of_python(Work work) {
   } catch (const compare::InputError& error) {
     const std::string_view text = error.what();
     for (const auto& [name, ours] :
-         {std::pair<std::string_view, const char*>{"positions: ", "x: "}, {"moves: ", "dx: "}})
+         {std::pair<std::string_view, const char*>{"positions: ", "x: "}, {"moves: ", "dx: "}, {"time_step ", "dt "}})
       if (text.starts_with(name)) throw compare::InputError(ours + std::string(text.substr(name.size())));
     throw;
   }

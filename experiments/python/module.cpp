@@ -8,5 +8,6 @@ NB_MODULE(_fast, module) {
   ogc::python::translate_errors();
   ogc::python::bind_contacts(module);
   ogc::python::bind_guard(module);
+  ogc::python::bind_forces(module);
   ogc::python::bind_scenes(module);
 }

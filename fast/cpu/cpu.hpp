@@ -5,6 +5,7 @@
 #include <span>
 
 #include "compare/contestant.hpp"
+#include "fast/contact_forces.hpp"
 #include "fast/contact_sets.hpp"
 #include "fast/contestant.hpp"
 #include "fast/guard.hpp"
@@ -23,5 +24,10 @@ std::unique_ptr<ContactEngine> cpu_contact_engine(const compare::Topology& topol
 
 /// Returns the engine of a Guard.
 std::unique_ptr<GuardEngine> cpu_guard_engine(const Mesh& mesh, const GuardOptions& options);
+
+/// Returns the engine of a ContactForces.
+std::unique_ptr<ContactForceEngine> cpu_contact_force_engine(const Mesh& mesh, std::span<const compare::Vec3f> rest,
+                                                             const ContactForceOptions& options,
+                                                             std::span<const compare::Index> colours);
 
 }  // namespace ogc::fast

@@ -1,5 +1,5 @@
-// Instantiates the stages, the resident simulation, the detection of ContactFinder and the guard for the host's
-// threads. They share one source, because they run the same kernels. update_vertices.cpp has the updates of vertices.
+// Instantiates the stages, the resident simulation and the engines of outside solvers for the host's threads. They
+// share one source, because they run the same kernels. update_vertices.cpp has the updates of vertices.
 #include <string>
 #include <utility>
 
@@ -9,6 +9,7 @@
 #include "fast/cpu/backend.hpp"
 #include "fast/cpu/cpu.hpp"
 #include "fast/cpu/simulation.hpp"
+#include "fast/probes/contact_force_engine.hpp"
 #include "fast/probes/guard_engine.hpp"
 #include "fast/probes/probes.hpp"
 #include "fast/stages/simulation.hpp"
@@ -49,6 +50,12 @@ std::unique_ptr<ContactEngine> cpu_contact_engine(const compare::Topology& topol
 
 std::unique_ptr<GuardEngine> cpu_guard_engine(const Mesh& mesh, const GuardOptions& options) {
   return std::make_unique<BackendGuardEngine<CpuBackend>>(shared_backend(), mesh, options);
+}
+
+std::unique_ptr<ContactForceEngine> cpu_contact_force_engine(const Mesh& mesh, std::span<const compare::Vec3f> rest,
+                                                             const ContactForceOptions& options,
+                                                             std::span<const compare::Index> colours) {
+  return std::make_unique<BackendContactForceEngine<CpuBackend>>(shared_backend(), mesh, rest, options, colours);
 }
 
 }  // namespace ogc::fast

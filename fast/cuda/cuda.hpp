@@ -5,6 +5,7 @@
 #include <span>
 
 #include "compare/contestant.hpp"
+#include "fast/contact_forces.hpp"
 #include "fast/contact_sets.hpp"
 #include "fast/contestant.hpp"
 #include "fast/guard.hpp"
@@ -32,5 +33,10 @@ std::unique_ptr<ContactEngine> cuda_contact_engine(const compare::Topology& topo
 
 /// Makes the engine of a Guard. Throws as cuda_contestant does. Its streams are those of a contact engine.
 std::unique_ptr<GuardEngine> cuda_guard_engine(const Mesh& mesh, const GuardOptions& options);
+
+/// Makes the engine of a ContactForces. Throws as cuda_contestant does. Its streams are those of a contact engine.
+std::unique_ptr<ContactForceEngine> cuda_contact_force_engine(const Mesh& mesh, std::span<const compare::Vec3f> rest,
+                                                              const ContactForceOptions& options,
+                                                              std::span<const compare::Index> colours);
 
 }  // namespace ogc::fast

@@ -1,11 +1,12 @@
-// Instantiates the stages, the resident simulation, the detection of ContactFinder and the guard for the device. They
-// share one source, because they run the same kernels, which two sources would compile twice. update_vertices.cu has
-// the updates of vertices, which take longest to compile.
+// Instantiates the stages, the resident simulation and the engines of outside solvers for the device. They share one
+// source, because they run the same kernels, which two sources would compile twice. update_vertices.cu has the updates
+// of vertices, which take longest to compile.
 #include <memory>
 
 #include "fast/cuda/backend.cuh"
 #include "fast/cuda/cuda.hpp"
 #include "fast/probes/contact_engine.hpp"
+#include "fast/probes/contact_force_engine.hpp"
 #include "fast/probes/guard_engine.hpp"
 #include "fast/probes/probes.hpp"
 #include "fast/stages/simulation.hpp"
@@ -50,7 +51,7 @@ class CudaContactEngine : public ContactEngine {
   BackendContactEngine<CudaBackend> engine_;
 };
 
-/// The backend of CudaGuardEngine: a base, so that it exists before the engine that refers to it.
+/// The backend of an engine below: a base, so that it exists before the engine that refers to it.
 struct OwnBackend {
   CudaBackend backend;
 };
@@ -59,6 +60,14 @@ struct OwnBackend {
 class CudaGuardEngine : OwnBackend, public BackendGuardEngine<CudaBackend> {
  public:
   CudaGuardEngine(const Mesh& mesh, const GuardOptions& options) : BackendGuardEngine(backend, mesh, options) {}
+};
+
+/// An engine for forces of contacts with its own backend.
+class CudaContactForceEngine : OwnBackend, public BackendContactForceEngine<CudaBackend> {
+ public:
+  CudaContactForceEngine(const Mesh& mesh, std::span<const compare::Vec3f> rest, const ContactForceOptions& options,
+                         std::span<const compare::Index> colours)
+      : BackendContactForceEngine(backend, mesh, rest, options, colours) {}
 };
 
 }  // namespace
@@ -70,6 +79,12 @@ std::unique_ptr<ContactEngine> cuda_contact_engine(const compare::Topology& topo
 
 std::unique_ptr<GuardEngine> cuda_guard_engine(const Mesh& mesh, const GuardOptions& options) {
   return std::make_unique<CudaGuardEngine>(mesh, options);
+}
+
+std::unique_ptr<ContactForceEngine> cuda_contact_force_engine(const Mesh& mesh, std::span<const compare::Vec3f> rest,
+                                                              const ContactForceOptions& options,
+                                                              std::span<const compare::Index> colours) {
+  return std::make_unique<CudaContactForceEngine>(mesh, rest, options, colours);
 }
 
 }  // namespace ogc::fast

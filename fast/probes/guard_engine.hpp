@@ -84,6 +84,9 @@ class BackendGuardEngine : public GuardEngine {
     return reinterpret_cast<const compare::Vec3f*>(state_.data());
   }
   ContactView contacts() override { return detection_.view(); }
+  const compare::Vec3f* detected_at_resident() const override {
+    return reinterpret_cast<const compare::Vec3f*>(previous_.data());
+  }
 
  private:
   template <class T>

@@ -2,6 +2,8 @@ from ._audit import AuditReport as AuditReport, audit as audit
 from ._fast import (
     Body as Body,
     ContactFinder as ContactFinder,
+    ContactForceSums as ContactForceSums,
+    ContactForces as ContactForces,
     ContactSets as ContactSets,
     Guard as Guard,
     GuardReport as GuardReport,

@@ -54,6 +54,28 @@ class Device(unittest.TestCase):
                 self.assertGreater(here.report.cut, 0)
                 self.assertTrue(ogc.audit(np.stack(states), self.faces, motion=True).clean)
 
+    def test_forces_are_those_of_the_hosts_arrays(self):
+        here, there = (ogc.ContactForces(self.mesh, self.x, RADIUS, 100, friction=0.3, backend="cuda")
+                       for _ in range(2))
+        x, y = DeviceArray(self.x), self.x + np.random.default_rng(5).normal(0, 1e-3, self.x.shape).astype(np.float32)
+        here.find(self.x)
+        there.find(x)
+        expected = here.evaluate(y, self.x, 1e-2)
+        out = (DeviceArray(np.ones_like(y)), DeviceArray(np.ones_like(y)), DeviceArray(np.ones((len(y), 6))))
+        sums = there.evaluate(DeviceArray(y), x, 1e-2, out=out)
+        guard = ogc.Guard(self.mesh, self.x, QUERY, radius=RADIUS, backend="cuda")
+        guarded = here.evaluate(y, self.x, 1e-2, guard=guard)
+        self.assertGreater(expected.energy, 0)
+        self.assertEqual((sums.energy, guarded.energy), (expected.energy, expected.energy))
+        for name, array in zip(("force", "friction", "block"), out):
+            self.assertIs(getattr(sums, name), array)
+            self.assertEqual(array.numpy().tobytes(), getattr(expected, name).tobytes(), name)
+            self.assertEqual(getattr(guarded, name).tobytes(), getattr(expected, name).tobytes(), name)
+        for words, out in (("out: a tuple of three", (x, x)), ("block: float32", (x, x, x)),
+                           ("force: .* on a CUDA device is needed", (y, x, x))):
+            with self.assertRaisesRegex(TypeError, words):
+                there.evaluate(x, out=out)
+
     def test_it_writes_in_place(self):
         guard = ogc.Guard(self.mesh, self.x, QUERY, backend="cuda")
         x, dx = DeviceArray(self.x), DeviceArray(np.full_like(self.x, 1e-6))

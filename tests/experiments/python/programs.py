@@ -20,7 +20,7 @@ PAGE = (Path(SOURCE) / "experiments/python/README.md").read_text(encoding="utf-8
 class Programs(unittest.TestCase):
     def test_run_as_printed(self):
         programs = re.findall(r"^```python\n(.*?)^```", PAGE, re.M | re.S)
-        self.assertEqual(len(programs), 5)
+        self.assertEqual(len(programs), 6)
         for program in programs:
             with self.subTest(program.splitlines()[3]), tempfile.TemporaryDirectory() as folder:
                 path = Path(folder) / "program.py"

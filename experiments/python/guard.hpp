@@ -1,0 +1,61 @@
+// A guard as Python sees it.
+#pragma once
+
+#include <mutex>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "experiments/python/arrays.hpp"
+#include "fast/guard.hpp"
+
+namespace ogc::python {
+
+/// A guard that several threads may call, one after the other is served.
+class Guard {
+ public:
+  Guard(const fast::Mesh& mesh, std::span<const compare::Vec3f> x, const fast::GuardOptions& options,
+        fast::Backend backend)
+      : backend_(backend), guard_(mesh, x, options, backend) {}
+
+  fast::Backend backend() const { return backend_; }
+  /// Returns where arrays may lie.
+  Place place() const { return backend_ == fast::Backend::cuda ? Place::either : Place::host; }
+  const fast::Mesh& mesh() const { return guard_.mesh(); }
+  float radius() const { return guard_.options().contact_radius; }
+  const fast::GuardReport& report() const { return report_; }
+  void step(std::span<const compare::Vec3f> x, std::span<const compare::Vec3f> dx, std::span<compare::Vec3f> out) {
+    const std::lock_guard lock(busy_);
+    report_ = guard_.step(x, dx, out);
+  }
+  void step_on_device(const compare::Vec3f* x, const compare::Vec3f* dx, compare::Vec3f* out) {
+    const std::lock_guard lock(busy_);
+    report_ = guard_.step_resident(x, dx, out);
+  }
+  void reset(std::span<const compare::Vec3f> x, bool is_on_device) {
+    const std::lock_guard lock(busy_);
+    is_on_device ? guard_.reset_resident(x.data()) : guard_.reset(x);
+  }
+  void detect() {
+    const std::lock_guard lock(busy_);
+    guard_.detect();
+  }
+  /// Calls use(guard) while no other thread uses the guard.
+  template <class Use>
+  void lend(const Use& use) {
+    const std::lock_guard lock(busy_);
+    use(std::as_const(guard_));
+  }
+  std::vector<compare::Vec3f> positions() {
+    const std::lock_guard lock(busy_);
+    return guard_.positions();
+  }
+
+ private:
+  fast::Backend backend_;
+  fast::Guard guard_;
+  fast::GuardReport report_;
+  std::mutex busy_;
+};
+
+}  // namespace ogc::python
