@@ -4,10 +4,10 @@
     PYTHON gaps.py judge moved.npz … --out FILE     # in one that has ogc_testbed with its audit
     PYTHON gaps.py draw FILE --out picture.png      # in one that has Matplotlib
 
-Filters: `ipctk` (filter_step), `ipctk_planar` (planar_filter_step), `newton`; `ball` and `planes` are
-ours (ogc_testbed.Guard). Every filter gets the same pairs, whose coordinates are single-precision numbers, and the same
-random displacements, one step each, up to 1000 gaps long. Its result is judged exactly: no triangles may meet at its end or on the straight
-way to it. The query radius is 0.2 m for all.
+Filters: `ipctk` (filter_step), `ipctk_planar` (planar_filter_step), `newton`; `ball` and `planes` are ours
+(ogc_testbed.Guard). Every filter gets the same pairs, whose coordinates are single-precision numbers, and the same
+random displacements, one step each, up to 1000 gaps long. Its result is judged exactly: no triangles may meet at its
+end or on the straight way to it. The query radius is 0.2 m for all.
 """
 
 import argparse
@@ -62,7 +62,7 @@ def turn(rng):
 
 
 def questions(count, seed):
-    """Returns `count` pairs of each shape, place and decade: (shape, place, decade), positions, triangles, displacement.
+    """Returns `count` pairs of each shape, place and decade: these three, positions, triangles, displacement.
 
     A flat pair lies about z = 0, where single precision has every gap. A turned one is rotated and moved by up to 1 m,
     then rounded, which changes gaps by up to 1e-7 m; if it then starts with an intersection, it is not judged."""
