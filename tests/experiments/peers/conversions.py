@@ -1,13 +1,15 @@
-"""Tests what the adapters of experiments/peers convert, without the peers: the shared conversions, and the adapter of
-IPC Toolkit on a fake module with the same names.
+"""Tests what the adapters of experiments/peers convert, without the peers: the shared conversions, the adapter of IPC
+Toolkit on a fake module with the same names, and the pairs of gaps.py.
 
 Usage: conversions.py SOURCE_DIR. Exit status 77: skipped, NumPy is missing.
 """
 
 import enum
+import json
 import math
 import os
 import sys
+import tempfile
 import types
 import unittest
 from pathlib import Path
@@ -21,6 +23,7 @@ except ImportError as missing:
 PEERS = Path(sys.argv.pop(1)).resolve() / "experiments/peers"
 sys.path.insert(0, str(PEERS))
 import conversions as to  # noqa: E402
+import gaps  # noqa: E402
 
 
 def fake_ipctk(calls):
@@ -190,9 +193,29 @@ class Shared(unittest.TestCase):
                     slope = (value[2][order] - value[0][order]) / 2e-6
                     self.assertTrue(math.isclose(slope[0], value[1][order + 1][0], rel_tol=1e-6, abs_tol=1e-7), kind)
 
+    def test_pairs_have_their_gap_and_the_seed_decides_them(self):
+        pairs = gaps.questions(2, 1)
+        self.assertEqual(len(pairs), 2 * len(gaps.SHAPES) * len(gaps.PLACES) * len(gaps.DECADES))
+        for (shape, place, decade), x, triangles, dx in pairs:
+            self.assertEqual(sorted(np.unique(triangles)), list(range(len(x))))
+            lower, upper = x[: len(x) // 2], x[len(x) // 2 :]
+            if place == "flat":  # the lower sheet is at or below z = 0, the upper one at or above the gap
+                self.assertEqual(lower[:, 2].max(), 0)
+                self.assertTrue(10.0**decade * (1 - 1e-6) <= upper[:, 2].min() <= 10.0 ** (decade + 1) * (1 + 1e-6))
+            self.assertLessEqual(np.linalg.norm(dx, axis=1).max(), 0.3 * (1 + 1e-6))
+        for one, same, other in zip(pairs, gaps.questions(2, 1), gaps.questions(2, 2)):
+            np.testing.assert_array_equal(one[1], same[1])
+            self.assertTrue((one[1] != other[1]).any())
+
     def test_the_log_counts_what_the_peer_was_asked(self):
-        self.assertNotIn("OGC_PEERS_LOG", os.environ)
-        to.log(stage="nothing")  # without a file it writes nothing
+        CALLS.clear()
+        with tempfile.TemporaryDirectory() as folder:
+            os.environ["OGC_PEERS_LOG"] = f"{folder}/log"
+            self.addCleanup(os.environ.pop, "OGC_PEERS_LOG")
+            one = np.float32([0.1, 0.1, 0.2])
+            adapter.activation(one, np.float32([1, 1, 1]), np.float32([5, 5, 5]), np.array([0, 2, 4]))
+            row = json.loads(Path(folder, "log").read_text())
+        self.assertEqual(row, {"stage": "activation", "cases": 3, "asked": 2})
 
 
 if __name__ == "__main__":
