@@ -38,6 +38,7 @@ OPERATORS = {"&&", "||", "|", ";", "&"}
 # Commands of shell blocks that are parsed but not run, with the reason. A rule that matches nothing is a finding.
 NOT_RUN = {
     r"^(experiments/reproduce|tests/run)\b": "installs and builds; CI runs the one, tests the other's workflow",
+    r"^experiments/peers/run\b": "installs packages of others, which are large",
     r"--backend cuda": "needs a GPU",
     r"--scale (paper|small)\b": "minutes",
     r"--cases \d{6,}|ogc compare( |$)(?!.*(--problem|truncate))": "minutes; the judge's own tests ask every stage",

@@ -1,0 +1,253 @@
+"""Newton Physics' cloth solver (VBD, on the processor) before the judge. README.md says what is converted.
+
+The functions below are private names of newton 1.8.0; another version may lack them:
+
+- newton._src.geometry.kernels: triangle_closest_point
+- newton._src.solvers.vbd.particle_vbd_kernels: evaluate_self_contact_force_norm,
+  evaluate_vertex_triangle_collision_force_hessian, evaluate_edge_edge_contact,
+  evaluate_neo_hookean_membrane_force_hessian, evaluate_dihedral_angle_based_bending_force_hessian
+
+Public is warp.closest_point_edge_edge, which the solver calls with the epsilon below. All run inside kernels of Warp,
+which compiles them when this file is loaded; the log has this time apart. They compute in single precision.
+
+OGC_PEERS_OWN=1 asks Newton only where its own definition is the judge's, and answers all else itself: the mismatches
+that are left are no matter of definition.
+"""
+
+import os
+
+import conversions as to
+import numpy as np
+import ogc_testbed as ogc
+
+with to.Timed("import"):
+    import warp as wp
+
+    wp.config.quiet = True
+    wp.init()
+    from newton._src.geometry import kernels as geometry
+    from newton._src.geometry.kernels import triangle_closest_point
+    from newton._src.solvers.vbd import particle_vbd_kernels as vbd
+
+PARALLEL_EPSILON = 1.0e-5  # particle_edge_parallel_epsilon of SolverVBD
+OWN = os.environ.get("OGC_PEERS_OWN") == "1"
+
+
+@wp.kernel(module="unique")
+def closest_face_kernel(
+    point: wp.array[wp.vec3], triangle: wp.array2d[wp.vec3], feature: wp.array[int], weights: wp.array[wp.vec3],
+    distance: wp.array[float]
+):
+    i = wp.tid()
+    near, bary, kind = triangle_closest_point(triangle[i, 0], triangle[i, 1], triangle[i, 2], point[i])
+    feature[i] = kind
+    weights[i] = bary
+    distance[i] = wp.length(near - point[i])  # as vertex_triangle_collision_detection_kernel has it
+
+
+@wp.kernel(module="unique")
+def closest_points_kernel(first: wp.array2d[wp.vec3], second: wp.array2d[wp.vec3], eps: float, out: wp.array[wp.vec3]):
+    i = wp.tid()
+    out[i] = wp.closest_point_edge_edge(first[i, 0], first[i, 1], second[i, 0], second[i, 1], eps)
+
+
+@wp.kernel(module="unique")
+def activation_kernel(
+    distance: wp.array[float], radius: wp.array[float], stiffness: wp.array[float], slope: wp.array[float],
+    curvature: wp.array[float]
+):
+    i = wp.tid()
+    if distance[i] < radius[i]:  # as its callers ask it
+        d1, d2 = vbd.evaluate_self_contact_force_norm(distance[i], radius[i], stiffness[i])
+        slope[i] = d1
+        curvature[i] = d2
+
+
+@wp.kernel(module="unique")
+def membrane_kernel(
+    pos: wp.array[wp.vec3], start: wp.array[wp.vec3], tri: wp.array2d[int], pose: wp.array[wp.mat22],
+    area: wp.array[float], mu: wp.array[float], lmbd: wp.array[float], force: wp.array[wp.vec3],
+    block: wp.array[wp.mat33]
+):
+    i = wp.tid()
+    f, h = vbd.evaluate_neo_hookean_membrane_force_hessian(
+        i, 0, pos, start, tri, pose[i], area[i], mu[i], lmbd[i], 0.0, 1.0
+    )
+    force[i] = f
+    block[i] = h
+
+
+@wp.kernel(module="unique")
+def bending_kernel(
+    pos: wp.array[wp.vec3], start: wp.array[wp.vec3], edges: wp.array2d[int], order: wp.array[int],
+    angle: wp.array[float], length: wp.array[float], stiffness: wp.array[float], damping: wp.array[float],
+    force: wp.array[wp.vec3], block: wp.array[wp.mat33]
+):
+    i = wp.tid()
+    f, h = vbd.evaluate_dihedral_angle_based_bending_force_hessian(
+        i, order[i], pos, start, edges, angle, length, stiffness[i], damping[i], 1.0
+    )
+    force[i] = f
+    block[i] = h
+
+
+@wp.kernel(module="unique")
+def point_triangle_kernel(
+    pos: wp.array[wp.vec3], tri: wp.array2d[int], order: wp.array[int], radius: wp.array[float],
+    stiffness: wp.array[float], force: wp.array[wp.vec3], block: wp.array[wp.mat33]
+):
+    i = wp.tid()
+    f, h = vbd.evaluate_vertex_triangle_collision_force_hessian(
+        4 * i, order[i], i, pos, pos, tri, radius[i], stiffness[i], 0.0, 0.0, 1.0, 1.0
+    )
+    force[i] = f
+    block[i] = h
+
+
+@wp.kernel(module="unique")
+def edge_edge_kernel(
+    pos: wp.array[wp.vec3], edges: wp.array2d[int], order: wp.array[int], radius: wp.array[float],
+    stiffness: wp.array[float], eps: float, force: wp.array[wp.vec3], block: wp.array[wp.mat33]
+):
+    i = wp.tid()
+    f, h = vbd.evaluate_edge_edge_contact(
+        0, order[i], 2 * i, 2 * i + 1, pos, pos, edges, radius[i], stiffness[i], 0.0, 0.0, 1.0, 1.0, eps
+    )
+    force[i] = f
+    block[i] = h
+
+
+for _kernel in (closest_face_kernel, closest_points_kernel, activation_kernel, membrane_kernel, bending_kernel,
+                point_triangle_kernel, edge_edge_kernel):
+    with to.Timed(f"compilation of {_kernel.key}"):
+        wp.load_module(_kernel.module, device="cpu")
+
+
+def launch(kernel, count, arguments, outputs):
+    """Runs a kernel on the processor and returns its outputs, of these types. Arguments are numbers, or pairs of an
+    array of NumPy and its type in Warp."""
+    inputs = [wp.array(x[0], dtype=x[1], device="cpu") if isinstance(x, tuple) else x for x in arguments]
+    results = [wp.zeros(count, dtype=kind, device="cpu") for kind in outputs]
+    wp.launch(kernel, dim=count, inputs=[*inputs, *results], device="cpu")
+    return [x.numpy() for x in results]
+
+
+def vectors(array):
+    """Returns an array of points for Warp."""
+    return to.singles(array), wp.vec3
+
+
+FEATURES = np.zeros(7, np.uint8)
+for _name, _feature in {
+    "VERTEX_A": to.CORNER_0, "VERTEX_B": to.CORNER_1, "VERTEX_C": to.CORNER_2, "EDGE_AB": to.EDGE_01,
+    "EDGE_BC": to.EDGE_12, "EDGE_AC": to.EDGE_20, "FACE_INTERIOR": to.INTERIOR,
+}.items():
+    FEATURES[int(getattr(geometry, f"TRI_CONTACT_FEATURE_{_name}"))] = _feature
+
+
+@ogc.kernel("closest_face")
+def closest_face(point, triangle):
+    n = len(point)
+    kind, weights, distance = launch(
+        closest_face_kernel, n, [vectors(point), vectors(triangle)], [int, wp.vec3, float]
+    )
+    to.log(stage="closest_face", cases=n, asked=n)
+    points = np.concatenate([to.doubles(triangle), to.doubles(point)[:, None]], axis=1)
+    below = to.below(distance.astype(np.float64), points, allowance=8)
+    return FEATURES[kind], np.clip(weights, 0, 1), distance, below
+
+
+@ogc.kernel("closest_points")
+def closest_points(first, second):
+    n = len(first)
+    (out,) = launch(
+        closest_points_kernel, n, [vectors(first), vectors(second), PARALLEL_EPSILON], [wp.vec3]
+    )
+    a, b = to.doubles(first), to.doubles(second)
+    parameters, distance = out[:, :2].astype(np.float64), out[:, 2].astype(np.float64)
+    features = np.full((n, 2), to.EDGE_INTERIOR, np.uint8)  # Newton names none: parameters 0 and 1 are the ends
+    features, parameters = to.at_ends(features, parameters, a, b, distance)
+    parallel, middle, gap, _ = to.nearly_parallel(a, b)
+    features[parallel] = to.EDGE_INTERIOR
+    parameters = np.where(parallel[:, None], middle, parameters)
+    to.log(stage="closest_points", cases=n, asked=n)  # of nearly parallel edges the distance
+    below = to.below(distance, np.concatenate([a, b], axis=1), allowance=8)
+    return (
+        features[:, 0].copy(),
+        features[:, 1].copy(),
+        parallel.astype(np.uint8),
+        parameters.astype(np.float32),
+        np.where(parallel, gap, distance).astype(np.float32),
+        below,
+    )
+
+
+@ogc.kernel("activation")
+def activation(distance, contact_radius, stiffness, activation):
+    out = np.stack(to.activation(distance, contact_radius, stiffness, activation)).astype(np.float32)
+    asked = activation == 0
+    if OWN:  # below 10 µm, or r/4, Newton continues the logarithm by a parabola
+        asked &= distance > np.minimum(np.float32(1e-5), contact_radius / 4)
+    arrays = [(np.ascontiguousarray(x[asked]), float) for x in (distance, contact_radius, stiffness)]
+    if asked.any():  # Newton has no energy
+        out[1, asked], out[2, asked] = launch(activation_kernel, int(asked.sum()), arrays, [float, float])
+    to.log(stage="activation", cases=len(distance), asked=int(asked.sum()))
+    return tuple(out)
+
+
+def integers(array):
+    return np.ascontiguousarray(array, np.int32), int
+
+
+def numbers(array):
+    return np.ascontiguousarray(array, np.float32), float
+
+
+def stencils(array, chosen):
+    """Returns the points of chosen cases, one after another, and the indices of each case's points."""
+    points = to.singles(array[chosen])
+    return (points.reshape(-1, 3), wp.vec3), np.arange(points.shape[0] * points.shape[1]).reshape(points.shape[:2])
+
+
+@ogc.kernel("membrane")
+def membrane(cases):
+    force, block = np.zeros((len(cases), 3), np.float32), np.zeros((len(cases), 6), np.float32)
+    asked = (cases["model"] == 2) & (cases["damping"] == 0)
+    if asked.any():
+        some = cases[asked]
+        pos, index = stencils(cases["corner"], asked)
+        g = some["gradient"]  # rows ∇N₁, ∇N₂ of a 2 × 2 matrix, as Newton's tri_pose
+        arguments = [pos, pos, integers(index), (np.ascontiguousarray(g), wp.mat22), numbers(some["area"])]
+        arguments += [numbers(some["lame_mu"]), numbers(some["lame_lambda"])]
+        f, h = launch(membrane_kernel, len(some), arguments, [wp.vec3, wp.mat33])
+        if OWN:  # Newton drops a stress that presses where the stage clamps the sum; both are positive
+            h = to.stable_neo_hookean_block(some)
+        force[asked], block[asked] = f, to.packed(h)
+    to.log(stage="membrane", cases=len(cases), asked=int(asked.sum()))
+    return force, block
+
+
+@ogc.kernel("bending")
+def bending(cases):
+    x, start = to.doubles(cases["vertex"]), to.doubles(cases["start"])
+    asked = cases["model"] == 1
+    theta, gradient, least = to.dihedral(x)
+    theta_start, _, least_start = to.dihedral(start)
+    own = gradient[np.arange(len(x)), cases["own"]]
+    force, block = (a.astype(np.float32) for a in to.hinge(theta, theta_start, own, cases))
+    asked &= (cases["damping_form"] == 0) | (cases["damping"] == 0)
+    if OWN:  # Newton takes normals, twice an area, and edges below 1e-6 as collapsed
+        asked &= (least > 1e-6) & ((least_start > 1e-6) | (cases["damping"] == 0))
+        asked &= np.abs(theta - theta_start) < 3.14  # and turns a change of angle by 2π
+    if asked.any():
+        some = cases[asked]
+        pos, index = stencils(cases["vertex"], asked)
+        before, _ = stencils(cases["start"], asked)
+        order = np.array([2, 3, 0, 1])[some["own"]]  # Newton: o0, o1, x0, x1
+        c, k = some["stiffness"], some["damping"]
+        arguments = [pos, before, integers(index[:, [2, 3, 0, 1]]), integers(order), numbers(some["rest_angle"])]
+        arguments += [numbers(np.ones(len(some))), numbers(c), numbers(k * c)]
+        f, h = launch(bending_kernel, len(some), arguments, [wp.vec3, wp.mat33])
+        force[asked], block[asked] = f, to.packed(h)
+    to.log(stage="bending", cases=len(cases), asked=int(asked.sum()))
+    return force, block
