@@ -45,7 +45,7 @@ NOT_RUN = {
     r"data=input": "a data set that is not part of this repository",
     r"ogc laws --quick": "a test of its own asks them, and knows which are broken today",
     r"ogc bench": "seconds a repetition, and it wants a machine for itself",
-    r"^pip install \.": "minutes; tests/experiments/python/wheel.py builds the wheel",
+    r"^pip install (\.|.?ogc-testbed)": "minutes; tests/experiments/python/wheel.py builds the wheel",
     r"^experiments/python/wheels": "minutes, and one wheel needs nvcc",
     r"somewhere": "installs; a test builds and runs these examples (tests/experiments/examples)",
     r"mine\.(cpp|so|py)": "the reader's own file; a test builds and judges those of this page",

@@ -69,10 +69,10 @@ PROJECT = {
     "tests": ("",),
 }
 
-# Headers of CGAL under the LGPL, as their SPDX lines state. The oracle uses no others, because it may audit any
-# contestant.
-LESSER_CGAL = {"CGAL/Exact_predicates_inexact_constructions_kernel.h", "CGAL/Gmpq.h", "CGAL/Interval_nt.h",
-               "CGAL/Mpzf.h"}
+# Headers of CGAL under the LGPL, as their SPDX lines and those of all that they include state. The oracle uses no
+# others, because it may audit any contestant; nor does the reference, as its answers are in the Python package's judge.
+LESSER_CGAL = {"CGAL/Exact_predicates_inexact_constructions_kernel.h", "CGAL/Exact_rational.h", "CGAL/Gmpq.h",
+               "CGAL/Interval_nt.h", "CGAL/Mpzf.h", "CGAL/Segment_3.h", "CGAL/Triangle_3.h", "CGAL/intersections.h"}
 
 # Rooms that may have a foreign include (besides tests), by the beginning of the include.
 FOREIGN = {
@@ -204,8 +204,8 @@ class House:
             self.report(file, number, f"<{included}> is neither standard nor in the table of tests/includes.py")
         elif not any(below(file, allowed) for allowed in FOREIGN[header]):
             self.report(file, number, f"<{included}> is allowed only in {', '.join(FOREIGN[header]) or 'tests'}")
-        elif header == "CGAL/" and room == "compare/oracle" and included not in LESSER_CGAL:
-            self.report(file, number, f"<{included}> is not among CGAL's headers under the LGPL that the oracle has")
+        elif header == "CGAL/" and included not in LESSER_CGAL:
+            self.report(file, number, f"<{included}> is not among CGAL's headers under the LGPL (tests/includes.py)")
 
     def check_top(self, files):
         names = {path.relative_to(self.root).parts[0] for path in files}
@@ -291,6 +291,8 @@ PLANTED = {
     ),
     "CGAL in fast": ({"fast/x.cpp": "#  include <CGAL/Kernel.h>\n"}, "<CGAL/Kernel.h> is allowed only in",
                      "fast/x.cpp:1"),
+    "CGAL under the GPL in the reference": ({"reference/x.cpp": "#include <CGAL/AABB_tree.h>\n"},
+                                            "is not among CGAL's headers under the LGPL", "reference/x.cpp:1"),
     "CGAL under the GPL in the oracle": ({"compare/oracle/x.cpp": "#include <CGAL/AABB_tree.h>\n"},
                                          "is not among CGAL's headers under the LGPL", "compare/oracle/x.cpp:1"),
     "an unknown library": ({"fast/x.cpp": "#include <fmt/format.h>\n"}, "neither standard nor", "fast/x.cpp:1"),

@@ -1,29 +1,11 @@
-// The program `ogc`. Every failure becomes one message with a remedy, and one of four exit statuses.
-#include <csignal>
-#include <cstdlib>
-#include <exception>
-#include <filesystem>
-#include <new>
-
-#include "compare/contestant.hpp"
-#include "compare/files/bytes.hpp"
-#include "compare/problem/error.hpp"
-#include "compare/problem/text.hpp"
+// The program `ogc`.
 #include "experiments/plugins/worker.hpp"
-#include "experiments/program/commands.hpp"
-#include "experiments/program/output.hpp"
-#include "experiments/program/version.hpp"
+#include "experiments/program/entry.hpp"
 
 namespace {
 
 using namespace ogc;
 using experiments::CommandContext;
-
-std::string command_line(int count, char** words) {
-  std::string text;
-  for (int i = 0; i < count; ++i) text += (i == 0 ? "" : " ") + std::string(words[i]);
-  return text;
-}
 
 void add_commands(CLI::App& app, CommandContext& context) {
   experiments::add_scenes_command(app, context);
@@ -38,86 +20,18 @@ void add_commands(CLI::App& app, CommandContext& context) {
   experiments::add_export_command(app, context);
   experiments::add_illustrate_command(app, context);
   experiments::add_plugin_worker_command(app, context);
-  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
-    if (command->get_option_no_throw("--json") == nullptr)
-      command->add_flag("--json", context.json, "Print the result as JSON on standard output");
-}
-
-/// Makes the program parse its command line and run nothing, as the environment variable OGC_PARSE_ONLY requests. Tests
-/// use it to check the commands in documents. The program ends before the callbacks of commands run. It ends inside the
-/// parser, because these callbacks own the variables for the options.
-void run_nothing(CLI::App& app) {
-  experiments::log_line("ogc: OGC_PARSE_ONLY is set: the command line is parsed, and nothing is run");
-  app.parse_complete_callback([] { throw CLI::Success(); });
-}
-
-int usage_error(const CLI::App& app, const CLI::ParseError& error) {
-  std::string command;
-  for (const CLI::App* used : app.get_subcommands()) command = " " + used->get_name();
-  constexpr std::size_t most_shown = 400;  // the message may repeat a word of any length
-  experiments::log_line("ogc: " + compare::shown(error.what(), most_shown) + "; see ogc" + command + " --help");
-  return experiments::exit_bad_input;
-}
-
-int run_program(int count, char** words) {
-  CommandContext context;
-  context.command_line = command_line(count, words);
-  CLI::App app(
-      "OGC Testbed: a reference and a fast path for Offset Geometric Contact, and a judge between them.\n"
-      "Not the release of the paper's authors.",
-      "ogc");
-  app.footer(
-      "Exit status: 0 success, 1 a check failed (mismatch, penetration), 2 wrong usage or bad input, 3 out of a "
-      "resource,\n"
-      "130 interrupted.\n\nStart with: ogc run cloth_on_sphere --scale smoke");
-  app.set_version_flag(
-      "--version", [] { return experiments::version_text(); }, "Version, commit, compiler, CUDA and backends");
-  app.require_subcommand(1);
-  add_commands(app, context);
-  if (std::getenv("OGC_PARSE_ONLY") != nullptr) run_nothing(app);
-  try {
-    app.parse(count, words);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    return usage_error(app, error);
-  }
-  return context.status;
-}
-
-int failure(const std::string& what, int status) {
-  experiments::log_line("ogc: " + what);
-  return status;
-}
-
-/// Reports a path that the system refuses.
-int path_failure(const std::filesystem::filesystem_error& error) {
-  try {
-    compare::refuse_path(error.path1(), "use the path", error.code());
-  } catch (const compare::InputError& refused) {
-    return failure(refused.what(), experiments::exit_bad_input);
-  } catch (const compare::ResourceError& refused) {
-    return failure(refused.what(), experiments::exit_out_of_resource);
-  }
 }
 
 }  // namespace
 
 int main(int count, char** words) {
-  // A limit on file sizes is reported like a full disk instead of killing the program.
-  std::signal(SIGXFSZ, SIG_IGN);
-  try {
-    return run_program(count, words);
-  } catch (const compare::InputError& error) {
-    return failure(error.what(), experiments::exit_bad_input);
-  } catch (const compare::ResourceError& error) {
-    return failure(error.what(), experiments::exit_out_of_resource);
-  } catch (const compare::ContestantFailure& failed) {
-    return failure("the plug-in can't be judged: " + std::string(failed.what()), experiments::exit_check_failed);
-  } catch (const std::filesystem::filesystem_error& error) {
-    return path_failure(error);
-  } catch (const std::bad_alloc&) {
-    return failure("out of memory; take a smaller scale or mesh", experiments::exit_out_of_resource);
-  } catch (const std::exception& error) {
-    return failure("internal error, please report it: " + std::string(error.what()), experiments::exit_check_failed);
-  }
+  return experiments::run_program(
+      count, words,
+      {"ogc",
+       "OGC Testbed: a reference and a fast path for Offset Geometric Contact, and a judge between them.\n"
+       "Not the release of the paper's authors.",
+       "Exit status: 0 success, 1 a check failed (mismatch, penetration), 2 wrong usage or bad input, 3 out of a "
+       "resource,\n"
+       "130 interrupted.\n\nStart with: ogc run cloth_on_sphere --scale smoke",
+       add_commands});
 }

@@ -20,7 +20,7 @@ std::string version_text() {
          (info.dirty ? " (dirty: with changes that are not committed)" : "") + "\ncompiler " + info.compiler +
          "\nCUDA " + info.cuda + "\nbackends\n" + backend_line("cpu", fast::Backend::cpu) +
          backend_line("cuda", fast::Backend::cuda) +
-         "Apache-2.0; binaries that link CGAL's GPL parts are passed on under the GPL.";
+         "Apache-2.0; binaries that link CHOLMOD's GPL parts are passed on under the GPL.";
 }
 
 }  // namespace ogc::experiments

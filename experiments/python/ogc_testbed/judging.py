@@ -69,10 +69,10 @@ class Verdict:
 def judge(function, stage=None, cases=100_000, seed=1, program=None, time_limit=10):
     """Judges a kernel, which `@kernel(stage)` has marked, and returns its verdict.
 
-    `stage` is needed only if the kernel has several marks. `program` is the program `ogc`; without it, the
-    environment's OGC_PROGRAM, `ogc` on the PATH or beside Python, and build/default/ogc of a checkout are tried. A call
-    of the kernel may take `time_limit` seconds, and so may the import of its file. Raises ValueError for what is no
-    kernel, and RuntimeError if there is no program or no verdict.
+    `stage` is needed only if the kernel has several marks. `program` is the program `ogc` or `ogc-judge`; without it,
+    the environment's OGC_PROGRAM, the `ogc-judge` that ogc-testbed[judge] installs, `ogc` on the PATH or beside Python,
+    and build/default/ogc of a checkout are tried. A call of the kernel may take `time_limit` seconds, and so may the
+    import of its file. Raises ValueError for what is no kernel, and RuntimeError if there is no program or no verdict.
 
     The kernel runs in a process of its own, which runs the file that defines it down to the first call of judge, where
     this function is another one. A kernel of a notebook has no file: its source is saved with the functions, modules
@@ -100,21 +100,24 @@ def judge(function, stage=None, cases=100_000, seed=1, program=None, time_limit=
 
 
 def find_program(program=None):
-    """Returns the program `ogc`; raises RuntimeError that names where it was looked for."""
+    """Returns the program `ogc-judge` or `ogc`; raises RuntimeError that names where it was looked for."""
     named = program or os.environ.get("OGC_PROGRAM")
     if named:
         found = shutil.which(named)
         if not found:
             raise RuntimeError(f"{named}, which {'program' if program else 'OGC_PROGRAM'} names, can't be started")
         return found
+    installed = Path(__file__).parent / "ogc-judge"  # of the distribution ogc-testbed-judge, in the same folder
     checkout = Path(__file__).resolve().parents[3] / "build/default/ogc"
-    for place in ("ogc", str(Path(sys.executable).parent / "ogc"), "build/default/ogc", str(checkout)):
+    beside = Path(sys.executable).parent / "ogc"
+    for place in (str(installed), "ogc", str(beside), "build/default/ogc", str(checkout)):
         found = shutil.which(place)
         if found:
             return str(Path(found).resolve())
     raise RuntimeError(
-        f"the program ogc is not on the PATH or beside {sys.executable}, nor is it build/default/ogc or {checkout}; "
-        "build it, or name it by program=… or the environment's OGC_PROGRAM"
+        f"ogc_testbed.judge needs the judge, and {installed} is not there: pip install 'ogc-testbed[judge]'; or build "
+        f"the program ogc of a checkout, which is neither on the PATH nor beside {sys.executable}, build/default/ogc "
+        f"or {checkout}, and name it by program=… or the environment's OGC_PROGRAM"
     )
 
 

@@ -1,5 +1,5 @@
-"""What the modules of the Python package link and export: `_fast` neither CGAL nor GMP, `_audit` GMP as a shared
-library, and no module shows a symbol of its own besides the one that Python calls.
+"""What the Python package links and exports: `_fast` neither CGAL nor GMP, `_audit` and the judge GMP as a shared
+library, the judge no CHOLMOD, and no module shows a symbol of its own besides the one that Python calls.
 
 Usage: libraries.py BUILD_DIR. Exit status 77: skipped, a Python package is missing.
 """
@@ -25,8 +25,12 @@ def said(*command):
     return subprocess.check_output([str(word) for word in command], text=True)
 
 
+def linked(file):
+    return set(re.findall(r"NEEDED.*\[(.*)\]", said("readelf", "-d", file))) - SYSTEM
+
+
 def needed(module):
-    return set(re.findall(r"NEEDED.*\[(.*)\]", said("readelf", "-d", PACKAGE / f"{module}.abi3.so"))) - SYSTEM
+    return linked(PACKAGE / f"{module}.abi3.so")
 
 
 def symbols(module, kind):
@@ -49,6 +53,17 @@ class Libraries(unittest.TestCase):
         used = {name for name in symbols("_audit", "undefined") if name.startswith("__gmp")}
         self.assertTrue(used, "GMP's functions come from its library")
         self.assertNotRegex(said("strings", "-a", PACKAGE / "_audit.abi3.so"), r"cholmod|N3ogc9reference")
+
+    def test_the_judge_needs_no_solver(self):
+        """Stages do without CHOLMOD and OpenBLAS, which parts of the program `ogc` need. Which HDF5 is linked is the
+        build's choice; expat and minizip read meshes and frames."""
+        judge, whole = BUILD / "ogc-judge", linked(BUILD / "ogc")
+        self.assertTrue([name for name in whole if name.startswith("libcholmod")], "the program has what is looked for")
+        readers = {name for name in whole if re.match(r"libhdf5|libexpat|libminizip|libz\.", name)}
+        own = linked(judge) - readers
+        self.assertLessEqual(own, {"libtbb.so.12", "libgmp.so.10", "libmpfr.so.6"})
+        self.assertIn("libgmp.so.10", own)
+        self.assertNotRegex(said("nm", "-C", judge), r"cholmod|gemm_|ogc::reference::(Factor|start_(newton|ipc))")
 
     def test_symbols_stay_inside(self):
         for module in ("_fast", "_audit"):

@@ -1,5 +1,6 @@
 """From the repository to a user: the sdist is built, the wheel from the sdist alone, and the wheel runs the first
-program of experiments/python/README.md in an empty environment.
+program of experiments/python/README.md in an empty environment. With the judge of this build, installed as the wheel of
+the judge has it, the environment runs the third program, too.
 
 Usage: wheel.py BUILD_DIR SOURCE_DIR. Exit status 77: skipped, a Python package is missing or the package index can't be
 reached.
@@ -18,7 +19,7 @@ from pathlib import Path
 
 from package import main, prepare
 
-_, (SOURCE,) = prepare(__doc__)
+BUILD, (SOURCE,) = prepare(__doc__)
 try:
     import build  # noqa: F401
 except ImportError as missing:
@@ -27,14 +28,20 @@ except ImportError as missing:
 LARGEST = 10 * 2**20  # the limit that the package sets itself [bytes]
 SCRATCH = tempfile.TemporaryDirectory()
 FOLDER = Path(SCRATCH.name)
-ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+ENVIRONMENT = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "OGC_PROGRAM")}
+PAGE = (Path(SOURCE) / "experiments/python/README.md").read_text(encoding="utf-8")
 
 
-def run(*command, **options):
-    done = subprocess.run([str(word) for word in command], env=ENVIRONMENT, capture_output=True, text=True, **options)
+def run(*command, env=ENVIRONMENT, **options):
+    done = subprocess.run([str(word) for word in command], env=env, capture_output=True, text=True, **options)
     if done.returncode != 0:
         raise AssertionError(f"{command}\n{done.stdout[-4000:]}\n{done.stderr[-4000:]}")
     return done.stdout
+
+
+def program_with(word):
+    """Returns the first program of the page that has this word."""
+    return next(program for program in re.findall(r"^```python\n(.*?)^```", PAGE, re.M | re.S) if word in program)
 
 
 def index_is_there():
@@ -58,10 +65,19 @@ class Wheel(unittest.TestCase):
         home = FOLDER / "home"
         venv.create(home, with_pip=True)
         run(home / "bin" / "pip", "install", "-q", wheel)
-        page = (Path(SOURCE) / "experiments/python/README.md").read_text(encoding="utf-8")
-        program = re.search(r"^```python\n(.*?find_contacts.*?)^```", page, re.M | re.S)[1]
+        program = program_with("find_contacts")
         place = run(home / "bin" / "python", "-c", program + "\nprint(ogc.__file__)", cwd=FOLDER).strip()
         self.assertTrue(place.startswith(str(home)), place)
+        self.judge(home / "bin" / "python", Path(place).parents[1])
+
+    def judge(self, python, packages):
+        """The page's kernel gets its verdict in an environment whose path has no `ogc`."""
+        (FOLDER / "mine.py").write_text(program_with("ogc.judge"), encoding="utf-8")
+        bare = {**ENVIRONMENT, "PATH": str(python.parent)}
+        with self.assertRaisesRegex(AssertionError, r"RuntimeError: .*'ogc-testbed\[judge\]'.*OGC_PROGRAM"):
+            run(python, "mine.py", cwd=FOLDER, env=bare)
+        run("cmake", "--install", BUILD, "--component", "python_judge", "--prefix", packages)
+        self.assertRegex(run(python, "mine.py", cwd=FOLDER, env=bare), r"stage=truncate gen=\w+ seed=1")
 
 
 if not index_is_there():
