@@ -36,14 +36,17 @@ class Guard {
 
   Place place() const { return backend_ == fast::Backend::cuda ? Place::either : Place::host; }
   const fast::Mesh& mesh() const { return guard_.mesh(); }
-  const fast::GuardReport& report() const { return report_; }
+  fast::GuardReport report() const {
+    const std::lock_guard lock(reporting_);
+    return report_;
+  }
   void step(std::span<const Vec3f> x, std::span<const Vec3f> dx, std::span<Vec3f> out) {
     const std::lock_guard lock(busy_);
-    report_ = guard_.step(x, dx, out);
+    keep(guard_.step(x, dx, out));
   }
   void step_on_device(const Vec3f* x, const Vec3f* dx, Vec3f* out) {
     const std::lock_guard lock(busy_);
-    report_ = guard_.step_resident(x, dx, out);
+    keep(guard_.step_resident(x, dx, out));
   }
   void reset(std::span<const Vec3f> x, bool is_on_device) {
     const std::lock_guard lock(busy_);
@@ -59,10 +62,16 @@ class Guard {
   }
 
  private:
+  void keep(const fast::GuardReport& report) {
+    const std::lock_guard lock(reporting_);
+    report_ = report;
+  }
+
   fast::Backend backend_;
   fast::Guard guard_;
   fast::GuardReport report_;
   std::mutex busy_;
+  mutable std::mutex reporting_;  // of its own, so that a report waits for no step
 };
 
 void init_guard(Guard* self, const Mesh& mesh, nb::handle x, double query_radius, std::string_view bounds,
@@ -87,11 +96,11 @@ nb::object step(Guard& guard, nb::handle x, nb::handle dx, nb::object out) {
   const Place place = is_there ? Place::device : Place::host;
   const Given<Vec3f> moves = given_positions(dx, "dx", place);
   if (out.is_none()) out = output_like(x, is_there, positions.items.size());
-  const Given<Vec3f> shape = given_positions(out, "out", place);
-  auto* written = static_cast<Vec3f*>(checked_output(out, {"out", "float32", "(V, 3)", 2, 3, place}));
+  const Output output = checked_output(out, {"out", "float32", "(V, 3)", 2, 3, place});
+  auto* written = static_cast<Vec3f*>(output.data());
   expect_vertices("x", positions.items.size(), guard.mesh());
   expect_vertices("dx", moves.items.size(), guard.mesh());
-  expect_vertices("out", shape.items.size(), guard.mesh());
+  expect_vertices("out", output.shape(0), guard.mesh());
   {
     const nb::gil_scoped_release release;
     in_terms_of_python([&] {
