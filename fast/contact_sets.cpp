@@ -1,11 +1,11 @@
 // Implements the public interface to contact sets: checks the input, then calls the backend's engine.
 #include "fast/contact_sets.hpp"
 
-#include <cmath>
 #include <string>
 #include <utility>
 
 #include "compare/problem/error.hpp"
+#include "compare/problem/text.hpp"
 #include "fast/cpu/cpu.hpp"
 #if defined(OGC_HAS_CUDA)
 #include "fast/cuda/cuda.hpp"
@@ -16,9 +16,11 @@ namespace ogc::fast {
 namespace {
 
 void check(const ContactQuery& query) {
-  if (!(query.contact_radius > 0 && std::isfinite(query.query_radius) && query.query_radius >= query.contact_radius)) {
-    throw compare::InputError("contact query: 0 < contact_radius <= query_radius < infinity is needed, not " +
-                              std::to_string(query.contact_radius) + " and " + std::to_string(query.query_radius));
+  if (!(query.contact_radius > 0 && query.query_radius <= most_query_radius &&
+        query.query_radius >= query.contact_radius)) {
+    const auto text = [](float value) { return compare::shortest(compare::as_typed(static_cast<double>(value))); };
+    throw compare::InputError("contact query: 0 < contact_radius <= query_radius <= " + text(most_query_radius) +
+                              " is needed, not " + text(query.contact_radius) + " and " + text(query.query_radius));
   }
   if (!(query.bounds_relaxation > 0 && query.bounds_relaxation < 0.5F)) {
     throw compare::InputError("contact query: bounds_relaxation must lie between 0 and 0.5, not at " +

@@ -17,8 +17,8 @@ namespace ogc::fast {
 
 /// Parameters of a detection [m].
 struct ContactQuery {
-  float contact_radius = 0;         ///< r > 0
-  float query_radius = 0;           ///< r_q ≥ r: range of the search, so no bound exceeds γ_p r_q
+  float contact_radius = 0;  ///< r > 0
+  float query_radius = 0;    ///< r_q ≥ r, ≤ most_query_radius: range of the search; no bound exceeds γ_p r_q
   float bounds_relaxation = 0.45F;  ///< γ_p of Eq. 21, in (0, 0.5)
 };
 

@@ -24,7 +24,8 @@ void check(const GuardOptions& options) {
   };
   const float r = options.contact_radius, r_q = options.query_radius;
   need(r >= 0 && std::isfinite(r), "contact_radius is " + text_of(r) + ", but 0 or a positive length [m] is needed");
-  need(r_q > 0 && std::isfinite(r_q), "query_radius is " + text_of(r_q) + ", but a positive length [m] is needed");
+  need(r_q > 0 && r_q <= most_query_radius, "query_radius is " + text_of(r_q) + ", but a positive length of at most " +
+                                                text_of(most_query_radius) + " [m] is needed");
   need(r_q >= r, "query_radius is " + text_of(r_q) + ", but at least contact_radius, " + text_of(r) + ", is needed");
   need(options.bounds_relaxation > 0 && options.bounds_relaxation < 0.5F,
        "bounds_relaxation is " + text_of(options.bounds_relaxation) + ", but it must lie between 0 and 0.5");

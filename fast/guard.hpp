@@ -33,7 +33,8 @@ namespace ogc::fast {
 struct GuardOptions {
   /// r ≥ 0: range of the contacts that `contacts` lists [m]. The truncation does not depend on it.
   float contact_radius = 0;
-  /// r_q ≥ r, > 0: range of the search [m]. No vertex moves farther than γ_p r_q between two detections.
+  /// r_q ≥ r, > 0, ≤ most_query_radius: range of the search [m]. No vertex moves farther than γ_p r_q between two
+  /// detections.
   float query_radius = 0;
   compare::Bounds bounds = compare::Bounds::ball;  ///< `ball` (Eq. 21) or `planes` (method.md §5.6)
   float bounds_relaxation = 0.45F;                 ///< γ_p in (0, 0.5): share of a gap that each of its sides may take

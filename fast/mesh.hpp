@@ -11,6 +11,10 @@
 
 namespace ogc::fast {
 
+/// Largest r_q [m], as for scenes (compare/problem/settings.cpp). Searches compare squares of distances with its
+/// square. If that were infinite, the boxes of empty places, which are infinitely far, would count as near.
+inline constexpr float most_query_radius = 0x1p20F;
+
 /// The connectivity of a surface, and the pairs of faces that may meet. It has no positions and never changes. Copies
 /// are cheap and refer to the same data, also from several threads.
 class Mesh {

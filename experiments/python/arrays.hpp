@@ -24,33 +24,35 @@ namespace nb = nanobind;
 
 /// An array of any dtype and shape that is read where it lies.
 using Array = nb::ndarray<nb::ro>;
+/// An array that is written where it lies.
+using Output = nb::ndarray<>;
 
 /// Where an array must lie: in the memory of the host, of a CUDA device, or of either.
 enum class Place { host, device, either };
 
 /// What an array must be. Lengths: `columns` numbers in the last dimension, `dimensions` dimensions.
 struct Wanted {
-  const char* name;           ///< the argument's name
-  const char* dtype;          ///< "float32", "float64" or "int32"
-  const char* shape;          ///< for messages: "(V, 3)"
-  std::size_t dimensions;     ///< number of dimensions
-  std::size_t columns = 0;    ///< length of the last dimension; 0: any
-  Place place = Place::host;  ///< where it must lie
+  const char* name;                   ///< the argument's name
+  const char* dtype;                  ///< "float32", "float64" or "int32"
+  const char* shape;                  ///< for messages: "(V, 3)"
+  std::size_t dimensions;             ///< number of dimensions
+  std::size_t columns = 0;            ///< length of the last dimension; 0: any
+  Place place = Place::host;          ///< where it must lie
+  const char* other_dtype = nullptr;  ///< another dtype that it may have
 };
 
 /// Returns the array that `value` offers. Throws TypeError if it is no array, or if its dtype, shape, order or device
 /// is not the wanted one; the message names the argument, what came, and the call that converts it.
 Array checked(nb::handle value, const Wanted& wanted);
 
-/// Returns the address of an array that `value` offers for writing. Throws TypeError as `checked` does, and if the
-/// array is read-only.
-void* checked_output(nb::handle value, const Wanted& wanted);
+/// Returns the array that `value` offers for writing. Throws TypeError as `checked` does, and if it is read-only.
+Output checked_output(nb::handle value, const Wanted& wanted);
 
 /// Returns whether an array lies in the memory of a CUDA device.
 bool is_on_device(const Array& array);
 
-/// Returns whether the value is an array of the dtype ("float64"); false if it is no array.
-bool has_dtype(nb::handle value, const char* dtype);
+/// Returns whether the items of an array are float64.
+bool is_double(const Array& array);
 
 /// An array that is read where it lies; the object that owns it stays alive as long as this.
 template <class Item>

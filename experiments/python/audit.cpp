@@ -43,9 +43,8 @@ struct AuditReport {
 class Frames {
  public:
   explicit Frames(nb::handle frames) {
-    const bool is_double = has_dtype(frames, "float64");
-    array_ = checked(frames, {"frames", is_double ? "float64" : "float32", "(F, V, 3)", 3, 3});
-    if (is_double)
+    array_ = checked(frames, {"frames", "float32", "(F, V, 3)", 3, 3, Place::host, "float64"});
+    if (is_double(array_))
       doubles_ = static_cast<const Vec3*>(static_cast<const void*>(array_.data()));
     else
       singles_ = static_cast<const compare::Vec3f*>(static_cast<const void*>(array_.data()));

@@ -16,6 +16,7 @@
 #include <nanobind/stl/unique_ptr.h>
 
 #include "compare/problem/error.hpp"
+#include "compare/problem/text.hpp"
 #include "experiments/python/arrays.hpp"
 #include "experiments/python/module.hpp"
 #include "experiments/python/scenes.hpp"
@@ -205,7 +206,10 @@ Steps run(nb::object self, std::optional<double> seconds, std::optional<std::int
   if (every < 1) throw compare::InputError("every: " + std::to_string(every) + " came; give at least 1");
   const double dt = nb::cast<Simulation&>(self).scene().settings.time_step;
   // The number of steps that end within `seconds`; half a step absorbs the rounding of their quotient.
-  const std::int64_t count = steps ? *steps : static_cast<std::int64_t>(*seconds / dt + 0.5);
+  const double asked = steps ? 0 : *seconds / dt + 0.5;
+  if (!(asked >= 0 && asked < 0x1p62))
+    throw compare::InputError("seconds: " + compare::shortest(*seconds) + " came; give a number of at least 0");
+  const std::int64_t count = steps ? *steps : static_cast<std::int64_t>(asked);
   return {.simulation = std::move(self), .left = count, .every = every};
 }
 
@@ -447,6 +451,26 @@ void bind_simulation(nb::module_& module) {
           nb::sig("def metrics(self) -> numpy.recarray"),
           "metrics of all steps since the start or the last restore: step, wall_ms [ms], vertex_facet_contacts,\n"
           "edge_edge_contacts, largest_lag [m], smallest_distance [m], energies [J] … as in steps.csv")
+      .def_prop_ro(
+          "faces",
+          [](nb::handle self) {
+            const auto& rows = nb::cast<Simulation&>(self).scene().mesh.triangles;
+            return lent<compare::Index, 3>(rows.data(), rows.size(), self);
+          },
+          nb::sig("def faces(self) -> " OGC_LENT("int32", "(None, 3)")),
+          "int32 (T, 3), read-only: triangles of all bodies")
+      .def(
+          "save",
+          [](nb::handle self, nb::handle path, nb::handle frames) {
+            nb::module_::import_("ogc_testbed.meshes").attr("save")(path, self, frames);
+          },
+          nb::arg("path"), nb::arg("frames") = nb::none(),
+          nb::sig("def save(self, path: str | os.PathLike[str], frames: " OGC_GIVEN(
+              "float32", "(None, None, 3)") " | None = None) -> None"),
+          "Writes a .npz with positions, float32 (F, V, 3) [m], triangles, int32 (T, 3), and metrics, which ogc.load,\n"
+          "numpy.load and `ogc audit` read. frames: states to write, np.stack of sim.positions; without it the present "
+          "one.\n\n"
+          "ValueError: another kind of file. TypeError: frames of another dtype or shape.")
       .def_prop_ro("device", &Simulation::device, "\"2 threads\", or the device");
 }
 

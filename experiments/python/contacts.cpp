@@ -1,6 +1,7 @@
 #include "experiments/python/contacts.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "compare/problem/error.hpp"
@@ -10,7 +11,12 @@ namespace {
 
 template <class Primitive>
 compare::Index after_last(compare::Index count, std::span<const Primitive> primitives) {
-  for (const Primitive& primitive : primitives) count = std::max(count, 1 + std::ranges::max(primitive));
+  for (const Primitive& primitive : primitives) {
+    const compare::Index last = std::ranges::max(primitive);
+    if (last == std::numeric_limits<compare::Index>::max())
+      throw compare::InputError("vertex number " + std::to_string(last) + " came; a mesh has at most as many vertices");
+    count = std::max(count, last + 1);
+  }
   return count;
 }
 

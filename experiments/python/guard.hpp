@@ -23,14 +23,17 @@ class Guard {
   Place place() const { return backend_ == fast::Backend::cuda ? Place::either : Place::host; }
   const fast::Mesh& mesh() const { return guard_.mesh(); }
   float radius() const { return guard_.options().contact_radius; }
-  const fast::GuardReport& report() const { return report_; }
+  fast::GuardReport report() const {
+    const std::lock_guard lock(reporting_);
+    return report_;
+  }
   void step(std::span<const compare::Vec3f> x, std::span<const compare::Vec3f> dx, std::span<compare::Vec3f> out) {
     const std::lock_guard lock(busy_);
-    report_ = guard_.step(x, dx, out);
+    keep(guard_.step(x, dx, out));
   }
   void step_on_device(const compare::Vec3f* x, const compare::Vec3f* dx, compare::Vec3f* out) {
     const std::lock_guard lock(busy_);
-    report_ = guard_.step_resident(x, dx, out);
+    keep(guard_.step_resident(x, dx, out));
   }
   void reset(std::span<const compare::Vec3f> x, bool is_on_device) {
     const std::lock_guard lock(busy_);
@@ -52,10 +55,16 @@ class Guard {
   }
 
  private:
+  void keep(const fast::GuardReport& report) {
+    const std::lock_guard lock(reporting_);
+    report_ = report;
+  }
+
   fast::Backend backend_;
   fast::Guard guard_;
   fast::GuardReport report_;
   std::mutex busy_;
+  mutable std::mutex reporting_;  // of its own, so that a report waits for no step
 };
 
 }  // namespace ogc::python

@@ -134,7 +134,7 @@ Simulation::Simulation(compare::Scene scene, std::string_view backend, const com
 }
 
 std::vector<StepMetrics> Simulation::advance(std::int64_t steps, const std::function<void()>& between) {
-  const std::lock_guard lock(busy_);
+  std::unique_lock lock(busy_);
   if (steps < 0) throw compare::InputError("steps: " + std::to_string(steps) + " came; give at least 0");
   if (!failure_.empty()) throw std::runtime_error(failure_ + " (restore a snapshot to go on)");
   const std::int64_t chunk = frame_steps(scene_.settings);
@@ -147,7 +147,10 @@ std::vector<StepMetrics> Simulation::advance(std::int64_t steps, const std::func
     if (!new_rows.empty()) failure_ = failure_of(new_rows.back());
     if (!failure_.empty()) throw std::runtime_error(failure_);
     steps -= now;
+    // `between` may call Python code, such as the handler of a signal, and this may read the simulation.
+    lock.unlock();
     between();
+    lock.lock();
   }
   return rows;
 }

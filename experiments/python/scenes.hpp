@@ -57,8 +57,9 @@ class Simulation {
   /// compare::ResourceError if the backend is not there.
   Simulation(compare::Scene scene, std::string_view backend, const compare::SimulationOptions& options);
 
-  /// Runs `steps` steps and returns their rows. Calls `between` after each frame; an exception of `between` ends the
-  /// call, and the simulation can go on. Throws std::runtime_error if a step fails; its row is in `rows()`.
+  /// Runs `steps` steps and returns their rows. Calls `between` after each frame, where it and other threads may call
+  /// the simulation, too; an exception of `between` ends the call, and the simulation can go on. Throws
+  /// std::runtime_error if a step fails; its row is in `rows()`.
   std::vector<compare::StepMetrics> advance(std::int64_t steps, const std::function<void()>& between);
   /// Returns the rows of all steps since the start or the last restore.
   std::vector<compare::StepMetrics> rows() const;

@@ -58,5 +58,19 @@ def load(path: str | Path) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.int3
     return _arrays(x[0] if x.ndim == 3 else x, faces)
 
 
+def save(path: str | Path, simulation: Any, frames: Any = None) -> None:
+    """Writes what Simulation.save says."""
+    path, faces = Path(path), simulation.faces
+    if path.suffix != ".npz":
+        raise ValueError(f"{path}: a simulation is saved as .npz; give {str(path.with_suffix('.npz'))!r}")
+    states = np.asarray(simulation.positions[None] if frames is None else frames)
+    shape = len(simulation.positions), 3
+    if states.dtype != np.float32 or states.ndim != 3 or states.shape[1:] != shape:
+        raise TypeError(f"frames: float32 (F, {shape[0]}, 3) is needed, but {states.dtype} {states.shape} came; pass "
+                        "np.stack of states, each sim.positions")
+    with path.open("wb") as file:
+        np.savez(file, positions=states, triangles=faces, metrics=np.asarray(simulation.metrics))
+
+
 def _arrays(x: Any, faces: Any) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.int32]]:
     return np.array(x, dtype=np.float32, order="C"), np.array(faces, dtype=np.int32, order="C")

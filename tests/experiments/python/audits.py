@@ -5,7 +5,7 @@ Usage: audits.py BUILD_DIR. Exit status 77: skipped, a Python package is missing
 
 import unittest
 
-from package import grid, main, prepare
+from package import counts_during, grid, main, prepare
 
 prepare(__doc__)
 import numpy as np  # noqa: E402
@@ -72,6 +72,16 @@ class Audits(unittest.TestCase):
         report = ogc.audit(frames(0), FACES, limit=1)
         self.assertEqual((len(report.intersecting), report.counts.tolist()), (1, [3]))
 
+    def test_other_threads_run_meanwhile(self):
+        x, faces = grid(40)
+        self.assertGreater(counts_during(lambda: ogc.audit(x[None], faces)), 0)
+
+    def test_frames_may_come_as_a_capsule(self):
+        """A capsule of DLPack can be read once."""
+        x, faces = grid(4)
+        for dtype in (np.float32, np.float64):
+            self.assertTrue(ogc.audit(x[None].astype(dtype).__dlpack__(), faces).clean)
+
     def test_a_simulation_is_clean(self):
         x, faces = grid(8, 0.2, 0.01)
         scene = ogc.Scene(dt=1 / 100, iterations=10, radius=5e-3)
@@ -90,7 +100,7 @@ class Errors(unittest.TestCase):
     def test_name_what_is_wrong(self):
         good = frames(1)
         for kind, words, call in (
-                (TypeError, r"frames: float64 \(F, V, 3\)", lambda: ogc.audit(good[0], FACES)),
+                (TypeError, r"frames: float32 or float64 \(F, V, 3\)", lambda: ogc.audit(good[0], FACES)),
                 (TypeError, "frames: .*int64", lambda: ogc.audit(good.astype(np.int64), FACES)),
                 (TypeError, "faces: int32", lambda: ogc.audit(good, FACES.astype(np.int64))),
                 (ValueError, "faces: row 1 names vertex 6", lambda: ogc.audit(good, FACES + np.int32([[0], [1]]))),

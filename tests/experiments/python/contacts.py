@@ -3,6 +3,7 @@
 Usage: contacts.py BUILD_DIR PROGRAM. Exit status 77: skipped, a Python package is missing.
 """
 
+import ctypes
 import gc
 import json
 import resource
@@ -13,7 +14,7 @@ import unittest
 import weakref
 from pathlib import Path
 
-from package import grid, main, prepare, two_layers
+from package import counts_during, grid, main, prepare, two_layers
 
 _, (PROGRAM,) = prepare(__doc__)
 import numpy as np  # noqa: E402
@@ -178,21 +179,8 @@ class Threads(unittest.TestCase):
     def test_other_threads_run_during_a_call(self):
         x, faces = two_layers(120, 4e-3)
         mesh = ogc.Mesh(faces)
-        counted, done = [0], threading.Event()
-
-        def count():
-            while not done.is_set():
-                counted[0] += 1
-
-        thread = threading.Thread(target=count)
-        thread.start()
-        before = counted[0]
-        for _ in range(5):
-            ogc.find_contacts(mesh, x, RADIUS, QUERY)
-        during = counted[0] - before
-        done.set()
-        thread.join()
-        self.assertGreater(during, 0)
+        self.assertGreater(counts_during(lambda: ogc.find_contacts(mesh, x, RADIUS, QUERY)), 0)
+        self.assertGreater(counts_during(lambda: ogc.Mesh(faces)), 0)
 
 
 class Errors(unittest.TestCase):
@@ -231,6 +219,70 @@ class Errors(unittest.TestCase):
                     edges=np.zeros((1, 2)))
         self.expect(TypeError, ("groups: int32 (V,)", "np.asarray(groups"), ogc.Mesh, self.faces, groups=[1, 2])
 
+    def test_of_arrays_that_lie_or_raise(self):
+        """Each of these once ended the process, or would have read what is not there."""
+        x, n = self.x, len(self.x)
+        odd = np.frombuffer(b"\0" + x.tobytes(), np.uint8)[1:].view(np.float32).reshape(x.shape)
+
+        class Raises:
+            __module__ = "\udc80"  # has no UTF-8
+            dtype = requires_grad = property(lambda self: 1 / 0)
+
+            def __dlpack__(self, **_):
+                raise MemoryError
+
+        class Changes:
+            """Offers less the second time."""
+
+            def __init__(self):
+                self.given = [x.copy(), x[:1].copy()]
+
+            def __dlpack__(self, **_):
+                return self.given.pop(0).__dlpack__()
+
+            def __dlpack_device__(self):
+                return 1, 0
+
+        for bad, words in (
+                ((ctypes.c_float * 9)(), ("float32 (9,)", "shape (V, 3)")),
+                (odd, ("at an odd address", "x.copy()")), (Raises(), ("type Raises",)), (np.ndarray, ("type type",)),
+                (np.zeros((2**40, 0, 3), np.float32), (f"({2**40}, 0, 3)",))):
+            with self.subTest(words=words):
+                self.expect(TypeError, ("x: float32 (V, 3)", *words), ogc.find_contacts, self.mesh, bad, RADIUS, QUERY)
+        guard = ogc.Guard(self.mesh, x, QUERY)
+        self.assertEqual(len(guard.step(x, np.zeros_like(x), out=Changes()).given), 1, "it is asked once")
+        frozen = x.copy()
+        frozen.setflags(write=False)
+        self.expect(TypeError, ("out:", "read-only", "can be written"), guard.step, x, x, out=frozen)
+        capsule = x.__dlpack__()
+        self.assertEqual(len(ogc.find_contacts(self.mesh, capsule, RADIUS, QUERY).bound), n)
+        self.expect(TypeError, ("type PyCapsule",), ogc.find_contacts, self.mesh, capsule, RADIUS, QUERY)
+        last = np.array([[0, 1, 2**31 - 1]], np.int32)
+        self.expect(ValueError, (str(2**31 - 1),), ogc.Mesh, last)
+        self.expect(ValueError, ("vertex 2147483647", "72 vertices"), ogc.Mesh, last, vertex_count=72)
+
+    def test_a_device_is_told_the_stream(self):
+        """Our streams synchronise with CUDA's legacy default stream, which DLPack numbers 1."""
+        asked = []
+
+        class There:
+            def __init__(self, takes_version):
+                self.takes_version = takes_version
+
+            def __dlpack__(self, **options):
+                asked.append(options)
+                if not self.takes_version and "max_version" in options:
+                    raise TypeError("an argument of later versions")
+                return np.zeros((3, 3), np.float32).__dlpack__()
+
+            def __dlpack_device__(self):
+                return 2, 0
+
+        for there in (There(True), There(False)):
+            with self.assertRaises((TypeError, ValueError)):
+                ogc.find_contacts(self.mesh, there, RADIUS, QUERY)
+        self.assertEqual(asked, [{"stream": 1, "max_version": (1, 0)}] * 2 + [{"stream": 1}])
+
     def test_of_numbers_name_them(self):
         find = ogc.find_contacts
         self.expect(ValueError, ("x: 71", "72 vertices"), find, self.mesh, self.x[:-1], RADIUS, QUERY)
@@ -238,6 +290,10 @@ class Errors(unittest.TestCase):
         bad[7, 1] = np.nan
         self.expect(ValueError, ("x: vertex 7", "nan"), find, self.mesh, bad, RADIUS, QUERY)
         self.expect(ValueError, ("contact_radius <= query_radius", "0.01"), find, self.mesh, self.x, QUERY, RADIUS)
+        for vast in (3e38, 2e19, 1048577):  # their squares overflow, or nearly
+            self.expect(ValueError, ("query_radius <= 1048576",), find, self.mesh, self.x, RADIUS, vast)
+            self.expect(ValueError, ("at most 1048576",), ogc.Guard, self.mesh, self.x, vast)
+        self.assertEqual(len(find(self.mesh, self.x, 2.0**20, 2.0**20).bound), 72)
         self.expect(ValueError, ("bounds_relaxation", "0.5"), find, self.mesh, self.x, RADIUS, QUERY, relaxation=0.5)
         self.expect(ValueError, ("backend", "'gpu'", '"cpu"'), find, self.mesh, self.x, RADIUS, QUERY, backend="gpu")
         wrong = self.faces.copy()

@@ -6,7 +6,7 @@ Usage: guards.py BUILD_DIR. Exit status 77: skipped, a Python package is missing
 
 import unittest
 
-from package import main, prepare, two_layers
+from package import counts_during, main, prepare, two_layers
 
 prepare(__doc__)
 import numpy as np  # noqa: E402
@@ -69,6 +69,10 @@ class Guards(unittest.TestCase):
         self.assertEqual(out.tobytes(), (expected + dx).tobytes())
         mine = guard.step(out, dx)
         self.assertTrue(mine.flags.writeable and mine.flags.c_contiguous and mine.base is not None)
+
+    def test_other_threads_run_meanwhile(self):
+        _, _, _, guard = begin(side=60)
+        self.assertGreater(counts_during(guard.detect), 0)
 
     def test_reset_begins_anew(self):
         mesh, x, _, guard = begin()

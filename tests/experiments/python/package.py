@@ -2,6 +2,8 @@
 
 import os
 import sys
+import threading
+import time
 import unittest
 from pathlib import Path
 
@@ -47,6 +49,26 @@ def two_layers(side, gap, seed=1):
     x = np.concatenate([lower, upper])
     x[:, 1] += random.uniform(0, gap / 4, len(x)).astype(np.float32)
     return x.astype(np.float32), np.concatenate([faces, faces + np.int32(len(lower))])
+
+
+def counts_during(call):
+    """Returns how often another Python thread came round in the middle half of a call: never if the call keeps the
+    interpreter's lock, because before and after it the other thread has time, but not within."""
+    done, rounds = threading.Event(), []
+
+    def count():
+        while not done.is_set():
+            rounds.append(time.perf_counter())
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    begin = time.perf_counter()
+    call()
+    end = time.perf_counter()
+    done.set()
+    thread.join()
+    quarter = (end - begin) / 4
+    return sum(begin + quarter < moment < end - quarter for moment in rounds)
 
 
 main = unittest.main

@@ -1,8 +1,9 @@
-"""The programs that experiments/python/README.md prints run as printed.
+"""The programs that experiments/python/README.md prints run as printed, and fit the stubs.
 
 Usage: programs.py BUILD_DIR SOURCE_DIR OGC. Exit status 77: skipped, a Python package is missing.
 """
 
+import importlib.util
 import os
 import re
 import subprocess
@@ -14,14 +15,29 @@ from pathlib import Path
 from package import main, prepare
 
 _, (SOURCE, OGC) = prepare(__doc__)
-PAGE = (Path(SOURCE) / "experiments/python/README.md").read_text(encoding="utf-8")
+PROGRAMS = re.findall(r"^```python\n(.*?)^```",
+                      (Path(SOURCE) / "experiments/python/README.md").read_text(encoding="utf-8"), re.M | re.S)
 
 
 class Programs(unittest.TestCase):
+    def test_fit_the_stubs(self):
+        if importlib.util.find_spec("mypy") is None:
+            self.skipTest("mypy is missing")
+        wrong = "import ogc_testbed as ogc\nogc.find_contacts(ogc.Mesh(5), radius='x')\n"
+        with tempfile.TemporaryDirectory() as folder:
+            for i, program in enumerate([*PROGRAMS, wrong]):
+                path = Path(folder) / f"program_{i}.py"
+                path.write_text(program, encoding="utf-8")
+                command = [sys.executable, *"-m mypy --check-untyped-defs --follow-imports=silent".split(),
+                           f"--cache-dir={folder}", path]
+                done = subprocess.run(command, env={**os.environ, "MYPYPATH": os.environ["PYTHONPATH"]}, cwd=folder,
+                                      capture_output=True, text=True)
+                self.assertEqual(done.returncode, 1 if program == wrong else 0, done.stdout + done.stderr)
+        self.assertIn("radius", done.stdout)
+
     def test_run_as_printed(self):
-        programs = re.findall(r"^```python\n(.*?)^```", PAGE, re.M | re.S)
-        self.assertEqual(len(programs), 6)
-        for program in programs:
+        self.assertEqual(len(PROGRAMS), 6)
+        for program in PROGRAMS:
             with self.subTest(program.splitlines()[3]), tempfile.TemporaryDirectory() as folder:
                 path = Path(folder) / "program.py"
                 path.write_text(program, encoding="utf-8")

@@ -5,11 +5,13 @@ package is missing.
 """
 
 import csv
+import signal
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
-from package import grid, main, prepare
+from package import counts_during, grid, main, prepare
 
 _, (RUN,) = prepare(__doc__)
 import numpy as np  # noqa: E402
@@ -139,6 +141,46 @@ class Scenes(unittest.TestCase):
         self.assertLess(np.abs(sim.positions[:16, 0] - x[:, 0] - 1e-3).max(), 21 * 2.0**-28)
         self.assertLess(np.ptp(sim.positions[16:, 0]), 0.1, "the stretched cloth draws together")
 
+    def test_the_handler_of_a_signal_may_read_the_simulation(self):
+        sim = falling()[0].start()
+        seen = []
+        before = signal.signal(signal.SIGALRM, lambda *_: seen.append(len(sim.positions)))
+        signal.setitimer(signal.ITIMER_REAL, 0.01, 0.01)
+        try:
+            while len(seen) < 3:
+                sim.advance(20)
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, before)
+        self.assertEqual(seen[:3], [67] * 3)
+
+    def test_other_threads_run_during_a_step(self):
+        sim = ogc.scene("cloth_on_sphere", "smoke").start()
+        self.assertGreater(counts_during(lambda: sim.advance(30)), 0)
+
+    def test_it_is_saved_and_read(self):
+        sim = falling()[0].start()
+        states = [sim.positions]
+        for _ in range(3):
+            sim.advance(5)
+            states.append(sim.positions)
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "mine.npz"
+            sim.save(path, np.stack(states))
+            x, faces = ogc.load(path)
+            self.assertEqual((x.tobytes(), faces.tobytes()), (states[0].tobytes(), sim.faces.tobytes()))
+            with np.load(path) as arrays:
+                self.assertEqual(arrays["positions"].tobytes(), np.stack(states).tobytes())
+                self.assertEqual(arrays["metrics"].tobytes(), sim.metrics.tobytes())
+                self.assertEqual(arrays["metrics"]["step"].tolist(), list(range(1, 16)))
+            sim.save(str(path))
+            self.assertEqual(ogc.load(path)[0].tobytes(), states[-1].tobytes())
+            with self.assertRaisesRegex(ValueError, r"mine.npz"):
+                sim.save(Path(folder) / "mine.obj")
+            for wrong in (states[0], np.stack(states).astype(float), np.stack(states)[:, 1:]):
+                with self.assertRaisesRegex(TypeError, r"frames: float32 \(F, 67, 3\)"):
+                    sim.save(path, wrong)
+
     def test_built_in_scenes_are_listed(self):
         for name in ogc.scenes():
             self.assertGreater(len(ogc.scene(name, "smoke").positions), 0, name)
@@ -189,7 +231,8 @@ class Errors(unittest.TestCase):
 
     def test_of_runs(self):
         sim = falling()[0].start()
-        for wrong in ({}, {"seconds": 1, "steps": 1}, {"steps": 1, "every": 0}):
+        for wrong in ({}, {"seconds": 1, "steps": 1}, {"steps": 1, "every": 0}, {"seconds": float("inf")},
+                      {"seconds": float("nan")}, {"seconds": -1}, {"seconds": 1e300}):
             with self.assertRaises(ValueError):
                 sim.run(**wrong)
         with self.assertRaisesRegex(ValueError, "steps"):
