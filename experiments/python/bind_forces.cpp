@@ -137,16 +137,15 @@ ContactForceSums evaluate_there(ContactForces& forces, nb::handle x, const Given
                                 const fast::SlidingResident& sliding, Guard* guard, const nb::object& out) {
   const std::size_t count = positions.items.size();
   const auto arrays = device_outputs(x, out, count);
-  fast::ContactForceArrays to;
   const auto written = [&](std::size_t k, const char* name, const char* shape, std::size_t columns) {
-    const Wanted wanted{name, "float32", shape, 2, columns, Place::device};
-    const Array array = checked(arrays[k], wanted);
-    expect_vertices(name, array.nbytes() / (columns * sizeof(float)), forces.mesh());
-    return checked_output(arrays[k], wanted);
+    Output output = checked_output(arrays[k], {name, "float32", shape, 2, columns, Place::device});
+    expect_vertices(name, output.shape(0), forces.mesh());
+    return output;
   };
-  to.force = static_cast<Vec3f*>(written(0, "force", "(V, 3)", 3));
-  to.friction = static_cast<Vec3f*>(written(1, "friction", "(V, 3)", 3));
-  to.block = static_cast<fast::ContactBlock*>(written(2, "block", "(V, 6)", 6));
+  const Output force = written(0, "force", "(V, 3)", 3), friction = written(1, "friction", "(V, 3)", 3),
+               block = written(2, "block", "(V, 6)", 6);
+  const fast::ContactForceArrays to{static_cast<Vec3f*>(force.data()), static_cast<Vec3f*>(friction.data()),
+                                    static_cast<fast::ContactBlock*>(block.data())};
   fast::ContactEnergy energy;
   {
     const nb::gil_scoped_release release;

@@ -1,5 +1,6 @@
 #include "fast/contact_sets.hpp"
 
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -84,6 +85,10 @@ TEST_CASE("contact_sets: wrong input is refused with the element's name", "[unit
   CHECK(names(error_of([&] { finder.find(broken, good); }), "positions: vertex 9 has ("));
   CHECK_THROWS_AS(finder.find(mesh.positions, {.contact_radius = 0.2F, .query_radius = 0.1F}), compare::InputError);
   CHECK_THROWS_AS(finder.find(mesh.positions, {.contact_radius = 0, .query_radius = 0.1F}), compare::InputError);
+  // searches would read beyond the tree if r_q² overflowed
+  const float vast = std::nextafter(fast::most_query_radius, std::numeric_limits<float>::infinity());
+  CHECK_THROWS_AS(finder.find(mesh.positions, {.contact_radius = 0.1F, .query_radius = vast}), compare::InputError);
+  CHECK_NOTHROW(finder.find(mesh.positions, {.contact_radius = 0.1F, .query_radius = fast::most_query_radius}));
   CHECK_THROWS_AS(
       finder.find(mesh.positions, {.contact_radius = 0.1F, .query_radius = 0.1F, .bounds_relaxation = 0.5F}),
       compare::InputError);

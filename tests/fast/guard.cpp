@@ -388,6 +388,7 @@ TEST_CASE("guard: finders and guards share a mesh; contacts are those of a finde
 
 TEST_CASE("guard: wrong input is refused by argument, vertex and value", "[unit]") {
   CHECK_THAT(refusal_of({.query_radius = 0}), ContainsSubstring("query_radius is 0,"));
+  CHECK_THAT(refusal_of({.query_radius = 2 * fast::most_query_radius}), ContainsSubstring("at most 1048576 [m]"));
   CHECK_THAT(refusal_of({.contact_radius = 0.2F, .query_radius = 0.1F}),
              ContainsSubstring("query_radius is 0.1, but at least contact_radius, 0.2"));
   CHECK_THAT(refusal_of({.contact_radius = -1, .query_radius = 1}), ContainsSubstring("contact_radius is -1"));
