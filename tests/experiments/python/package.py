@@ -51,24 +51,33 @@ def two_layers(side, gap, seed=1):
     return x.astype(np.float32), np.concatenate([faces, faces + np.int32(len(lower))])
 
 
-def counts_during(call):
-    """Returns how often another Python thread came round in the middle half of a call: never if the call keeps the
-    interpreter's lock, because before and after it the other thread has time, but not within."""
+def counts_during(call, attempts=100):
+    """Returns how often another Python thread came round during a call: never if the call keeps the interpreter's lock,
+    because here a thread takes the lock only when another one gives it away. The other thread gives it away in each
+    round. A busy machine may have no time for it during a call, so there are several attempts."""
     done, rounds = threading.Event(), []
 
     def count():
         while not done.is_set():
             rounds.append(time.perf_counter())
+            time.sleep(0)
 
-    thread = threading.Thread(target=count)
+    thread, interval, found = threading.Thread(target=count), sys.getswitchinterval(), 0
+    sys.setswitchinterval(1000)  # [s]; no thread asks for the lock before
     thread.start()
-    begin = time.perf_counter()
-    call()
-    end = time.perf_counter()
-    done.set()
-    thread.join()
-    quarter = (end - begin) / 4
-    return sum(begin + quarter < moment < end - quarter for moment in rounds)
+    try:
+        while found == 0 and attempts > 0:
+            attempts -= 1
+            begin = time.perf_counter()
+            call()
+            end = time.perf_counter()
+            found = sum(begin < moment < end for moment in rounds)
+            rounds.clear()
+    finally:
+        done.set()
+        thread.join()
+        sys.setswitchinterval(interval)
+    return found
 
 
 main = unittest.main
