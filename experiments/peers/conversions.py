@@ -62,6 +62,12 @@ def below(distance, points, allowance=2):
     return rounded_down(np.maximum(distance - slack, 0))
 
 
+def edges_answer(features, parallel, parameters, distance, below):
+    """Returns the outputs of `closest_points` in the order of the header."""
+    first, second = features.T.copy()
+    return first, second, parallel.astype(np.uint8), parameters.astype(np.float32), distance.astype(np.float32), below
+
+
 def at_ends(features, parameters, first, second, distance):
     """Returns features and parameters of two edges by the judge's rule of ties: of equally near features the
     lower-dimensional one. Peers call an end the edge's interior if the parameter of its closest point is exactly 0 or

@@ -77,14 +77,8 @@ def closest_points(first, second):
     features[parallel] = to.EDGE_INTERIOR
     parameters = np.where(parallel[:, None], middle, np.clip(parameters, 0, 1))
     to.log(stage="closest_points", cases=len(a), asked=len(a))  # of nearly parallel edges the distance
-    return (
-        features[:, 0].copy(),
-        features[:, 1].copy(),
-        parallel.astype(np.uint8),
-        parameters.astype(np.float32),
-        np.where(parallel, gap, distance).astype(np.float32),
-        to.below(distance, np.concatenate([a, b], axis=1)),
-    )
+    below = to.below(distance, np.concatenate([a, b], axis=1))
+    return to.edges_answer(features, parallel, parameters, np.where(parallel, gap, distance), below)
 
 
 BARRIERS = {0: ipctk.TwoStageBarrier(), 3: ipctk.ClampedLogBarrier(), 4: ipctk.CubicBarrier()}

@@ -172,14 +172,7 @@ def closest_points(first, second):
     parameters = np.where(parallel[:, None], middle, parameters)
     to.log(stage="closest_points", cases=n, asked=n)  # of nearly parallel edges the distance
     below = to.below(distance, np.concatenate([a, b], axis=1), allowance=8)
-    return (
-        features[:, 0].copy(),
-        features[:, 1].copy(),
-        parallel.astype(np.uint8),
-        parameters.astype(np.float32),
-        np.where(parallel, gap, distance).astype(np.float32),
-        below,
-    )
+    return to.edges_answer(features, parallel, parameters, np.where(parallel, gap, distance), below)
 
 
 @ogc.kernel("activation")

@@ -169,7 +169,7 @@ bool says_cuda(nb::handle value) {
 
 /// Returns the capsule that an object's __dlpack__ makes; none if it raises. stream=1 is CUDA's legacy default stream,
 /// with which our streams synchronise: the object makes it wait for the stream that writes the array. Without the
-/// argument torch would let its streams be.
+/// argument torch makes no stream wait.
 nb::object capsule_of(nb::handle value) {
   nb::dict options;
   if (says_cuda(value)) options["stream"] = 1;
