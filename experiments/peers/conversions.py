@@ -204,6 +204,13 @@ def dihedral(x):
     return np.where(flat, 0, theta), np.where(flat[:, None, None], 0, gradient), least
 
 
+def area_ratio(cases):
+    """Returns J of membranes, the ratio of areas."""
+    x, g = doubles(cases["corner"]), cases["gradient"].astype(np.float64)
+    f = np.einsum("nki,nkj->nij", np.stack([x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]], axis=1), g)
+    return np.linalg.norm(np.cross(f[:, :, 0], f[:, :, 1]), axis=1)
+
+
 def stable_neo_hookean_block(cases):
     """Returns the stage's block of the stable Neo-Hookean membrane without damping (compare/stages/membrane.hpp)."""
     x, g = doubles(cases["corner"]), cases["gradient"].astype(np.float64)
@@ -253,8 +260,10 @@ def nearest_of_edges(a, b):
     cross = (np.cross(e, f) ** 2).sum(axis=1)
     with np.errstate(all="ignore"):
         tries = [((er * ff - fr * ef) / cross, (er * ef - fr * ee) / cross)]
-        tries += [(np.full(len(a), float(k)), np.clip(((a[:, k] - b[:, 0]) * f).sum(axis=1) / ff, 0, 1)) for k in (0, 1)]
-        tries += [(np.clip(((b[:, k] - a[:, 0]) * e).sum(axis=1) / ee, 0, 1), np.full(len(a), float(k))) for k in (0, 1)]
+        for k in range(2):
+            end = np.full(len(a), float(k))
+            tries.append((end, np.clip(((a[:, k] - b[:, 0]) * f).sum(axis=1) / ff, 0, 1)))
+            tries.append((np.clip(((b[:, k] - a[:, 0]) * e).sum(axis=1) / ee, 0, 1), end))
         tries = np.array(tries, np.float64)  # (5, 2, n)
         outside = ~((tries >= 0) & (tries <= 1)).all(axis=1)
         s, t = tries[:, 0, :, None], tries[:, 1, :, None]

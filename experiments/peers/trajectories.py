@@ -7,6 +7,9 @@
 straight motion from it to the next. One row a run. OGC_PROGRAM names the program `ogc`, else build/default/ogc. Where
 newton and warp lie in a folder instead of an environment, PYTHONPATH names it. README.md says what is converted.
 
+The column prepare_s has the time until the first step of the run: that of the first run of a variant has the time to
+compile kernels, which later runs find in a cache.
+
 Variants of Newton: `default`; `exact` has no fast mathematics (enable_fast_math=False); `near` also keeps contacts and
 truncation between primitives that lie two rings of triangles apart, which the default leaves out.
 """
@@ -16,6 +19,7 @@ import csv
 import importlib.metadata
 import json
 import os
+import resource
 import subprocess
 import sys
 import tempfile
@@ -32,7 +36,7 @@ VARIANTS = {
 }
 BLOCK = 10  # steps between two rebuilds of Newton's trees, as in its example of a twisted cloth
 COLUMNS = ["scene", "scale", "program", "version", "variant", "device", "vertices", "triangles", "iterations", "steps",
-           "steps_done", "mean_ms", "worst_ms", "processors_used", "prepare_s", "largest_demand_vertex",
+           "steps_done", "mean_ms", "worst_ms", "processor_ms", "prepare_s", "largest_demand_vertex",
            "largest_demand_edge", "room_vertex", "room_edge", "every", "states", "states_intersecting",
            "intersections_most", "first_intersecting_step", "motions", "motions_meeting", "meetings_most",
            "first_meeting_step", "largest_coordinate_m", "end"]
@@ -250,7 +254,7 @@ def simulate(options):
     print(json.dumps({
         "version": f"newton {importlib.metadata.version('newton')}, warp {importlib.metadata.version('warp-lang')}",
         "device": device.name, "steps_done": len(walls) * BLOCK, "mean_ms": 1e3 * float(np.mean(walls)),
-        "worst_ms": 1e3 * float(np.max(walls)), "processors_used": processors / (sum(walls) * BLOCK),
+        "worst_ms": 1e3 * float(np.max(walls)), "processor_ms": 1e3 * processors / (len(walls) * BLOCK),
         "prepare_s": prepared, "largest_demand_vertex": int(demand[0]), "largest_demand_edge": int(demand[1]),
         "room_vertex": options.room, "room_edge": 2 * options.room, "end": end,
     }))
@@ -277,24 +281,25 @@ def audited(path, every):
 def row_of_newton(options, scene, name, scale, variant, folder):
     states = Path(folder) / "states.npz"
     command = [sys.executable, __file__, "--simulate", folder, "--scale", scale, "--variant", variant, "--device",
-               options.device, "--steps", options.steps, "--every", options.every, "--time-limit", options.time_limit,
+               options.device, "--steps", options.steps, "--every", options.stride, "--time-limit", options.time_limit,
                "--room", options.room, "--states", states, name]
-    environment = {**os.environ, "WARP_CACHE_PATH": str(Path(folder) / "warp")}  # empty, so that times to compile count
+    environment = {**os.environ, "WARP_CACHE_PATH": options.cache}
     done = subprocess.run(list(map(str, command)), env=environment, capture_output=True, text=True, check=False)
     if done.returncode:
         return {"program": "newton", "variant": variant, "end": (done.stderr.strip().splitlines() or ["?"])[-1]}
     found = json.loads(done.stdout.strip().splitlines()[-1])
     positions = np.load(states)["positions"]
     return {"program": "newton", "variant": variant, **found, "largest_coordinate_m": np.abs(positions).max(),
-            **audited(states, options.every)}
+            **audited(states, options.stride)}
 
 
 def row_of_ours(options, scene, name, scale, bounds, folder):
     run = Path(folder) / "run"
     backend = "cuda" if options.device == "cuda" else "cpu"
     command = [program(), "run", name, "--scale", scale, "--backend", backend, "--audit", "off", "--json", "--out", run,
-               "--set", f"bounds={bounds}", "--set", f"frame_steps={options.every}"]
+               "--set", f"bounds={bounds}", "--set", f"frame_steps={options.stride}"]
     command += ["--steps", options.steps] if options.steps else []
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
     try:
         done = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=options.time_limit,
                               check=False)
@@ -302,13 +307,16 @@ def row_of_ours(options, scene, name, scale, bounds, folder):
         return {"program": "ogc", "variant": bounds, "end": "time limit"}
     if done.returncode:
         return {"program": "ogc", "variant": bounds, "end": done.stderr.strip().splitlines()[-1]}
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    spent = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime  # with the start and all writing
     manifest = json.loads((run / "run.json").read_text(encoding="utf-8"))
     with open(run / "steps.csv", encoding="utf-8") as file:
         walls = np.array([float(row["wall [ms]"]) for row in csv.DictReader(file)])
     means = walls[: len(walls) // BLOCK * BLOCK].reshape(-1, BLOCK).mean(axis=1)
     return {"program": "ogc", "variant": bounds, "version": f"ogc {manifest['commit']}", "device": manifest["device"],
             "steps_done": len(walls), "mean_ms": walls.mean(), "worst_ms": means.max(),
-            "prepare_s": manifest["start_seconds"], "end": "all steps", **audited(run, options.every)}
+            "processor_ms": 1e3 * spent / len(walls), "prepare_s": manifest["start_seconds"], "end": "all steps",
+            **audited(run, options.stride)}
 
 
 def rows(options):
@@ -318,6 +326,8 @@ def rows(options):
                 subprocess.run([program(), "scenes", name, "--scale", scale, "--write", folder], check=True,
                                stdout=subprocess.DEVNULL)
                 scene = read_scene(folder, name)
+                steps = options.steps or scene["settings"]["steps"]
+                options.stride = options.every or (1 if steps <= 2400 else 10)
                 asked = [(row_of_ours, bounds) for bounds in options.bounds]
                 asked += [(row_of_newton, variant) for variant in options.variant]
                 for make, which in asked:
@@ -325,9 +335,9 @@ def rows(options):
                         for file in Path(folder).iterdir():
                             (Path(own) / file.name).write_bytes(file.read_bytes())
                         row = make(options, scene, name, scale, which, own)
-                    base = {"scene": name, "scale": scale, "vertices": len(scene["x"]), "every": options.every,
+                    base = {"scene": name, "scale": scale, "vertices": len(scene["x"]), "every": options.stride,
                             "triangles": len(scene["triangles"]), "iterations": scene["settings"]["iterations"],
-                            "steps": options.steps or scene["settings"]["steps"]}
+                            "steps": steps}
                     yield {key: f"{v:.4g}" if isinstance(v, float) else v for key, v in {**base, **row}.items()}
 
 
@@ -339,10 +349,12 @@ def main():
     parser.add_argument("--variant", nargs="*", default=["default", "near"], choices=sorted(VARIANTS))
     parser.add_argument("--bounds", nargs="*", default=["ball", "planes"], help="runs of ours")
     parser.add_argument("--steps", type=int, default=0, help="in place of the scene's; a multiple of 10")
-    parser.add_argument("--every", type=int, default=1, help="states are stored and audited after so many steps")
+    parser.add_argument("--every", type=int, default=0, help="states are stored and audited after so many steps "
+                        "(default: each, but 10 of runs of more than 2,400 steps)")
     parser.add_argument("--time-limit", type=float, default=3600, help="[s] of a run; what it has then is audited")
     parser.add_argument("--room", type=int, default=256, help="pairs that Newton keeps of a vertex; twice as many of "
                         "an edge; pairs beyond are dropped")
+    parser.add_argument("--cache", help="compiled kernels stay in this folder (default: one that is removed)")
     parser.add_argument("--out", help="the table goes into this file, too")
     parser.add_argument("--simulate", dest="folder", help=argparse.SUPPRESS)
     parser.add_argument("--states", help=argparse.SUPPRESS)
@@ -354,10 +366,12 @@ def main():
     writers = [csv.DictWriter(table, COLUMNS, lineterminator="\n", restval="") for table in tables]
     for writer in writers:
         writer.writeheader()
-    for row in rows(options):
-        for writer, table in zip(writers, tables):
-            writer.writerow(row)
-            table.flush()
+    with tempfile.TemporaryDirectory(prefix="ogc-warp-") as cache:  # empty, so the first run of a variant compiles
+        options.cache = options.cache or cache
+        for row in rows(options):
+            for writer, table in zip(writers, tables):
+                writer.writerow(row)
+                table.flush()
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ import enum
 import json
 import math
 import os
+import re
 import sys
 import tempfile
 import types
@@ -98,6 +99,8 @@ sys.modules["ipctk"] = fake_ipctk(CALLS)
 sys.modules["ogc_testbed"] = fake_testbed()
 import ipctk_adapter as adapter  # noqa: E402
 import newton_adapter as newton  # noqa: E402
+import reports  # noqa: E402
+import sets  # noqa: E402
 import trajectories  # noqa: E402
 
 FACES, EDGES = adapter.ipctk.PointTriangleDistanceType, adapter.ipctk.EdgeEdgeDistanceType
@@ -201,7 +204,8 @@ class Newton(unittest.TestCase):
     def test_features_of_triangles(self):
         for name, number, feature in (("AB", 3, to.EDGE_01), ("AC", 4, to.EDGE_20), ("BC", 5, to.EDGE_12)):
             self.assertEqual(newton.FEATURES[number], feature, name)
-        self.assertEqual([newton.FEATURES[k] for k in (0, 1, 2, 6)], [to.CORNER_0, to.CORNER_1, to.CORNER_2, to.INTERIOR])
+        others = [newton.FEATURES[k] for k in (0, 1, 2, 6)]
+        self.assertEqual(others, [to.CORNER_0, to.CORNER_1, to.CORNER_2, to.INTERIOR])
 
     def test_a_lower_bound_is_below_the_distance(self):
         def launch(kernel, count, arguments, outputs):
@@ -300,6 +304,48 @@ class Contacts(unittest.TestCase):
                         case["vertex"] = x
                         # a difference quotient of a function whose second derivative may jump errs by 1e-6 times it
                         self.assertAlmostEqual(force[axis], -(energy[1] - energy[0]) / 2e-6, delta=1e-4)
+
+
+class Sets(unittest.TestCase):
+    def test_two_ways_to_the_distance_of_a_pair_agree(self):
+        rng = np.random.default_rng(3)
+        for _ in range(50):
+            x = np.round(rng.uniform(-1, 1, (4, 3)), 2)
+            of_triangle = -to.nearest_of_triangle(x[None, 0], x[None, 1:])[0], sets.exact_triangle(x[0], x[1:])
+            of_edges = to.nearest_of_edges(x[None, :2], x[None, 2:])[0], sets.exact_edges(x[:2], x[2:])
+            for weights, exact in (of_triangle, of_edges):
+                if len(weights) == 3:
+                    gap = x[0] + weights @ x[1:]
+                else:
+                    s, t = weights
+                    gap = (1 - s) * x[0] + s * x[1] - (1 - t) * x[2] - t * x[3]
+                # both are right to 2⁻⁵³ times the conditioning of the closest points, below 1e4 at two digits
+                self.assertAlmostEqual(float(gap @ gap), float(exact), delta=1e-11)
+
+    def test_pairs_that_share_a_vertex_are_none_and_the_radius_is_open(self):
+        r = sets.RADIUS
+        x = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.2, 0.2, r], [2, 2, 1], [3, 2, 1]])
+        edges, of_triangles, of_edges = sets.pairs_of(x, np.array([[0, 1, 2], [3, 4, 5]]), 2.0**-53)
+        self.assertEqual((len(edges), len(of_triangles), len(of_edges)), (6, 6, 9))
+        self.assertFalse(of_triangles.near.any())  # at the radius
+        x[3, 2] = np.nextafter(r, 0)
+        near = sets.pairs_of(x, np.array([[0, 1, 2], [3, 4, 5]]), 2.0**-53)[1]
+        self.assertEqual([(near.first[i], near.second[i]) for i in np.flatnonzero(near.near)], [(3, 0)])
+
+
+class Reports(unittest.TestCase):
+    def test_each_page_has_lines_and_what_they_print_and_a_row(self):
+        table = (reports.HERE / "README.md").read_text(encoding="utf-8")
+        pages = {path.stem for path in reports.HERE.glob("*.md")} - {"README"}
+        self.assertEqual(pages, set(re.findall(r"^\| \[(\w+)\]\(\1\.md\)", table, re.MULTILINE)))
+        for name in pages:
+            self.assertIn(name.split("_")[0], sum(reports.PROJECTS.values(), ()))
+            blocks = reports.BLOCK.findall((reports.HERE / f"{name}.md").read_text(encoding="utf-8"))
+            self.assertEqual([kind for kind, _ in blocks], ["python", "text"], name)
+            compile(blocks[0][1], name, "exec")
+
+    def test_what_lines_print_is_compared(self):
+        self.assertEqual(reports.printed("print('a')\nprint(1)\n"), "a\n1\n")
 
 
 class Scenes(unittest.TestCase):
