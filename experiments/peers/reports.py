@@ -36,7 +36,7 @@ def main():
     if options.peer == "newton":
         import warp
 
-        warp.config.quiet = True
+        warp.config.log_level = warp.LOG_ERROR  # otherwise it prints what it compiles
     names = options.pages or sorted(p.stem for p in HERE.glob("*.md") if p.stem.split("_")[0] in PROJECTS[options.peer])
     failed = 0
     for name in names:

@@ -293,21 +293,39 @@ double start_gap(const CcdCase& c) {
   return std::sqrt(least);
 }
 
-/// Returns S of the case (ccd_resolution) [m].
-double size_of(const CcdCase& c) {
+/// Returns the displacements relative to their mean [m].
+FourWide own_ways(const CcdCase& c) {
   FourWide way;
   Wide mean{};
-  double coordinate = 0, displacement = 0;
   for (std::size_t k = 0; k < 4; ++k) {
     way[k] = {double{c.to[k].x} - c.from[k].x, double{c.to[k].y} - c.from[k].y, double{c.to[k].z} - c.from[k].z};
     mean = along(mean, 0.25, way[k]);
-    for (const double d : {double{c.from[k].x} - c.from[0].x, double{c.from[k].y} - c.from[0].y,
-                           double{c.from[k].z} - c.from[0].z})
-      coordinate = std::max(coordinate, std::abs(d));
   }
-  for (const Wide& w : way)
-    for (const double d : less(w, mean)) displacement = std::max(displacement, std::abs(d));
+  for (Wide& w : way) w = less(w, mean);
+  return way;
+}
+
+/// Returns S of the case (ccd_resolution) [m].
+double size_of(const CcdCase& c) {
+  double coordinate = 0, displacement = 0;
+  for (const Vec3f& x : c.from)
+    for (const double d : {double{x.x} - c.from[0].x, double{x.y} - c.from[0].y, double{x.z} - c.from[0].z})
+      coordinate = std::max(coordinate, std::abs(d));
+  for (const Wide& w : own_ways(c))
+    for (const double d : w) displacement = std::max(displacement, std::abs(d));
   return coordinate + displacement;
+}
+
+/// Returns a time until which a kernel in double can tell the faces apart: their gap, less 2⁻³⁸ S for rounding, over
+/// the largest speeds of both.
+double surely_apart(const CcdCase& c) {
+  std::array<double, 2> speed{};
+  const FourWide way = own_ways(c);
+  for (std::size_t k = 0; k < 4; ++k) {
+    double& own = speed[is_first(c.kind, k) ? 0 : 1];
+    own = std::max(own, std::sqrt(product(way[k], way[k])));
+  }
+  return (start_gap(c) - 0x1p-38 * size_of(c)) / (speed[0] + speed[1]);
 }
 
 /// Makes the form that finds no impact in cases for which `skips` returns true.
@@ -360,9 +378,10 @@ std::vector<WrongForm> ccd_forms() {
       "starts_not_told_apart_skipped", "faces that rounding does not tell apart at the start never meet: fail open",
       [](const CcdCase& c) { return start_gap(c) <= ccd_resolution * unit_roundoff * size_of(c); }));
   forms.push_back(told("impacts_before_1e-10_skipped", "what meets before 1e-10 of the motion never meets",
-                       &Authority::ccd, [](const CcdIn&, CcdTruth& truth) {
+                       &Authority::ccd, [](const CcdIn& in, CcdTruth& truth) {
                          for (std::size_t i = 0; i < truth.impact.size(); ++i) {
-                           if (truth.early[i] >= 1e-10) continue;  // a right time may be that early or not
+                           // elsewhere a right time may be that early or not, and both are taken
+                           if (truth.early[i] >= 1e-10 || surely_apart(in.cases[i]) > 2e-10) continue;
                            truth.early[i] = truth.impact[i] < 1e-10 ? 1 : 0;
                            truth.impact[i] = std::numeric_limits<double>::infinity();
                          }
