@@ -138,7 +138,7 @@ def model_of(scene, device):
     model.edge_bending_properties.assign(bending_of(scene["x"], edges, scene["bodies"][0]["material"]))
     flags = model.particle_flags.numpy()
     fixed = [np.arange(len(b["x"])) + b["first"] for b in scene["bodies"] if b["fixed"]]
-    index, _ = handles(scene, 0)
+    index, _ = handles(scene, 1)
     for still in [*fixed, index]:
         flags[still] &= ~int(newton.ParticleFlags.ACTIVE)
     model.particle_flags.assign(flags)
