@@ -204,11 +204,17 @@ def dihedral(x):
     return np.where(flat, 0, theta), np.where(flat[:, None, None], 0, gradient), least
 
 
-def area_ratio(cases):
-    """Returns J of membranes, the ratio of areas."""
+def stable_neo_hookean_force(cases):
+    """Returns the stage's force of the stable Neo-Hookean membrane without damping, and J, the ratio of areas."""
     x, g = doubles(cases["corner"]), cases["gradient"].astype(np.float64)
+    mu, lam, area = (cases[name].astype(np.float64)[:, None] for name in ("lame_mu", "lame_lambda", "area"))
     f = np.einsum("nki,nkj->nij", np.stack([x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]], axis=1), g)
-    return np.linalg.norm(np.cross(f[:, :, 0], f[:, :, 1]), axis=1)
+    b = -g.sum(axis=1)
+    cross = np.cross(f[:, :, 0], f[:, :, 1])
+    j = np.linalg.norm(cross, axis=1)[:, None]
+    t = b[:, :1] * f[:, :, 1] - b[:, 1:] * f[:, :, 0]
+    slope = np.cross(t, cross / np.maximum(j, 1e-300))
+    return -area * (mu * np.einsum("nij,nj->ni", f, b) + ((lam + mu) * (j - 1) - mu) * slope), j[:, 0]
 
 
 def stable_neo_hookean_block(cases):

@@ -241,10 +241,11 @@ def stencils(array, chosen):
 
 @ogc.kernel("membrane")
 def membrane(cases):
-    force, block = np.zeros((len(cases), 3), np.float32), np.zeros((len(cases), 6), np.float32)
+    own, ratio = to.stable_neo_hookean_force(cases)
+    force, block = own.astype(np.float32), to.packed(to.stable_neo_hookean_block(cases)).astype(np.float32)
     asked = (cases["model"] == 2) & (cases["damping"] == 0)
     if OWN:  # below, Newton's J is 1e-10 and its normal shorter than 1
-        asked &= to.area_ratio(cases) > 1e-10
+        asked &= ratio > 1e-10
     if asked.any():
         some = cases[asked]
         pos, index = stencils(cases["corner"], asked)
