@@ -216,8 +216,8 @@ def write(rows, path):
 
 def planes_of_ipctk(x, triangles, dx):
     """Yields for each near pair of primitives, by the rule of ipctk's planar filter: whether it is left out (nearer
-    than 1e-10 m), whether the plane's normal, as rounded, separates the two sides exactly, and whether a vertex crosses it
-    before 1e-10 of its step."""
+    than 1e-10 m), whether the plane's normal, as rounded, separates the two sides exactly, and whether a vertex crosses
+    the plane before 1e-10 of its step."""
     import ipctk
     from conversions import exact
 
