@@ -19,7 +19,8 @@
 //         the same with a count on the device, *n ≤ capacity
 //   for_both(int m, F f, const int* n, int capacity, G g)
 //         for_each(m, f) and for_each_counted(n, capacity, g) in any order, in one launch on a device; neither reads
-//         what the other writes
+//         what the other writes. If G has `load`, a device may call g(i, g.load(i)); `load` must not read what this
+//         launch writes
 //   for_each_team<W>(int n, F f, Start start)
 //         calls f(i, team). f calls team.sum<Accumulator>(parts...) once, with F::parts parts, in the order of
 //         fast/kernels/team.hpp, so only W can change a bit. The thread for which team.leader() holds has the total and

@@ -83,7 +83,7 @@ struct SumContacts {
     ContactIncidence contact;
     ResolveContact here = resolve;
     here.stream = &contact;
-    here(0, incidence);
+    here(0, incidence, here.record(incidence));
     ContactSum sum{contact_term<pairs>(at, activation, OneItem<ContactIncidence>{contact}), {}};
     if (friction != nullptr && contact.friction > 0) sum.friction = friction_alone<pairs>(at, activation, contact);
     return sum;
