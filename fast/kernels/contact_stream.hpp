@@ -107,22 +107,24 @@ OGC_HD inline std::uint8_t slot_of_role(bool edge_edge, ContactKind kind, int ro
   return static_cast<std::uint8_t>(shifted ? role + 1 : role);
 }
 
-/// Writes each free vertex's row of the contact stream: its begin and its numbers of contacts. Runs once for each slot.
-/// `Item` is a type of incidence; the incidences of a row may be in any order.
-template <class Item>
+/// Writes each free vertex's rows of the contact stream. Runs once for each slot.
 struct CopyContactRows {
-  const int* incidence_offsets;  ///< by vertex, vertices + 1
-  const Item* incidences;        ///< row of vertex v: from incidence_offsets[v]
+  RowNumbers numbers;            ///< of the detection
+  const int* incidence_offsets;  ///< by row, numbers.count() + 1
   const int* overflow;           ///< not 0: nothing is written; null: rows are always written
   const SweepVertex* vertices;   ///< by slot
-  ContactRow* rows;              ///< by slot, written; a row begins where the vertex's row of incidences begins
+  ContactRow* rows;              ///< by slot, written; a row is where the vertex's row of incidences is
 
   OGC_HD void operator()(int slot) const {
     if (overflow != nullptr && *overflow != 0) return;
-    const int v = vertices[slot].vertex, begin = incidence_offsets[v], end = incidence_offsets[v + 1];
-    int vertex_facet = 0;
-    for (int k = begin; k < end; ++k) vertex_facet += incidences[k].code >> 31 == 0 ? 1 : 0;
-    rows[slot] = {begin, vertex_facet, end - begin};
+    const int v = vertices[slot].vertex;
+    rows[slot] = {row(numbers(v, false)), row(numbers(v, true))};
+  }
+
+ private:
+  OGC_HD Row row(int number) const {
+    const int begin = incidence_offsets[number];
+    return {begin, incidence_offsets[number + 1] - begin};
   }
 };
 

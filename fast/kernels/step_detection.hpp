@@ -25,7 +25,7 @@ struct BeginStepDetection {
 /// stream. Runs once for each slot, and at least once.
 struct EndStepDetection {
   EndDetection end;
-  CopyContactRows<LooseIncidence> rows;
+  CopyContactRows rows;
   int slots;  ///< free vertices
 
   OGC_HD void operator()(int i) const {
