@@ -50,9 +50,8 @@ void keep_from_children() {
 /// would tell, but only between two questions; this also ends a plug-in that never returns. A signal at the parent's
 /// end is no choice: it comes when the thread ends that started this process.
 void end_with_parent() {
-  constexpr std::chrono::milliseconds between_looks{200};
   std::thread([parent = getppid()] {
-    while (getppid() == parent) std::this_thread::sleep_for(between_looks);
+    while (getppid() == parent) std::this_thread::sleep_for(std::chrono::milliseconds(200));
     if (getpgrp() == getpid()) kill(0, SIGKILL);
     _exit(exit_check_failed);
   }).detach();
