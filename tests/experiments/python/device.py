@@ -1,15 +1,21 @@
 """The Python package on a CUDA device: arrays stay there, and the host's arrays give the same bits.
 
-Usage: device.py BUILD_DIR. Exit status 77: skipped, there is no usable device, or a Python package is missing.
+Usage: device.py BUILD_DIR [PROGRAM]. Without the program `ogc` a simulation is not compared with it. Exit status 77:
+skipped, there is no usable device, or a Python package is missing.
 """
 
+import functools
 import gc
+import json
+import subprocess
 import sys
+import tempfile
 import unittest
+from pathlib import Path
 
 from package import main, prepare, two_layers
 
-prepare(__doc__)
+_, PROGRAM = prepare(__doc__)
 import numpy as np  # noqa: E402
 
 import ogc_testbed as ogc  # noqa: E402
@@ -134,8 +140,6 @@ class Device(unittest.TestCase):
                 call()
         with self.assertRaisesRegex(ValueError, "x: 3 rows came for 512"):
             ogc.find_contacts(self.mesh, DeviceArray(self.x[:3]), RADIUS, QUERY, backend="cuda")
-        with self.assertRaisesRegex(TypeError, "x: .* on the host is needed, .* on a device"):
-            ogc.find_contacts(self.mesh, ogc.find_contacts(self.mesh, there, RADIUS, QUERY, backend="cuda").bound, 1, 1)
 
     def test_what_only_says_that_it_is_there_is_refused(self):
         """A kernel that read the host's memory would end all work of the process on the device."""
@@ -163,6 +167,18 @@ class Device(unittest.TestCase):
         groups[scene.bodies[1].vertices] = 0
         self.assertTrue(ogc.audit(np.stack(states), scene.faces, groups=groups).clean)
         self.assertGreater(sim.metrics.vertex_facet_contacts[-1], 0)
+
+    @unittest.skipUnless(PROGRAM, "no program was named")
+    def test_a_simulation_ends_where_the_program_ends(self):
+        scene = ogc.scene("cloth_on_sphere", scale="smoke")
+        sim = scene.start(backend="cuda")
+        sim.advance(int(scene.settings["steps"]))
+        with tempfile.TemporaryDirectory() as folder:
+            words = "run cloth_on_sphere --scale smoke --backend cuda --json --out".split()
+            done = subprocess.run([*PROGRAM, *words, Path(folder) / "run"], stdout=subprocess.PIPE, check=True)
+        ours = functools.reduce(lambda hash, byte: (hash ^ byte) * 0x100000001B3 % 2**64, sim.positions.tobytes(),
+                                0xCBF29CE484222325)  # FNV-1a
+        self.assertEqual(f"{ours:016x}", json.loads(done.stdout)["final_hash"])
 
 
 if __name__ == "__main__":
