@@ -1,11 +1,13 @@
 """Arrays of torch, CuPy and Warp go in and out where they lie, on the streams of their libraries.
 
-Usage: other_arrays.py BUILD_DIR. What is not installed is skipped; so is a device that is not there.
+Usage: other_arrays.py BUILD_DIR. What is not installed is skipped; so is a device that is not there. Exit status 77:
+skipped, nothing is there.
 """
 
 import contextlib
 import gc
-import importlib
+import importlib.util
+import sys
 import unittest
 
 from package import main, prepare, two_layers
@@ -17,6 +19,9 @@ import ogc_testbed as ogc  # noqa: E402
 
 RADIUS, QUERY = 5e-3, 5e-2
 HAS_DEVICE = ogc.backend_info("cuda")["usable"]
+if not any(importlib.util.find_spec(name) for name in (["torch", "warp"] + ["cupy"] * HAS_DEVICE)):
+    print("SKIPPED: none of torch, Warp and, with a device, CuPy is installed")
+    sys.exit(77)
 
 
 class Torch:
