@@ -13,6 +13,7 @@
 #include "compare/stages/closest_points.hpp"
 #include "tests/catch.hpp"
 
+#include "compare/problem/error.hpp"
 #include "compare/problem/scene.hpp"
 #include "compare/record/steps_csv.hpp"
 #include "experiments/scenes/registry.hpp"
