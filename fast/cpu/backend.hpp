@@ -116,6 +116,8 @@ class CpuBackend {
   using Buffer = CpuBuffer<T>;
   using Sums = HostSums;
 
+  int device() const { return -1; }
+
   /// Runs ranges of items as tasks; up to 64 items stay in the calling thread.
   template <class F>
   void for_each(int n, F f) {

@@ -227,6 +227,8 @@ class CudaBackend {
   CudaBackend& operator=(CudaBackend&&) = delete;
   ~CudaBackend();
 
+  int device() const { return device_; }
+
   /// Launches one thread per item. If the device cannot hold so many threads, a thread takes several items.
   template <class F>
   void for_each(int n, F f) {
@@ -448,7 +450,7 @@ class CudaBackend {
 
   cudaStream_t stream_ = nullptr, current_ = nullptr;
   bool recording_ = false, follows_ = false, in_branch_ = false;
-  int block_threads_ = cuda_block_size, multiprocessors_ = 1;
+  int device_ = 0, block_threads_ = cuda_block_size, multiprocessors_ = 1;
   Scratch scratch_, branch_scratch_;
   std::vector<cudaStream_t> branches_;  // of the current recording
   std::vector<cudaEvent_t> crossings_;  // of the current recording: events where branches begin and end

@@ -9,6 +9,8 @@
 //     void upload(const T*, std::size_t n); void download(T*, std::size_t n) const; void fill_zero();
 //         host only, outside a step
 //
+//   int device() const                   number of the CUDA device with the memory; −1: it is the host's
+//
 //   for_each(int n, F f)
 //         calls f(i) for 0 ≤ i < n in any order; no result may depend on the order. If F has `ahead`: f(i, f.ahead(i));
 //         `ahead` must not read what this or the previous launch writes
