@@ -412,6 +412,12 @@ class Scenes(unittest.TestCase):
         rows = trajectories.bending_of(x, np.array([[0, 1, 2, 3], [0, -1, 2, 3]]), material)
         np.testing.assert_allclose(rows, [[3 * 5 * 4 / (1 + 3) / 2, 0.5 * 3 * 5 * 4 / (1 + 3) / 2], [0, 0]])
 
+    def test_a_stored_state_stays_when_the_array_goes_on(self):
+        memory = np.zeros(3)
+        state = trajectories.copied(types.SimpleNamespace(numpy=lambda: memory[:]))
+        memory += 1
+        np.testing.assert_array_equal(state, 0)
+
     def test_a_mesh_comes_from_its_file(self):
         header = ("ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
                   "property double z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n")
