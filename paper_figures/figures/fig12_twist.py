@@ -4,7 +4,7 @@ detections and distances."""
 from paper_figures.workflow.common import main
 from plots.camera import near_middle
 
-TITLE = "Fig. 12. A cloth survives eight turns: tight folds, nothing intersects"
+TITLE = "Fig. 12. A cloth is twisted eight turns into a tight rope"
 ALT = ("Five renderings of a square cloth, blue in front and sand behind. Its left and right edges turn against each "
        "other; the middle becomes a rope that gets longer and thinner with each turn, and the close view shows its "
        "wound layers side by side, none through another.")

@@ -240,7 +240,7 @@ def draw_tension(axes, runs):
         weaker = commands.YARN_STIFFNESS.index(round(material(run)[1]))
         colour = (style.OURS if kind_of(run) == "ogc" else style.BASELINE)
         axes.plot(seconds(run), tension(run), (style.DASHES)[weaker], color=colour, linewidth=1,
-                  label=label(run).replace(", ", ",\n"))
+                  label=label(run).replace(", k_c = ", ",\n"))
         part, first = first_among([run, *windows_of(name, runs)])
         if first is not None:
             axes.plot(seconds(part)[first], tension(part)[first], "x", color=colour, markersize=8, markeredgewidth=2)
