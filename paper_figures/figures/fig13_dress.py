@@ -79,8 +79,10 @@ def draw(run, out):
     frames = frames_at(run, scaled(run, STEPS))
     seen = [frame for frame in frames if frame] or [run.frame(run.frames[-1])]
     volume = "vertices_inside" in run.steps and np.any(run.column("vertices_inside") > 0)
-    figure, rows = style.page([style.pictures(2, BROAD), style.pictures(4, TALL), PLOTS], TITLE,
-                              beside_paper(run, claims_of(run)))
+    last, below = int(run.column("step")[-1]), beside_paper(run, claims_of(run))
+    if run.manifest.get("scale") == "paper" and last < STEPS[-1]:
+        below += f"; the first {last} of {STEPS[-1]} steps"
+    figure, rows = style.page([style.pictures(2, BROAD), style.pictures(4, TALL), PLOTS], TITLE, below)
     axes = rows[0][0]
     usable, reason = render.available()
     pieces, points = exploded(run, seen[0])
