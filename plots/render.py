@@ -259,9 +259,9 @@ def _draw_bar(image, distance):
               stroke_fill=style.GROUND)
 
 
-def write_movie(scenes, camera, out, frames_per_second, size=(1280, 720), **look):
-    """Writes an MP4 (H.264) with a picture of each element of `scenes`, which are like `bodies` of `picture`; `look`:
-    its other options. Returns the result of `available`."""
+def write_movie(scenes, camera, out, frames_per_second, size=(1280, 720), hold=1, **look):
+    """Writes an MP4 (H.264) with a picture of each element of `scenes`, which are like `bodies` of `picture`; each is
+    shown for `hold` frames; `look`: other options of `picture`. Returns the result of `available`."""
     usable, reason = available()
     try:
         import imageio
@@ -272,5 +272,7 @@ def write_movie(scenes, camera, out, frames_per_second, size=(1280, 720), **look
         with imageio.get_writer(out, fps=frames_per_second, codec="libx264", quality=6, macro_block_size=16,
                                 ffmpeg_log_level="error") as writer:
             for bodies in scenes:
-                writer.append_data(picture(bodies, camera, size, finer=FINER_IN_MOVIES, **look))
+                image = picture(bodies, camera, size, finer=FINER_IN_MOVIES, **look)
+                for _ in range(hold):
+                    writer.append_data(image)
     return usable, reason

@@ -144,15 +144,16 @@ def draw_distance(axes, run):
     style.label_ends(axes)
 
 
-def draw_movie(run, out, camera=None, most=300):
+def draw_movie(run, out, camera=None, most=300, shortest=4):
     """Writes an MP4 of a finished run's stored frames, 30 in a second. If there are more than `most`, takes only every
-    second, third … of them. Throws RunError like `draw`."""
+    second, third … of them; if they would last less than `shortest` seconds, each is shown for several frames. Throws
+    RunError like `draw`."""
     run.require_finished()
     chosen = run.frames[::-(-len(run.frames) // most)]
     shown = [run.frame(path) for path in chosen[::max(1, len(chosen) // 12)]]
     frames = (bodies_of(run, run.frame(path)) for path in chosen)
     usable, reason = render.write_movie(frames, camera or fitted(run, shown, MOVIE), out, FRAMES_A_SECOND, MOVIE,
-                                        **look_of(run))
+                                        max(1, -(-shortest * FRAMES_A_SECOND // len(chosen))), **look_of(run))
     if not usable:
         raise RunError(f"{out} can't be made: {reason}")
 
