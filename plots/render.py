@@ -135,7 +135,7 @@ def _add_lines(plotter, points, edges, colour, wide):
     lines = pv.PolyData(np.asarray(points, np.float32), lines=np.hstack([np.full((len(edges), 1), 2), edges]).ravel())
     actor = plotter.add_mesh(lines, color=colour, line_width=wide, lighting=False)
     actor.mapper.SetResolveCoincidentTopologyToPolygonOffset()
-    actor.mapper.SetRelativeCoincidentTopologyLineOffsetParameters(-2, -2)
+    actor.mapper.SetRelativeCoincidentTopologyLineOffsetParameters(-1, -1)
 
 
 def _shadow(points, triangles, light, height, corner, side):
