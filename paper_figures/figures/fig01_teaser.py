@@ -19,8 +19,8 @@ ALT = ("Renderings of scenes, each at one moment, sheets blue in front and sand 
 WORDS = {"fifty_layers": "fifty cloths", "knot": "four knots, pulled", "twist": "a cloth, twisted",
          "three_cloths_on_sphere": "three cloths on a sphere", "dress": "a dress on a dancer",
          "robot_shirt": "a T-shirt between grippers",
-         "cloth_on_sphere": "a cloth on a sphere", "yarn_twist": "a knitted cloth of one yarn, twisted",
-         "yarn_stretch": "a knitted cloth of one yarn, pulled", "mat_twist": "a solid mat, twisted"}
+         "cloth_on_sphere": "a cloth on a sphere", "yarn_twist": "one yarn, knitted, twisted",
+         "yarn_stretch": "one yarn, knitted, pulled", "mat_twist": "a solid mat, twisted"}
 
 
 def camera_of(run, frame):
@@ -33,12 +33,13 @@ def camera_of(run, frame):
 
 
 def words(run, frame):
-    """Returns a label with what is seen, its number of vertices, and its mean time a step."""
+    """Returns a label with what is seen, its number of vertices, and on a GPU its mean time a step."""
     scene = run.manifest["scene"]
     vertices = sum(body["vertex_count"] for body in scene["bodies"] if is_cloth(body))
     wall = np.mean(run.column("wall")[1:])
     where = run.manifest["device"].partition(",")[0].removeprefix("NVIDIA ")
-    return f"{WORDS[scene['name']]}, {moment(frame)}: {vertices:,} vertices, {wall:.2g} ms a step ({where})"
+    time = f", {wall:.2g} ms a step ({where})" if run.manifest["backend"] == "cuda" else ""
+    return f"{WORDS[scene['name']]}, {moment(frame)}: {vertices:,} vertices{time}"
 
 
 def draw(runs, out):
