@@ -195,13 +195,15 @@ def table(runs, how_far):
 
 
 def moments(scene, runs, kind):
-    """Returns [(run, frame)] of the pictures of a kind: of its shown run, and of the cloth that is let go."""
+    """Returns [(run, frame)] of the pictures of a kind: of its shown run, and of the cloth that is let go, whose frames
+    are enough."""
     run = runs[main_runs(scene)[kind]]
     found = [(run, run.frame_at_step(round(share * run.column("step")[-1]))) for share in SHOWN[scene]]
-    released = runs.get(f"{kind}_released")
-    if released is not None and released.frames:
-        first, last = released.column("step")[0], released.column("step")[-1]
-        found += [(released, released.frame_at_step(round(first + share * (last - first)))) for share in LET_GO]
+    released = sorted((run.folder.parent / f"{kind}_released/frames").glob("frame_*.h5"))
+    steps = [int(path.stem.removeprefix("frame_")) for path in released]
+    for share in LET_GO if steps else ():
+        wanted = run.column("step")[-1] + share * (steps[-1] - run.column("step")[-1])
+        found.append((run, run.frame(released[int(np.argmin([abs(step - wanted) for step in steps]))])))
     return found
 
 
@@ -212,7 +214,7 @@ def draw_pictures(axes, scene, found, words):
         middle = np.median(points[~fallen], axis=0)
         near = np.linalg.norm(points - middle, axis=1) < FALLEN  # threads that have come off fall far
         camera = view_of(scene).fit(points[near], SIZE[scene])
-        free = ", let go" if run.manifest["scene"]["name"].endswith("_released") else ""
+        free = ", let go" if frame.step > run.column("step")[-1] else ""
         show(place, run, frame, camera, f"{words}, {moment(frame)}{free}", SIZE[scene])
     for place in axes[len(found):]:
         style.not_run(place)
