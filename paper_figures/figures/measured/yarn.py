@@ -45,10 +45,10 @@ ALTS = {commands.STRETCH: "Renderings of a knitted cloth of one yarn that is pul
                           "its loops become long and narrow and hold. With the penalty force threads pass through one "
                           "another and the cloth comes apart. Close views show the loops of both, a plot the tension "
                           "over time, and a table the number of pull-throughs.",
-        commands.YARN_TWIST: "Renderings of a hanging knitted cloth of one yarn whose lower edge is turned five times and "
-                             "then let go. With OGC it becomes a rope and, let go, hangs down as one, unbroken. With the "
-                             "penalty force threads pass through one another, tangle, and the cloth comes apart. Close "
-                             "views, a plot of the tension, and a table of pull-throughs."}
+        commands.YARN_TWIST: "Renderings of a hanging knitted cloth of one yarn whose lower edge is turned five times "
+                             "and then let go. With OGC it becomes a rope and, let go, hangs down as one, unbroken. "
+                             "With the penalty force threads pass through one another, tangle, and the cloth comes "
+                             "apart. Close views, a plot of the tension, and a table of pull-throughs."}
 
 
 def runs_of(options):
