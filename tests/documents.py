@@ -44,6 +44,8 @@ NOT_RUN = {
     r"--cases \d{6,}|ogc compare( |$)(?!.*(--problem|truncate))": "minutes; the judge's own tests ask every stage",
     r"data=input": "a data set that is not part of this repository",
     r"ogc laws --quick": "a test of its own asks them, and knows which are broken today",
+    r"ogc view runs/my_run$": "a window, which needs a display",
+    r"--format usd": "needs usd-core, which is optional; tests/plots/view.py exports where it is",
     r"ogc bench": "seconds a repetition, and it wants a machine for itself",
     r"^pip install (\.|.?ogc-testbed)": "minutes; tests/experiments/python/wheel.py builds the wheel",
     r"^experiments/python/wheels": "minutes, and one wheel needs nvcc",
