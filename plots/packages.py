@@ -7,17 +7,27 @@ import sys
 
 # module -> (what pip installs, its size when installed with what it brings, what it is for)
 KNOWN = {
+    "numpy": ("numpy==2.4.6", "75 MB", "all arrays"),
     "polyscope": ("polyscope==2.6.1", "14 MB", "windows"),
     "pxr": ("usd-core==26.11", "157 MB", "USD files"),
     "pyvista": ("pyvista==0.49.1 vtk==9.7.2", "580 MB", "pictures without a display"),
-    "imageio_ffmpeg": ("imageio==2.38.1 imageio-ffmpeg==0.8.1", "80 MB", "movies"),
+    "imageio_ffmpeg": ("imageio==2.38.1 imageio-ffmpeg==0.8.1", "168 MB", "movies"),
     "h5py": ("h5py==3.16.0", "17 MB", "the frames of runs"),
-    "PIL": ("pillow==13.0.0", "20 MB", "pictures"),
+    "PIL": ("pillow==13.0.0", "22 MB", "pictures"),
 }
 
 
 class Missing(Exception):
     """Raised if a package is missing and was not installed; the message names the command that installs it."""
+
+
+def begin(program):
+    """Called before NumPy is imported: without it the program ends in words, with status 2."""
+    try:
+        need(["numpy"], "--yes" in sys.argv)
+    except Missing as problem:
+        print(f"{program}: {problem}", file=sys.stderr)
+        sys.exit(2)
 
 
 def need(modules, yes=False, ask=input):

@@ -8,13 +8,15 @@ import argparse
 import sys
 from pathlib import Path
 
-import numpy as np
+from plots.packages import Missing, begin, need
 
-from ogc_testbed.motion import rgb
-from ogc_testbed.runs import RunError
-from plots.packages import Missing, need
-from plots.progress import Progress
-from plots.sheets import motion_at
+begin("ogc")
+import numpy as np  # noqa: E402
+
+from ogc_testbed.motion import rgb  # noqa: E402
+from ogc_testbed.runs import RunError  # noqa: E402
+from plots.progress import Progress  # noqa: E402
+from plots.sheets import motion_at  # noqa: E402
 
 SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 

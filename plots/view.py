@@ -11,11 +11,13 @@ import sys
 import time
 from pathlib import Path
 
-from ogc_testbed.page import Page
-from ogc_testbed.runs import RunError
-from plots.packages import Missing, need
-from plots.progress import Progress
-from plots.sheets import motion_at, of_run
+from plots.packages import Missing, begin, need
+
+begin("ogc view")
+from ogc_testbed.page import Page  # noqa: E402
+from ogc_testbed.runs import RunError  # noqa: E402
+from plots.progress import Progress  # noqa: E402
+from plots.sheets import motion_at, of_run  # noqa: E402
 
 BAD_INPUT, NO_DISPLAY = 2, 3
 POLL = 0.2  # time between looks at a run that goes on [s]

@@ -98,6 +98,8 @@ pid_t spawn(const std::string& module, std::vector<std::string> words, bool alon
   posix_spawnattr_setflags(&attributes, static_cast<short>(POSIX_SPAWN_SETSIGDEF | (alone ? POSIX_SPAWN_SETSID : 0)));
   if (alone) {
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    // A pipe would have no end as long as the viewer is open, and its reader would wait for it.
+    if (isatty(STDERR_FILENO) == 0) posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
   }
   pid_t process = -1;

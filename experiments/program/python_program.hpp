@@ -15,7 +15,7 @@ namespace ogc::experiments {
 int run_python(const std::string& module, std::vector<std::string> words);
 
 /// Starts the same and does not wait. The process has a lower priority and a session of its own, so that it neither
-/// slows this program nor ends with it; it has no input, and prints on standard error. Throws as run_python does.
+/// slows this program nor ends with it; it has no input, and prints on a terminal alone. Throws as run_python does.
 void start_python(const std::string& module, std::vector<std::string> words);
 
 /// A new folder in the system's folder of temporary files, which the destructor removes if it is still there. Throws

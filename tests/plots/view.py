@@ -333,6 +333,13 @@ class Program(Scratch):
     def test_meshes_and_scenes_are_shown(self):
         for words in ([self.folder / "two.obj"], ["cloth_on_sphere", "--scale", "smoke"]):
             self.assertGreater(self.shown(*words).std(), 5)
+        page = self.folder / "mesh.html"
+        self.assertEqual(ogc("view", self.folder / "two.obj", "--html", page).returncode, 0)
+        found = re.search(r'<script type="application/json" id="data">(.*?)</script>', page.read_text(), re.S)
+        (code,) = json.loads(found[1])["motions"]
+        self.assertTrue(np.allclose(positions_in(code)[0], [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 0.1], [1, 0, 0.1],
+                                                            [0, 1, 0.1]], rtol=0, atol=1e-5))
+        self.assertEqual(unpacked(code["triangles"], np.int32).tolist(), list(range(6)))
 
     def test_a_movie_and_a_page(self):
         movie, page = self.folder / "movie.mp4", self.folder / "page.html"
@@ -387,6 +394,15 @@ class Program(Scratch):
                 self.assertNotIn("Traceback", done.stderr)
         self.assertFalse(png[1].exists())
 
+    def test_an_interpreter_without_numpy_is_named_with_what_it_lacks(self):
+        bare = self.folder / "bare"
+        subprocess.run([sys.executable, "-m", "venv", "--without-pip", bare], check=True, capture_output=True)
+        for words in (["view", self.run_folder, "--html", "x.html"], ["export", self.run_folder, "--format", "usd"]):
+            done = ogc(*words, OGC_PYTHON=str(bare / "bin" / "python"), PYTHONPATH="")
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn("lacks numpy==2.4.6 (75 MB installed)", done.stderr)
+            self.assertNotIn("Traceback", done.stderr)
+
     def test_sheets_are_removed(self):
         place = self.folder / "temporary"
         place.mkdir()
@@ -411,6 +427,7 @@ class Program(Scratch):
         viewer, number = self.folder / "viewer", self.folder / "number"
         viewer.write_text(f'#!/bin/sh\ncase "$*" in *--check*) exit 0 ;; esac\necho $$ > {number}\nexec sleep 600\n')
         viewer.chmod(0o755)
+        # the test reads the program's output to its end, which a viewer that kept it open would delay
         done = ogc("run", "cloth_on_sphere", "--scale", "smoke", "--steps", "4", "--out", self.folder / "alone",
                    "--view-png", self.folder / "x.png", OGC_PYTHON=str(viewer))
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -20,6 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 
 template <class T>
+std::string_view bytes_of(const std::vector<T>&& values) = delete;  // the bytes would not outlive them
+
+template <class T>
 std::string_view bytes_of(const std::vector<T>& values) {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
@@ -45,7 +48,8 @@ void write_scene_sheet(const fs::path& sheet, const compare::Scene& scene) {
                       {"vertex_count", body.vertex_count},
                       {"still", is_still(body, groups)}});
   write_faces(sheet, scene.mesh.triangles, scene.mesh.loose_edges);
-  compare::write_bytes(sheet / "positions", bytes_of(compare::to_single(scene.mesh.positions)));
+  const std::vector<compare::Vec3f> positions = compare::to_single(scene.mesh.positions);
+  compare::write_bytes(sheet / "positions", bytes_of(positions));
   const Json json{{"name", scene.name}, {"frames", 1}, {"radius", scene.settings.contact_radius}, {"bodies", bodies}};
   compare::write_bytes(sheet / "sheet.json", json.dump());
 }
@@ -71,7 +75,8 @@ void write_frames_sheet(const fs::path& sheet, AuditSource& source, const SheetR
     topology = state.topology;
     if (count > 1) progress.show(static_cast<std::int64_t>(i + 1), "");
     if ((count - 1 - i) % every != 0) continue;
-    const std::string_view bytes = bytes_of(compare::to_single(state.positions));
+    const std::vector<compare::Vec3f> single = compare::to_single(state.positions);
+    const std::string_view bytes = bytes_of(single);
     positions.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     ++frames;
   }

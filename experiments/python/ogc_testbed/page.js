@@ -100,7 +100,7 @@ const sub = (a, b) => a.map((x, i) => x - b[i]), add = (a, b, s = 1) => a.map((x
 const dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const unit = (a) => a.map((x) => x / Math.max(Math.hypot(...a), 1e-30));
-const home = () => ({ turn: Math.atan2(0.55, 1), lift: 0.3, distance: 2.6 * data.radius, target: [...data.target] });
+const home = () => ({ turn: Math.atan2(0.55, 1), lift: 0.3, distance: 3.5 * data.radius, target: [...data.target] });
 let camera = home();
 
 function axes() {
@@ -137,6 +137,7 @@ const FRAGMENT = `#version 300 es
 precision highp float; in vec3 n, place; in vec4 f, b; uniform vec3 eye; uniform vec4 flat_colour; out vec4 colour;
 void main() {
   if (flat_colour.a > 0.0) { colour = flat_colour; return; }
+  if (length(n) == 0.0) { colour = vec4(f.rgb, 1.0); return; }  // curves have no normal
   vec3 normal = normalize(n), toward = normalize(eye - place);
   bool front = gl_FrontFacing;
   if (!front) normal = -normal;
@@ -221,8 +222,8 @@ function drawMotion(motion) {
   };
   flat(null, 0);
   elements(gl.TRIANGLES, "triangles", motion.triangles.length);
-  flat("#202020", 2e-4);
   elements(gl.LINES, "edges", motion.edges.length);
+  flat("#202020", 2e-4);
   if ($("wires").checked) elements(gl.LINES, "wires", motion.wires.length);
   for (const n of [1, 2, 3]) gl.disableVertexAttribArray(n);
   for (const [box, ends, colour] of [["contacts", contactEnds, data.contacts], ["planes", planeEnds, data.planes]])
@@ -234,8 +235,10 @@ function drawMotion(motion) {
     gl.bindBuffer(gl.ARRAY_BUFFER, buffers.lines);
     gl.bufferData(gl.ARRAY_BUFFER, values, gl.DYNAMIC_DRAW);
     bind(0, buffers.lines, 3);
-    flat(colour, 1e-2);
+    flat(colour, 0);
+    gl.disable(gl.DEPTH_TEST);  // contacts lie between surfaces, which would hide them
     gl.drawArrays(kind, 0, values.length / 3);
+    gl.enable(gl.DEPTH_TEST);
   }
 }
 
