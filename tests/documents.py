@@ -134,7 +134,7 @@ class Place:
         shutil.copy(self.folder / "build/default/ogc", self.folder / "PROGRAM")  # name used in documents
 
     def run(self, words, limit=100, **variables):
-        environment = {**os.environ, **variables}
+        environment = {**os.environ, "OGC_PYTHON": sys.executable, **variables}
         environment["PATH"] = f"{self.folder / 'build/default'}:{environment['PATH']}"
         done = subprocess.run(list(map(str, words)), cwd=self.folder, env=environment, capture_output=True, text=True,
                               timeout=limit, check=False)

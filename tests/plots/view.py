@@ -341,6 +341,13 @@ class Program(Scratch):
                                                             [0, 1, 0.1]], rtol=0, atol=1e-5))
         self.assertEqual(unpacked(code["triangles"], np.int32).tolist(), list(range(6)))
 
+    def test_a_scene_stands_beside_a_mesh(self):
+        out = self.folder / "both.html"
+        done = ogc("view", "cloth_on_sphere", "--scale", "smoke", "--beside", self.folder / "two.obj", "--html", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("two.obj: has one size; --scale belongs to the built-in scenes", done.stderr)
+        self.assertIn("<title>cloth_on_sphere beside two</title>", out.read_text())
+
     def test_a_movie_and_a_page(self):
         movie, page = self.folder / "movie.mp4", self.folder / "page.html"
         done = ogc("view", self.run_folder, "--every", "8", "--mp4", movie, "--html", page)
@@ -381,7 +388,6 @@ class Program(Scratch):
                  ((self.folder / "two.obj", "--colour", "speed", *png), {}, "a mesh has positions alone"),
                  ((self.folder / "nothing.obj", *png), {}, "nothing.obj"),
                  ((empty, *png), {}, "empty"),
-                 ((self.run_folder, "--scale", "smoke", *png), {}, "--scale belongs to the built-in scenes"),
                  ((self.run_folder, "--follow", "--html", "x.html"), {}, "--follow shows a run that goes on"),
                  ((self.run_folder, *png), {"OGC_PYTHON": "/nowhere/python3"}, "/nowhere/python3 can't be started"),
                  ((self.run_folder, *png), {"OGC_ROOT": "/nowhere"}, "OGC_ROOT names /nowhere"),

@@ -114,8 +114,7 @@ void write_sheet(const fs::path& sheet, const SheetRequest& request) {
     options.scale = request.scale;
     return write_scene_sheet(sheet, request_of(options, {}).scene);
   }
-  if (!request.scale.empty())
-    throw compare::InputError("--scale belongs to the built-in scenes (" + scene_names() + "); " + first + " is none");
+  if (!request.scale.empty()) log_line("ogc: " + first + ": has one size; --scale belongs to the built-in scenes");
   if (request.source.paths.size() == 1 && fs::is_regular_file(fs::path(first) / "run.json", ignored))
     return write_run_sheet(sheet, first, compare::RunReader(first).scene().mesh);
   write_frames_sheet(sheet, *open_audit(request.source), request);
