@@ -19,7 +19,7 @@ from paper_figures.workflow.runs import provenance, write_table
 from plots import render, style
 from plots.movie import camera_of
 from ogc_testbed.runs import Run, RunError, commits_in_words
-from plots.scene_figure import bodies_of
+from plots.bodies import bodies_of
 
 NAME = "mat_volumes"
 ROWS = {commands.MAT_VOLUMES: "volume", commands.MAT: "balls", commands.MAT_PLANES: "planes"}
