@@ -5,7 +5,8 @@ import numpy as np
 from plots.render import View
 
 VIEWS = {
-    "twist": View((0.30, 0.42, 1.0)), "large_radius_twist": View((0.45, 0.75, 1.0)), "mat_twist": View((0.42, 0.5, 1.0)),
+    "twist": View((0.30, 0.42, 1.0)), "large_radius_twist": View((0.45, 0.75, 1.0)),
+    "mat_twist": View((0.42, 0.5, 1.0)),
     "knot": View((0.05, 0.22, 1.0), margin=0.03),
     "fifty_layers": View((0.75, 0.5, 1.0), margin=0.02), "fifty_layers_1m": View((0.75, 0.5, 1.0), margin=0.02),
     "two_hundred_layers": View((0.75, 0.5, 1.0), margin=0.02),

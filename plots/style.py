@@ -25,10 +25,10 @@ MARK = "#D1462F"  # what a picture points at
 RIM = "#24303C"  # rims and seams
 GROUND, FLOOR = "#F6F7F9", "#D9DCE1"  # background, and the floor that fades into it
 
-# Simulation of vision without the middle cones, for severity 1, by Machado, Oliveira and Fernandes (2009), on linear RGB.
+# Simulation of vision without the middle cones, severity 1, by Machado, Oliveira and Fernandes (2009), on linear RGB.
 DEUTERANOPIA = ((0.367322, 0.860646, -0.227968), (0.280085, 0.672501, 0.047413), (-0.011820, 0.042940, 0.968881))
-# A page [inches]: its width, its edge, the gaps between pictures and below one; heights of the title, of a line below it, and of the
-# title of a panel; what a plot leaves free to the left, right and below.
+# A page [inches]: its width, its edge, the gaps between pictures and below one; heights of the title, of a line below
+# it, and of the title of a panel; what a plot leaves free to the left, right and below.
 WIDTH, EDGE, GAP, LOW, HEAD, LINE, TITLE, ROOM = 11.5, 0.12, 0.1, 0.02, 0.36, 0.17, 0.27, (0.66, 0.78, 0.46)
 CAPTION = ".caption.json"  # end of the name of the file beside a picture
 

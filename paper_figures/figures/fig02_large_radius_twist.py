@@ -18,10 +18,10 @@ SCENE = commands.TWIST
 SIZE, NEAR, MIDDLE = (960, 560), (960, 480), 0.16  # pixels; what is shown from near, around the middle [m]
 TITLE = "Fig. 2. Half a turn with a contact radius of one edge: {ends}"
 ALIKE = 1.25  # quotient of the roughness by two methods up to which they are called about equally rough
-ALT = ("Renderings of a square cloth after half a turn, by IPC on the left and by OGC on the right, whole and from near: a "
-       "sheet, blue in front and sand behind, wound once about its middle, with folds that run towards the ends. Curves "
-       "over time: out-of-plane roughness, stretch of edges, and kinetic energy. Roughness at the end, in edge lengths: "
-       "{said}.")
+ALT = ("Renderings of a square cloth after half a turn, by IPC on the left and by OGC on the right, whole and from "
+       "near: a sheet, blue in front and sand behind, wound once about its middle, with folds that run towards the "
+       "ends. Curves over time: out-of-plane roughness, stretch of edges, and kinetic energy. Roughness at the end, in "
+       "edge lengths: {said}.")
 
 
 def edges_of(triangles):
@@ -93,7 +93,8 @@ def title_of(ends):
     ratio = ends["IPC"] / ends["VBD-OGC"]
     if 1 / ALIKE <= ratio <= ALIKE:
         return TITLE.format(ends="IPC's cloth and OGC's end about equally rough")
-    return TITLE.format(ends="IPC's cloth ends rougher than OGC's" if ratio > 1 else "OGC's cloth ends rougher than IPC's")
+    rougher, smoother = ("IPC's", "OGC's") if ratio > 1 else ("OGC's", "IPC's")
+    return TITLE.format(ends=f"{rougher} cloth ends rougher than {smoother}")
 
 
 def whole(run):
@@ -102,7 +103,7 @@ def whole(run):
 
 
 def draw_pair(axes, runs, edges, reach=None):
-    """Draws the last common state of IPC's run and OGC's, side by side; `reach` [m]: what is shown around the middle."""
+    """Draws the last common state of IPC's run and OGC's, side by side; `reach` [m]: of what is shown."""
     there = [run for run in runs if whole(run)]
     last = min((int(run.column("step")[-1]) for run in there), default=0)
     for place, run, letter, name in zip(axes, runs, "ab", ("IPC", "OGC")):
@@ -113,8 +114,10 @@ def draw_pair(axes, runs, edges, reach=None):
             continue
         frame = run.frame_at_step(last)
         points = subject(run, frame)
-        camera = around(points, np.median(points, axis=0), reach, run, size=NEAR) if reach else fitted(run, [frame], SIZE)
-        show(place, run, frame, camera, f"{title}, {moment(frame)}", NEAR if reach else SIZE)
+        size = NEAR if reach else SIZE
+        camera = (around(points, np.median(points, axis=0), reach, run, size=size) if reach
+                  else fitted(run, [frame], size))
+        show(place, run, frame, camera, f"{title}, {moment(frame)}", size)
 
 
 def draw(runs, out, wide=(None, None)):
@@ -134,8 +137,8 @@ def draw(runs, out, wide=(None, None)):
     ends = {name: rough[-1] for name, (_, rough, _) in found.items()}
     scale = ogc.manifest["scale"]
     side = round(len(rest) ** 0.5)
-    below = (f"{side} × {side} vertices{'' if scale == 'paper' else f' (scale {scale}; the paper has 200 × 200)'}; roughness at the "
-             "end [edge lengths]: " + ", ".join(f"{name} {rough:.2g}" for name, rough in ends.items())
+    below = (f"{side} × {side} vertices{'' if scale == 'paper' else f' (scale {scale}; the paper has 200 × 200)'}; "
+             "roughness at the end [edge lengths]: " + ", ".join(f"{name} {rough:.2g}" for name, rough in ends.items())
              + ("" if whole(ipc) else "; IPC's curve: windows of 20 steps from OGC's states"))
     title = title_of(ends if whole(ipc) else {})
     figure, axes = style.page([*rows, (2.4, third)], title, below)
@@ -153,8 +156,8 @@ def draw(runs, out, wide=(None, None)):
         energy_axes.plot(steps * h, run.column("kinetic_energy"), color=colour, linewidth=0.8,
                          label=name.replace(", ", ",\n"))
         lines.append(f"{name}: {len(steps)} steps, {np.mean(run.column('wall')):.4g} ms and "
-                     f"{np.mean(run.column('iterations')):.3g} iterations a step, roughness {rough[-1]:.3g} edges at t = "
-                     f"{time[-1]:.3g} s")
+                     f"{np.mean(run.column('iterations')):.3g} iterations a step, roughness {rough[-1]:.3g} edges at t "
+                     f"= {time[-1]:.3g} s")
     rough_axes.set(xlabel="time [s]", ylabel="edge lengths", title="Out-of-plane roughness", ylim=(0, None))
     stretch_axes.set(xlabel="time [s]", ylabel="length / rest length", title="Stretch of edges, median, 1 % to 99 %")
     energy_axes.set(xlabel="time [s]", ylabel="energy [J]", title="Kinetic energy", yscale="log")

@@ -17,10 +17,10 @@ from ogc_testbed.runs import RunError
 SCENE, STEPS = "knot", (0, 3550, 7100, 10650)
 REACH, SEEN, CUT = 0.06, 0.11, 0.05  # neighbourhood of the tightest place; parts shown from near and in the cut [m]
 TITLE = "Fig. 11. Four knots in a strip are pulled into one tight knot of many layers"
-ALT = ("Renderings of a long ribbon, blue in front and sand behind. At first it has four loose loops; pulled at both ends "
-       "it straightens, the loops become small knots and run together. Two close views show a knot before and after "
-       "they merge, and a drawing shows the cut through it: {layers} layers of the ribbon beside one another, none of "
-       "which crosses another.")
+ALT = ("Renderings of a long ribbon, blue in front and sand behind. At first it has four loose loops; pulled at both "
+       "ends it straightens, the loops become small knots and run together. Two close views show a knot before and "
+       "after they merge, and a drawing shows the cut through it: {layers} layers of the ribbon beside one another, "
+       "none of which crosses another.")
 WIDE, CLOSE = 1280, (960, 600)
 
 

@@ -19,10 +19,10 @@ SCENE, STEPS = "dress", (0, 320, 640, 968)
 APART = 0.28  # how far panels are drawn from one another [m]
 TALL, BROAD = (480, 720), (960, 720)
 TITLE = "Fig. 13. A dress of 14 stitched panels follows a dancer; cloth never goes through cloth"
-ALT = ("Panel a: the fourteen pieces of the dress, drawn apart. Panel b: the dress from near, with red dots at the cloth "
-       "vertices that lie inside the body at the step with the most of them. Below: four moments of the motion; the "
-       "dress swings with the grey figure and stays on it. Plots: time a step beside the paper's, vertices inside the "
-       "body, detections.")
+ALT = ("Panel a: the fourteen pieces of the dress, drawn apart. Panel b: the dress from near, with red dots at the "
+       "cloth vertices that lie inside the body at the step with the most of them. Below: four moments of the motion; "
+       "the dress swings with the grey figure and stays on it. Plots: time a step beside the paper's, vertices inside "
+       "the body, detections.")
 
 
 def exploded(run, frame):

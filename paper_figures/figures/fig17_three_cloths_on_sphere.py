@@ -37,10 +37,10 @@ BELOW = 1e-4  # residual below which the paper's curves end
 MARKED = {46: "paper: Newton, 46", 500: "paper: VBD, 500"}
 LEFT_TO_TABLE = ("ε_v", "pair by pair", "half-spaces", "γ_p", "VBD, double")
 TITLE = "Fig. 17. VBD reaches in milliseconds the residual that Newton's method reaches in minutes"
-ALT = ("Two plots of the relative force residual in one step of three cloths on a sphere. Over iterations Newton's method "
-       "falls faster than Vertex Block Descent at first; over time VBD on the GPU is at the same residual after tens of "
-       "milliseconds, Newton's method on two cores after minutes. Stars mark where the paper's curves end, below 1e-4 "
-       "after 46 iterations of Newton and 500 of VBD; ours with the printed γ_e stay above.")
+ALT = ("Two plots of the relative force residual in one step of three cloths on a sphere. Over iterations Newton's "
+       "method falls faster than Vertex Block Descent at first; over time VBD on the GPU is at the same residual after "
+       "tens of milliseconds, Newton's method on two cores after minutes. Stars mark where the paper's curves end, "
+       "below 1e-4 after 46 iterations of Newton and 500 of VBD; ours with the printed γ_e stay above.")
 
 
 def label_of(name):
@@ -134,8 +134,8 @@ def draw(runs, newton, left_out, step, scale, out):
     colours = {"VBD": iter((style.OURS, style.COLOURS[4], style.COLOURS[2], style.COLOURS[5])),
                "Newton": iter((style.BASELINE, style.COLOURS[1]))}
     shares = "; ".join(f"{label} {100 * share:.2g} %" for label, _, share in curves_shown)
-    below = (f"step {step}{'' if scale == 'paper' else f' (scale {scale})'}; share of detection in the time: {shares} (paper: "
-             "VBD 10 %, Newton 3 %)" + (f"; not run: {'; '.join(left_out)}" if left_out else ""))
+    below = (f"step {step}{'' if scale == 'paper' else f' (scale {scale})'}; share of detection in the time: {shares} "
+             "(paper: VBD 10 %, Newton 3 %)" + (f"; not run: {'; '.join(left_out)}" if left_out else ""))
     figure, ((left, right),) = style.page([(3.9, [(0.5, "plot")] * 2)], TITLE, below)
     for label, rows, _ in curves_shown:
         colour, dash = next(colours[label.partition(",")[0]], "0.6"), "-" if "γ_e" not in label else "--"

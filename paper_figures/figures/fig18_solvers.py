@@ -22,8 +22,9 @@ from plots.scene_figure import show, source_of
 
 SCENE = "cloth_on_sphere"
 TITLE = "Fig. 18. On the same cores a step of IPC takes far longer than one of VBD-OGC, and more detections"
-ALT = ("Four renderings of IPC's states: a square cloth falls on a sphere, wraps it and hangs down in folds. Below, curves "
-       "of time a step, linear and logarithmic, and of detections a step for each solver, and a table of means: {lines}.")
+ALT = ("Four renderings of IPC's states: a square cloth falls on a sphere, wraps it and hangs down in folds. Below, "
+       "curves of time a step, linear and logarithmic, and of detections a step for each solver, and a table of means: "
+       "{lines}.")
 
 
 def label(run):
@@ -159,7 +160,8 @@ def draw_table(axes, runs):
     drawn.scale(1, 1.75)
     for (row, column), cell in drawn.get_celld().items():
         cell.set_edgecolor("0.85")
-        cell.set_text_props(fontweight="bold" if row == 0 or column == 0 else None, ha="left" if column == 0 else "center")
+        cell.set_text_props(fontweight="bold" if row == 0 or column == 0 else None,
+                            ha="left" if column == 0 else "center")
     axes.set_title("a step on average; in brackets the paper's number")
 
 
@@ -231,8 +233,8 @@ if __name__ == "__main__":
     parser = baseline_arguments(__doc__.splitlines()[0])
     parser.add_argument("--cuda", action="store_true", help="VBD-OGC on CUDA, too")
     parser.add_argument("--made", action="store_true", help="draw the runs that there are, whole or not, and make none")
-    parser.add_argument("--states", metavar="RUN", help="run of IPC whose states are shown, if those of the folder were "
-                                                        "not kept")
+    parser.add_argument("--states", metavar="RUN", help="run of IPC whose states are shown, if those of the folder "
+                                                        "were not kept")
     options = parser.parse_args()
     try:
         found = runs_of(options)

@@ -29,10 +29,10 @@ GIPC, GIPC_DEVICE = RESULTS / "h200" / "gipc_mat.csv", "NVIDIA H200"
 PAPER = {"cuda": (5.5, 8.5), "cpu": (540.0, None), "ipc": (61180.0, None)}
 PAPER_GIPC = 1893  # ms a step, average
 TITLE = "Fig. 19. A twisted mat costs VBD-OGC milliseconds a step, GIPC hundreds, IPC tens of thousands"
-ALT = ("Four renderings of a blue mat whose two ends turn against each other, at 0, 4, 8 and 12 s: it winds into a thick "
-       "rope. Curves over time: on the GPU our step takes a few milliseconds and GIPC's a hundred to thousands; on the CPU "
-       "ours takes tens to hundreds of milliseconds and IPC's seconds to tens of seconds. A table has mean and longest "
-       "step of each method beside the paper's.")
+ALT = ("Four renderings of a blue mat whose two ends turn against each other, at 0, 4, 8 and 12 s: it winds into a "
+       "thick rope. Curves over time: on the GPU our step takes a few milliseconds and GIPC's a hundred to thousands; "
+       "on the CPU ours takes tens to hundreds of milliseconds and IPC's seconds to tens of seconds. A table has mean "
+       "and longest step of each method beside the paper's.")
 HALF = 8.0  # [s]: half of the paper's 16 s, the duration if the paper's π/2 is the relative rate of the ends
 
 
@@ -188,7 +188,8 @@ def draw_gpu(axes, runs, theirs, backend):
         run = runs[f"{bounds}/whole"]
         axes.plot(seconds(run), run.column("wall"), color=colour, linewidth=0.8, label=f"ours,\n{bounds}")
     if theirs is not None:
-        axes.plot(np.arange(1, len(theirs) + 1) / 240, theirs, color=style.BASELINE, linewidth=0.8, label="GIPC,\nto 9.6 s")
+        axes.plot(np.arange(1, len(theirs) + 1) / 240, theirs, color=style.BASELINE, linewidth=0.8,
+                  label="GIPC,\nto 9.6 s")
     if theirs is not None and PAPER[backend][0]:
         style.paper_line(axes, PAPER[backend][0], f"paper,\nours {PAPER[backend][0]:g}", ":")
         style.paper_line(axes, PAPER_GIPC, f"paper,\nGIPC {PAPER_GIPC:,}", "--")
@@ -268,10 +269,11 @@ def draw(runs, theirs, backend, out, rows=None):
     scale = whole.manifest["scale"]
     below = (f"15,312 vertices, planes: {audit_in_words(whole)}" if scale == "paper"
              else f"scale {scale}, not the paper's size; {audit_in_words(whole)}")
-    below += ("; GIPC: its official code on one H200, IPC: ours, 16 cores; the paper says 343 times faster than GIPC and 133 "
-              "times faster than IPC" if scale == "paper" else "")
+    below += ("; GIPC: its official code on one H200, IPC: ours, 16 cores; the paper says 343 times faster than GIPC "
+              "and 133 times faster than IPC" if scale == "paper" else "")
     half = (0.5, "plot")
-    figure, axes = style.page([style.pictures(4, size), (2.6, [half, half]), (2.2, [half, (0.5, "picture")])], TITLE, below)
+    rows_of_page = [style.pictures(4, size), (2.6, [half, half]), (2.2, [half, (0.5, "picture")])]
+    figure, axes = style.page(rows_of_page, TITLE, below)
     for place, frame in zip(axes[0], frames):
         show(place, whole, frame, fitted(whole, frames, size), moment(frame), size)
     draw_gpu(axes[1][0], runs, theirs, backend)

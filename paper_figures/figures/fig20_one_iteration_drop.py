@@ -16,8 +16,8 @@ from ogc_testbed.runs import RunError
 
 SCENE, FRAMES = commands.ONE_ITERATION, (0, 50, 80)
 TITLE = "Fig. 20. With one iteration a step IPC loses the fall's energy at first self-contact; OGC keeps it"
-ALT = ("Two rows of three renderings of a cloth that falls on a small sphere. Above, by OGC, it wraps the sphere and hangs "
-       "down in folds; below, by IPC, it stops when parts of it first meet and hangs higher. Curves: kinetic "
+ALT = ("Two rows of three renderings of a cloth that falls on a small sphere. Above, by OGC, it wraps the sphere and "
+       "hangs down in folds; below, by IPC, it stops when parts of it first meet and hangs higher. Curves: kinetic "
        "energy and mean height over time; IPC loses {ipc:.2g} J of kinetic energy within one step, OGC {ogc:.2g} J at "
        "most.")
 

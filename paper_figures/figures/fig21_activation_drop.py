@@ -41,9 +41,9 @@ SIZE, DISTANCES = (800, 640), "cividis"  # pixels; the colours of distances
 NAMES = {"ogc": "OGC's", "ipc_log": "IPC's"}
 TITLE = "Fig. 21. OGC's and IPC's activation drape the cloth alike; here OGC's converges no faster"
 ALT = ("Renderings of the cloth on a sphere after 40 steps with our activation function and with IPC's, and the first "
-       "coloured by the distance between the two, at most {apart} mm. Curves: the residual over the iterations of the last "
-       "step for both, the force over distance of both functions, the residual for other contact stiffnesses, and bars "
-       "with condition numbers.")
+       "coloured by the distance between the two, at most {apart} mm. Curves: the residual over the iterations of the "
+       "last step for both, the force over distance of both functions, the residual for other contact stiffnesses, and "
+       "bars with condition numbers.")
 LEVELS = {"1e-2": 1e-2, "1e-3": 1e-3, "1e-4": 1e-4}
 CONDITIONS = {
     "condition_number": "with friction",
@@ -250,7 +250,8 @@ def draw_convergence(axes, results, step):
             if run:
                 label = f"{NAMES[variant.energy]},\n{name}"
                 draw_residual(axes, run, step, dash, (style.OURS, style.BASELINE)[number], label)
-    axes.set(yscale="log", xlabel="iteration", ylabel="residual (Eq. 29) [1]", title=f"(c) residual in step {step}, double")
+    axes.set(yscale="log", xlabel="iteration", ylabel="residual (Eq. 29) [1]",
+             title=f"(c) residual in step {step}, double")
     style.label_ends(axes, 7)
 
 
@@ -396,7 +397,8 @@ if __name__ == "__main__":
         choices=[v.name for v in VARIANTS if v not in PAPER],
         help="what is left out; the figure says so",
     )
-    parser.add_argument("--made", metavar="CSV", help="draw the runs that there are, with this kept table, and make none")
+    parser.add_argument("--made", metavar="CSV", help="draw the runs that there are, with this kept "
+                                                        "table, and make none")
     arguments = parser.parse_args()
     try:
         if arguments.made:

@@ -1,5 +1,5 @@
-"""Table 1 as the paper prints it, with ours beside it: mean and longest time a step on the CPU and on the GPU, with both
-bounds, from the accepted whole runs (whole_runs.csv) and windows on 16 CPU threads (cpu_windows_paper.csv). A cell says
+"""Table 1 as the paper prints it, with ours beside it: mean and longest time a step on the CPU and on the GPU, with
+both bounds, from the accepted whole runs (whole_runs.csv) and windows on 16 CPU threads (cpu_windows_paper.csv). A cell says
 "not run" where no run is behind it.
 
 Usage: python3 -m paper_figures.figures.table1_picture OUT.png
@@ -16,10 +16,10 @@ from plots import style
 
 MACHINE = RESULTS / "h200"
 TITLE = "Table 1. Time a step, the paper's beside ours, mean / longest"
-ALT = ("A table with a row for each experiment of the paper's Table 1: vertices, primitives, contact stiffness, friction, "
-       "radius, time step, iterations, and the mean and longest time a step. For the CPU and for the GPU the paper's "
-       "times stand beside ours with balls and with planes; blue cells are at most the paper's time, sand ones are "
-       "slower, the darker the more. {summary}")
+ALT = ("A table with a row for each experiment of the paper's Table 1: vertices, primitives, contact stiffness, "
+       "friction, radius, time step, iterations, and the mean and longest time a step. For the CPU and for the GPU the "
+       "paper's times stand beside ours with balls and with planes; blue cells are at most the paper's time, sand ones "
+       "are slower, the darker the more. {summary}")
 # The paper's first eight columns, and ours behind them: name of the row there, our rows with balls and with planes.
 ROWS = (
     ("50 layers of cloth", "1M", "1.96M", "1e5", "0.2, 1e-2", "2", "1/1200", "40", "fifty_layers_1m"),
@@ -55,7 +55,8 @@ class Time:
         if self.mean is None:
             return "not run"
         number = lambda ms: f"{ms:,.0f}" if ms >= 100 else f"{ms:.3g}"  # noqa: E731
-        return number(self.mean) + (f" / {number(self.longest)}" if self.longest else "") + ("*" if self.windows else "")
+        longest = f" / {number(self.longest)}" if self.longest else ""
+        return number(self.mean) + longest + ("*" if self.windows else "")
 
 
 def rows_of(path):
@@ -113,10 +114,11 @@ def draw(out):
               sum(colours[i] != "white" for _, colours in rows for i in (4, 5))]
     summary = f"On the GPU {counts[0]} of our {counts[1]} cells are at most the paper's time."
     wide, places = sum(WIDTHS), [sum(WIDTHS[:i]) for i in range(len(WIDTHS))]
-    notes = ("paper: RTX 4090 and Ryzen 7950X; ours: H200, and 16 threads of its host. Blue: at most the paper's mean; sand: "
-             "slower, up to 2, up to 4 times, and more.\n* mean and longest of windows from five states of a whole run. Of "
-             "“50 layers” the paper prints one pair of times for both sizes; of 1M vertices ours has the membrane of an "
-             "earlier default.\n“Cloth on body”: ours is a stand-in for the dress, with the body as a volume.")
+    notes = ("paper: RTX 4090 and Ryzen 7950X; ours: H200, and 16 threads of its host. Blue: at most the paper's mean; "
+             "sand: slower, up to 2, up to 4 times, and more.\n* mean and longest of windows from five states of a "
+             "whole run. Of “50 layers” the paper prints one pair of times for both sizes; of 1M vertices ours has the "
+             "membrane of an earlier default.\n“Cloth on body”: ours is a stand-in for the dress, with the body as a "
+             "volume.")
     with plt.rc_context({"figure.constrained_layout.use": False}):
         figure = plt.figure(figsize=(wide + 0.3, HIGH * (len(rows) + 2) + 1.2))
     axes = figure.add_axes((0.15 / (wide + 0.3), 0.6 / figure.get_figheight(), wide / (wide + 0.3),

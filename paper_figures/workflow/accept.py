@@ -182,8 +182,8 @@ def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomple
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(data)
     merge(folder / "provenance.csv", COLUMNS, rows, ("file",), {(name,) for name in outdated})
-    captions.keep(folder, [row["file"] for row in rows], {row["file"]: Path(runs) / recipes.load()[row["figure"]].picture(
-        scale, backend) for row in rows if row["figure"] in recipes.load()}, outdated)
+    drawn = {recipe.name: Path(runs) / recipe.picture(scale, backend) for recipe in chosen}
+    captions.keep(folder, {row["file"]: drawn[row["figure"]] for row in rows if is_picture(row["file"])}, outdated)
     drop_scenes(Path(results))
     if pictures:
         return rows

@@ -21,16 +21,15 @@ def alt_of(path):
     return rows_of(path.parent).get(path.name, {}).get("alt", path.stem)
 
 
-def keep(folder, names, drawn, outdated=()):
-    """Keeps the captions of the pictures in `names`, and drops those of `outdated`. `drawn`: name -> the picture that
+def keep(folder, drawn, outdated=()):
+    """Keeps the captions of pictures, and drops those of `outdated`. `drawn`: name of the kept file -> the picture that
     the script wrote, beside which its caption lies; without one nothing changes."""
     from plots.style import CAPTION  # imported here, because it needs matplotlib
 
     rows = {name: row for name, row in rows_of(folder).items() if name not in outdated}
-    for name in names:
-        path = drawn.get(name)
-        caption = path.with_suffix(CAPTION) if path else None
-        if caption and caption.is_file() and not name.endswith((".csv", ".json", ".gz")):
+    for name, path in drawn.items():
+        caption = path.with_suffix(CAPTION)
+        if caption.is_file() and not name.endswith(".mp4"):
             rows[name] = {"file": name, **json.loads(caption.read_text(encoding="utf-8"))}
     if rows:
         write(folder, rows)

@@ -39,8 +39,8 @@ def file_of(path):
 
 
 def picture(data):
-    """Returns (suffix, bytes) of a PNG as kept: as PNG if it has few colours, as a drawing has, otherwise as WebP. Throws
-    AcceptError."""
+    """Returns (suffix, bytes) of a PNG as kept: as PNG if it has few colours, as a drawing has, otherwise as WebP.
+    Throws AcceptError."""
     from PIL import Image, UnidentifiedImageError
 
     try:

@@ -168,7 +168,8 @@ def how_to_redo(recipe):
 
 def accepted_picture(figure, path):
     words = f"{escape(path.relative_to(RESULTS).as_posix())}: {origin_of(path)}"
-    return f"<figure>{shown(path, f'{figure}, ours: {captions.alt_of(path)}')}<figcaption><small>{words}</small></figcaption></figure>"
+    image = shown(path, f"{figure}, ours: {captions.alt_of(path)}")
+    return f"<figure>{image}<figcaption><small>{words}</small></figcaption></figure>"
 
 
 def what_it_says(mine, claims):

@@ -21,8 +21,8 @@ def restore(machine, stem, out, results=RESULTS):
     folder, names = Path(results) / machine / stem, []
     for path in sorted(folder.glob("*_run.json")):
         name = path.name.removesuffix("_run.json")
-        kept = {end: way for end in FILES for way in (path.with_name(f"{name}_{end}"), path.with_name(f"{name}_{end}.gz"))
-                if way.is_file()}
+        ways = {end: [path.with_name(f"{name}_{end}{zipped}") for zipped in ("", ".gz")] for end in FILES}
+        kept = {end: way for end, both in ways.items() for way in both if way.is_file()}
         if FILES[0] not in kept:
             continue
         target = Path(out) / name

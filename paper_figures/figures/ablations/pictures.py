@@ -37,7 +37,8 @@ WORDS = {
     "bounds_relaxation": "γ_p", "guess_rounds": "rounds of guess", "guess": "guess by", "contact_activation": "",
     "ipc_log": "IPC's logarithm", "ogc_as_printed": "Eq. 19 as printed", "membrane": "",
     "stable_neo_hookean": "stable Neo-Hookean", "reference_vbd_colours": "colours", "vertex": "one a vertex",
-    "together": "none (Jacobi)", "reference_vbd_contact_blocks": "blocks of contacts", "reference_vbd_cut_after": "cut after",
+    "together": "none (Jacobi)", "reference_vbd_contact_blocks": "blocks of contacts",
+    "reference_vbd_cut_after": "cut after",
     "solver": "", "vbd": "single precision", "rod_orientation": "frames", "as_published": "as published",
     "rod_start": "frames at start", "kept": "kept", "time_step": "h", "steps": None,
 }
@@ -120,10 +121,11 @@ def draw(study, out):
         top -= height
     title = TITLES[study]
     figure.text(0.1 / wide, 1 - 0.08 / high, title, va="top", fontsize=12, fontweight="bold")
-    figure.text(0.1 / wide, 1 - 0.36 / high, "dot: median of ten jittered starts; bar: their range; blue and shaded: the first "
-                "point, with which the others are compared; size: the largest at which the scene was run", va="top", fontsize=8.5,
-                color="0.25")
-    alt = (f"Panels of dots with ranges, a row for each scene ({', '.join(f'{scene}, {size}' for scene, size, *_ in rows)}), "
+    figure.text(0.1 / wide, 1 - 0.36 / high, "dot: median of ten jittered starts; bar: their range; blue and shaded: "
+                "the first point, with which the others are compared; size: the largest at which the scene was run",
+                va="top", fontsize=8.5, color="0.25")
+    scenes = ", ".join(f"{scene}, {size}" for scene, size, *_ in rows)
+    alt = (f"Panels of dots with ranges, a row for each scene ({scenes}), "
            f"for {', '.join(dict.fromkeys(COLUMNS[m][0] for *_, metrics in rows for m in metrics))}. {title}.")
     style.save(figure, out, title, alt, f"{', '.join(FILES.values())}; {commits(study)}")
     return out

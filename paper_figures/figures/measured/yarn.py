@@ -39,16 +39,16 @@ NEAR_SIZE, NEAR_REACH = (960, 480), 0.05
 NEAR_VIEW = {commands.STRETCH: View((0.25, 1.0, 0.0), up=(1, 0, 0)), commands.YARN_TWIST: View((0.25, 0.1, 1.0))}
 PAPER_MS = {commands.STRETCH: "0.23 / 0.30", commands.YARN_TWIST: "0.25 / 0.33"}
 TITLES = {commands.STRETCH: "Fig. 15. Pulled apart, the knit holds with OGC and unravels with a penalty force",
-          commands.YARN_TWIST: "Fig. 16. Twisted five turns and let go, the knit stays a knit with OGC and tangles with a "
-                               "penalty force"}
-ALTS = {commands.STRETCH: "Renderings of a knitted cloth of one yarn that is pulled to the left and right. With OGC its "
-                          "loops become long and narrow and hold. With the penalty force threads pass through one another "
-                          "and the cloth comes apart. Close views show the loops of both, a plot the tension over time, "
-                          "and a table the number of pull-throughs.",
-        commands.YARN_TWIST: "Renderings of a hanging knitted cloth of one yarn whose lower edge is turned five times and "
-                             "then let go. With OGC it becomes a rope and opens again when it is let go. With the penalty "
-                             "force threads pass through one another, tangle, and the cloth comes apart. Close views, a "
-                             "plot of the tension, and a table of pull-throughs."}
+          commands.YARN_TWIST: "Fig. 16. Twisted five turns and let go, the knit stays a knit with OGC and tangles "
+                               "with a penalty force"}
+ALTS = {commands.STRETCH: "Renderings of a knitted cloth of one yarn that is pulled to the left and right. With OGC "
+                          "its loops become long and narrow and hold. With the penalty force threads pass through one "
+                          "another and the cloth comes apart. Close views show the loops of both, a plot the tension "
+                          "over time, and a table the number of pull-throughs.",
+        commands.YARN_TWIST: "Renderings of a hanging knitted cloth of one yarn whose lower edge is turned five times "
+                             "and then let go. With OGC it becomes a rope and opens again when it is let go. With the "
+                             "penalty force threads pass through one another, tangle, and the cloth comes apart. Close "
+                             "views, a plot of the tension, and a table of pull-throughs."}
 
 
 def runs_of(options):
@@ -259,9 +259,10 @@ def draw_rows(axes, scene, rows):
                  short(row["tension over k_c r [1]"])] for row in rows]
     else:
         head = ["", "pull-throughs", "of steps", "from the hanging cloth, median [m]"]
+        apart = ("distance, median [m]", "distance while it moves, median [m]")
         body = [[KINDS[row["kind"]] + (", let go" if "released" in row["run"] else ""), str(row["meetings [1]"] or "–"),
-                 str(row["steps asked [1]"]), short(row["distance, median [m]"] or
-                                                    row["distance while it moves, median [m]"])]
+                 str(row["steps asked [1]"]),
+                 short(row[apart[0]] or row[apart[1]]) if "released" in row["run"] else "–"]
                 for row in rows if row["run"] != "hanging"]
     wide = [max(len(str(row[k])) for row in (head, *body)) + 3 for k in range(len(head))]
     drawn = axes.table(body, colLabels=head, colWidths=[w / sum(wide) for w in wide], loc="center", cellLoc="center",
@@ -282,10 +283,12 @@ def draw(scene, runs, rows, out):
     count = max(map(len, pictures.values()))
     where = "" if ours.manifest["scale"] == "paper" else f"scale {ours.manifest['scale']}; "
     below = (f"{where}one yarn of {ours.manifest['scene']['vertices']:,} vertices, {audit_in_words(ours)}; ours "
-             f"{np.mean(times(ours)):.2g} ms a step, longest {times(ours).max():.2g} ({ours.manifest['device']}), paper "
-             f"{PAPER_MS[scene]} (RTX 4090); “penalty” (the paper's Newton): the same sweep with a quadratic force, no bounds")
-    figure, axes = style.page([style.pictures(count, SIZE[scene]), style.pictures(count, SIZE[scene]),
-                               style.pictures(2, NEAR_SIZE), (2.5, [(0.5, "plot"), (0.5, "picture")])], TITLES[scene], below)
+             f"{np.mean(times(ours)):.2g} ms a step, longest {times(ours).max():.2g} ({ours.manifest['device']}), "
+             f"paper {PAPER_MS[scene]} (RTX 4090); “penalty” (the paper's Newton): the same sweep with a "
+             "quadratic force, no bounds")
+    page = [*[style.pictures(count, SIZE[scene])] * 2, style.pictures(2, NEAR_SIZE),
+            (2.5, [(0.5, "plot"), (0.5, "picture")])]
+    figure, axes = style.page(page, TITLES[scene], below)
     for row, (kind, found) in zip(axes, pictures.items()):
         draw_pictures(row, scene, found, KINDS[kind])
     for place, (kind, found) in zip(axes[2], pictures.items()):
@@ -304,7 +307,7 @@ def arguments():
     parser.add_argument("--scale", default="small", choices=("smoke", "small", "paper"))
     parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"), help="of all runs")
     parser.add_argument("--made", action="store_true", help="draw the runs that there are, and make none")
-    parser.add_argument("--rows", metavar="CSV", help="kept table, whose numbers are shown in place of those of the runs")
+    parser.add_argument("--rows", metavar="CSV", help="kept table, whose numbers are shown, not those of the runs")
     parser.add_argument("--movie", help="MP4 to write instead, of our finished run")
     return parser.parse_args()
 

@@ -363,7 +363,8 @@ class Accepting(Scratch):
         (self.runs / "fig18-paper-cuda/fig18.png").write_bytes(picture(200))
         accept.accept([self.BOOK["fig18"]], "paper", "cuda", self.runs, "machine", "no program", self.results,
                       pictures=True)
-        self.assertEqual(before, {path.name: path.read_bytes() for path in (self.results / "machine").glob("fig18_paper_*")})
+        after = {path.name: path.read_bytes() for path in (self.results / "machine").glob("fig18_paper_*")}
+        self.assertEqual(before, after)
         rows = {row["file"]: row for row in accept.rows_of(self.results / "machine/provenance.csv")}
         self.assertEqual(set(rows), {"fig18_paper.png", *before})
         self.assertEqual(rows["fig18_paper.png"]["sha256"],
