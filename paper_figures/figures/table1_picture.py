@@ -1,6 +1,6 @@
 """Table 1 as the paper prints it, with ours beside it: mean and longest time a step on the CPU and on the GPU, with
-both bounds, from the accepted whole runs (whole_runs.csv) and windows on 16 CPU threads (cpu_windows_paper.csv). A cell says
-"not run" where no run is behind it.
+both bounds, from the accepted whole runs (whole_runs.csv) and windows on 16 CPU threads (cpu_windows_paper.csv). A cell
+says "not run" where no run is behind it.
 
 Usage: python3 -m paper_figures.figures.table1_picture OUT.png
 """
@@ -144,7 +144,8 @@ def draw(out):
     figure.text(0.15 / (wide + 0.3), 1 - 0.08 / figure.get_figheight(), TITLE, va="top", fontsize=12, fontweight="bold")
     figure.text(0.15 / (wide + 0.3), 0.12 / figure.get_figheight(), notes, va="bottom", fontsize=7.5, color="0.3")
     commits = ", ".join(sorted({row["commit"] for row in rows_of(MACHINE / "whole_runs.csv")}))
-    style.save(figure, out, TITLE, ALT.format(summary=summary), f"whole_runs.csv, cpu_windows_paper.csv; {commits}")
+    style.save(figure, out, TITLE, ALT.format(summary=summary),
+               f"whole_runs.csv, cpu_windows_paper.csv; {commits}")
 
 
 if __name__ == "__main__":

@@ -145,7 +145,7 @@ def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomple
     all else."""
     folder, kept, rows, scenes = Path(results) / machine, [], [], {}
     before = {(row["file"], row["sha256"]): row["redo"] for row in rows_of(folder / "provenance.csv")}
-    shown = {name for recipe in chosen for name in recipe.body.get("of", ())}
+    shown = {name for recipe in chosen for name in recipes.shown_of(recipe.body)}
     for recipe in chosen:
         missing = [] if incomplete else list(left_out(Path(runs) / recipe.folder(scale, backend)))
         if missing:
@@ -213,10 +213,10 @@ def drop_scenes(results):
 def composed(recipe, chosen, scale, backend, runs, ogc):
     """Returns the origin of a picture of other figures' runs: theirs, if they have only one."""
     found = [origin(other, Path(runs) / other.folder(scale, backend), ogc) for other in chosen
-             if other.name in recipe.body["of"]]
+             if other.name in recipes.shown_of(recipe.body)]
     if len({words["commit"] for words in found}) > 1:
         raise AcceptError(f"{recipe.name} mixes runs of several commits: run experiments/reproduce "
-                          f"{' '.join(recipe.body['of'])} anew")
+                          f"{' '.join(recipes.shown_of(recipe.body))} anew")
     return max(found, key=lambda words: words["ended"])
 
 
