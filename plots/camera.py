@@ -42,14 +42,17 @@ def floors(run):
     return set(found), max(found.values(), default=None)
 
 
-def subject(run, frame, bodies=is_cloth):
-    """Returns the vertices [n, 3] of the bodies that a picture is about; all if there is none."""
+def subject(run, frame, bodies=None):
+    """Returns the vertices [n, 3] of the bodies that a picture is about; None: all but floors."""
+    if bodies is None:
+        flat, _ = floors(run)
+        bodies = lambda body: body["name"] not in flat  # noqa: E731
     parts = [frame.positions[body["first_vertex"]:body["first_vertex"] + body["vertex_count"]]
              for body in run.manifest["scene"]["bodies"] if bodies(body)]
     return np.concatenate(parts or [frame.positions]).astype(float)
 
 
-def fitted(run, frames, size, bodies=is_cloth, view=None):
+def fitted(run, frames, size, bodies=None, view=None):
     """Returns (eye, target, up) of the camera that shows these bodies in all of the `frames`, in a picture of this
     size."""
     seen = np.concatenate([subject(run, frame, bodies) for frame in frames])

@@ -26,8 +26,6 @@ def camera_of(run, frame):
     if scene == "knot":
         points = subject(run, frame)
         return around(points, densest(points, KNOT), KNOT_SEEN, run, size=PICTURE)
-    if scene == "fifty_layers":  # the pile, and the cylinder above it
-        return fitted(run, [frame], PICTURE, lambda body: is_cloth(body) or "cylinder" in body["name"])
     return fitted(run, [frame], PICTURE)
 
 

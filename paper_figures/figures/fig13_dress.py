@@ -48,7 +48,7 @@ def inside(run, frame):
     """Returns the cloth's vertices inside the bodies that move by themselves [k, 3], by the sign of VTK's distance."""
     from plots.render import poly
 
-    cloth = subject(run, frame)
+    cloth = subject(run, frame, is_cloth)
     found = np.zeros(len(cloth), bool)
     for body in run.bodies():
         if not is_cloth(body) and not body["fixed"] and len(body["triangles"]):
@@ -92,14 +92,14 @@ def draw(run, out):
     if volume and usable:
         worst = worst_frame(run)
         marks = inside(run, worst)
-        camera = fitted(run, [worst], BROAD, view=render.View(view_of(SCENE).towards_eye, margin=0.0))
+        camera = fitted(run, [worst], BROAD, is_cloth, render.View(view_of(SCENE).towards_eye, margin=0.0))
         glass = [(*body[:2], body[2], body[3]) for body in bodies_of(run, worst)]
         style.picture(axes, render.picture(glass, camera, BROAD, marks=marks),
                       f"(b) {len(marks)} vertices inside the body (red), {moment(worst)}")
     else:
         style.not_run(axes, "not run: here the body is a surface, which nothing enters")
         axes.set_title("(b) vertices inside the body")
-    camera = fitted(run, frames, TALL, bodies=lambda body: True)
+    camera = fitted(run, frames, TALL)
     for column, frame in enumerate(frames):
         show(rows[1][column], run, frame, camera, moment(frame), TALL)
     draw_time(rows[2][0], run, claims_of(run), run)
@@ -117,8 +117,7 @@ def main():
     try:
         run = run_of(options.run, SCENE)
         if options.movie:
-            shown = [run.frame_at_step(step) for step in scaled(run, STEPS)]
-            draw_movie(run, options.movie, fitted(run, shown, (1280, 720), bodies=lambda body: True))
+            draw_movie(run, options.movie)
         else:
             draw(run, options.out or f"{options.run}/{SCENE}.png")
     except RunError as error:

@@ -191,7 +191,7 @@ def draw(runs, out, states=None):
         frames = [states.frame_at_step(step) for step in steps]
         camera = fitted(states, frames[1:], size)
         for place, frame in zip(axes[0], frames):
-            own = camera if frame is not frames[0] else fitted(states, [frame], size, lambda body: True)
+            own = camera if frame is not frames[0] else fitted(states, [frame], size)
             show(place, states, frame, own, f"{solver_of(states)}, step {frame.step}", size)
     else:
         for place, step in zip(axes[0], steps):

@@ -60,7 +60,7 @@ def draw(runs, out):
               for run in runs]
     # The first frame has a camera of its own: the flat cloth is twice as wide as the fallen one.
     seen = [np.concatenate([subject(run, frame, bodies) for run, found in zip(runs, states) for frame in found[part]])
-            for part, bodies in ((slice(0, 1), lambda body: True), (slice(1, None), is_cloth))]
+            for part, bodies in ((slice(0, 1), None), (slice(1, None), is_cloth))]
     size = render.shape_of(view_of(SCENE), seen[1], WIDTH, 0.7, 0.85)
     cameras = [view_of(SCENE).fit(points, size) for points in (seen[0], seen[1], seen[1])]
     scale = runs[0].manifest["scale"]
