@@ -13,7 +13,9 @@ import numpy as np
 from plots import style
 
 ANGLE = 30  # vertical angle of view [degrees]
-FINER = 2  # a picture is rendered so many times as large and then reduced, against stairs and noise
+# A picture is rendered so many times as large and then reduced, against stairs and noise; less for movies, of which each
+# second takes thirty.
+FINER, FINER_IN_MOVIES = 2, 1.5
 # Lights by their places around the camera (right, up, back) and intensities: the key, a fill, and one from behind.
 LIGHTS = (((-1.0, 1.6, 0.8), 0.80), ((1.2, 0.1, 1.2), 0.38), ((0.3, 1.0, -1.6), 0.25))
 AMBIENT, DIFFUSE, SPECULAR, SHININESS = 0.34, 0.80, 0.10, 25
@@ -86,13 +88,13 @@ def poly(points, triangles):
                        np.hstack([np.full((len(triangles), 1), 3), triangles]).ravel())
 
 
-def _plotter(size):
+def _plotter(size, finer):
     import pyvista as pv
     from vtkmodules.vtkCommonCore import vtkLogger
 
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # hides VTK's message that there is no display
     pv.OFF_SCREEN = True
-    plotter = pv.Plotter(off_screen=True, window_size=[FINER * pixels for pixels in size], lighting="none")
+    plotter = pv.Plotter(off_screen=True, window_size=[round(finer * pixels) for pixels in size], lighting="none")
     plotter.set_background(style.GROUND)
     return plotter
 
@@ -131,7 +133,7 @@ def _add_lines(plotter, points, edges, colour, wide):
     import pyvista as pv
 
     lines = pv.PolyData(np.asarray(points, np.float32), lines=np.hstack([np.full((len(edges), 1), 2), edges]).ravel())
-    actor = plotter.add_mesh(lines, color=colour, line_width=wide * FINER, lighting=False)
+    actor = plotter.add_mesh(lines, color=colour, line_width=wide, lighting=False)
     actor.mapper.SetResolveCoincidentTopologyToPolygonOffset()
     actor.mapper.SetRelativeCoincidentTopologyLineOffsetParameters(-2, -2)
 
@@ -179,14 +181,16 @@ def _add_floor(plotter, bodies, light, height):
     plotter.add_mesh(quad, texture=texture, lighting=False)
 
 
-def picture(bodies, camera, size=(640, 480), floor=None, bar=True, marks=None, lines=()):
+def picture(bodies, camera, size=(640, 480), floor=None, bar=True, marks=None, lines=(),
+            finer=FINER):
     """Returns an RGB image of `bodies` seen from camera = (eye, target, up).
 
     `floor`: height of a floor to draw [m]. `bar`: draws a scale bar, which holds at the camera's target. `marks`
-    [n, 3]: points to show as dots. `lines`: more lines, each (points [n, 3], edges [k, 2], colour)."""
-    plotter = _plotter(size)
+    [n, 3]: points to show as dots. `lines`: more lines, each (points [n, 3], edges [k, 2], colour). `finer`: the
+    picture is rendered so many times as large."""
+    plotter = _plotter(size, finer)
     light = _light(plotter, camera)
-    wide = max(1.0, size[1] / 500)
+    wide = max(1.0, size[1] / 500) * finer
     for body in bodies:
         _add_body(plotter, body, wide)
     for points, edges, colour in lines:
@@ -268,5 +272,5 @@ def write_movie(scenes, camera, out, frames_per_second, size=(1280, 720), **look
         with imageio.get_writer(out, fps=frames_per_second, codec="libx264", quality=6, macro_block_size=16,
                                 ffmpeg_log_level="error") as writer:
             for bodies in scenes:
-                writer.append_data(picture(bodies, camera, size, **look))
+                writer.append_data(picture(bodies, camera, size, finer=FINER_IN_MOVIES, **look))
     return usable, reason

@@ -63,6 +63,11 @@ def times(run):
     return wall[1:] if len(wall) > 1 else wall
 
 
+def ms(time):
+    """Returns a time [ms] as text, with three digits or all of those before the point."""
+    return f"{time:,.0f}" if time >= 100 else f"{time:.3g}"
+
+
 def draw_time(axes, run, claims, profiled):
     """Draws the time of each step of `run` and the paper's numbers. Behind it, if `profiled` has times by stage, draws
     these; their sum is larger, because profiling synchronises after each stage. Few steps that took far longer than all
@@ -82,7 +87,7 @@ def draw_time(axes, run, claims, profiled):
             style.paper_line(axes, value, f"paper,\n{word} {value:g}", dash)
     title = "Time a step"
     if wall.max() > FAR * top:
-        title += f" ({int(np.sum(wall > 1.25 * top))} steps above, the longest {wall.max():.3g} ms)"
+        title += f" ({int(np.sum(wall > 1.25 * top))} steps above, the longest {ms(wall.max())} ms)"
     else:
         top = max(top, wall.max())
     axes.set(xlabel="step", ylabel="time [ms]", title=title, ylim=(0, 1.25 * top))
@@ -103,7 +108,7 @@ def draw_lag(axes, run):
     if not np.any(lag > 0):
         return draw_contacts(axes, run)
     axes.plot(run.column("step"), lag, linewidth=0.8)
-    style.paper_line(axes, radius, f"contact\nradius {radius:g}")
+    style.paper_line(axes, radius, f"contact\nradius {radius:.3g}")
     axes.set(xlabel="step", ylabel="lag [mm]", title="Lag behind the prescribed motion", ylim=(0, None))
     style.label_ends(axes)
     return None
@@ -120,7 +125,7 @@ def draw_contacts(axes, run):
 def draw_distance(axes, run):
     radius, distance = 1e3 * run.setting("contact_radius"), 1e3 * run.column("smallest_distance")
     axes.plot(run.column("step"), distance, linewidth=0.8)
-    style.paper_line(axes, radius, f"contact\nradius {radius:g}")
+    style.paper_line(axes, radius, f"contact\nradius {radius:.3g}")
     axes.set(xlabel="step", ylabel="distance [mm]", title="Smallest distance")
     if 0 < distance.min() < radius / 30:  # a linear axis would make it look like an intersection
         axes.set_yscale("log")
@@ -154,7 +159,7 @@ def beside_paper(run, claims):
     """Returns our time a step and the paper's, and what the run is, as one line."""
     m, wall = run.manifest, times(run)
     size = sum(body["vertex_count"] for body in m["scene"]["bodies"] if is_cloth(body))
-    ours = f"ours {np.mean(wall):.3g} ms a step, longest {wall.max():.3g} ({m['device']}"
+    ours = f"ours {ms(np.mean(wall))} ms a step, longest {ms(wall.max())} ({m['device']}"
     bounds = BOUNDS.get(m["settings"].get("bounds", {}).get("value"))
     ours += f", {bounds})" if bounds else ")"
     theirs = [f"{claims[key][0]:g}" for key in ("step_ms_average", "step_ms_maximum") if key in claims]

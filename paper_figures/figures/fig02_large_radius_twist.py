@@ -139,7 +139,7 @@ def draw(runs, out, wide=(None, None)):
     side = round(len(rest) ** 0.5)
     below = (f"{side} × {side} vertices{'' if scale == 'paper' else f' (scale {scale}; the paper has 200 × 200)'}; "
              "roughness at the end [edge lengths]: " + ", ".join(f"{name} {rough:.2g}" for name, rough in ends.items())
-             + ("" if whole(ipc) else "; IPC's curve: windows of 20 steps from OGC's states"))
+             + ("; IPC's curve: windows of 20 steps from OGC's states" if ipc and not whole(ipc) else ""))
     title = title_of(ends if whole(ipc) else {})
     figure, axes = style.page([*rows, (2.4, third)], title, below)
     draw_pair(axes[0], (ipc, ogc), "one edge")
