@@ -13,8 +13,8 @@ import numpy as np
 from plots import style
 
 ANGLE = 30  # vertical angle of view [degrees]
-# A picture is rendered so many times as large and then reduced, against stairs and noise; less for movies, of which each
-# second takes thirty.
+# A picture is rendered so many times as large and then reduced, against stairs and noise; less for movies, of which
+# each second takes thirty.
 FINER, FINER_IN_MOVIES = 2, 1.5
 # Lights by their places around the camera (right, up, back) and intensities: the key, a fill, and one from behind.
 LIGHTS = (((-1.0, 1.6, 0.8), 0.80), ((1.2, 0.1, 1.2), 0.38), ((0.3, 1.0, -1.6), 0.25))
@@ -246,7 +246,7 @@ def _draw_bar(image, distance):
     width, height = image.size
     metre = 2 * distance * np.tan(np.radians(ANGLE / 2)) * width / height
     length, words = bar_of(metre)
-    tall = max(height, width / 2)
+    tall = max(min(height, 0.75 * width), width / 2)
     pixels, edge = round(length / metre * width), round(0.03 * tall)
     font = ImageFont.truetype(f"{matplotlib.get_data_path()}/fonts/ttf/DejaVuSans.ttf", max(10, round(0.042 * tall)))
     draw, line = ImageDraw.Draw(image), max(2, round(tall / 240))

@@ -13,6 +13,7 @@ from ogc_testbed.runs import RunError, commits_in_words
 
 RARE = 99.8  # percentile of the steps' times up to which they are drawn, if the longest is far above
 FAR = 3  # factor over that percentile from which the longest is far above
+NEAREST = 0.03  # share of the run within which a stored frame stands for the one that is asked for
 WIDTH, PICTURE = 960, (960, 640)  # pixels
 NEAR = (1280, 560)
 MOVIE = (1280, 720)
@@ -43,10 +44,19 @@ def render_frame(run, frame, camera, size=PICTURE, **look):
     return render.picture(bodies_of(run, frame), camera, size, **{**look_of(run), **look})
 
 
+def frames_at(run, steps):
+    """Returns the frames at these steps; None for a step of which none is stored within NEAREST of the run."""
+    last = run.column("step")[-1]
+    found = [run.frame_at_step(step) for step in steps]
+    return [frame if abs(frame.step - step) <= NEAREST * last else None for frame, step in zip(found, steps)]
+
+
 def show(axes, run, frame, camera, title, size=PICTURE, **look):
-    """Draws a frame into a panel, or the reason why it can't be."""
+    """Draws a frame into a panel, or the reason why it can't be. `frame`: None says that it was not kept."""
     usable, reason = render.available()
-    if usable:
+    if frame is None:
+        style.not_run(axes, "this state was not kept")
+    elif usable:
         style.picture(axes, render_frame(run, frame, camera, size, **look), title)
     else:
         style.not_run(axes, reason)
@@ -54,7 +64,7 @@ def show(axes, run, frame, camera, title, size=PICTURE, **look):
 
 
 def moment(frame):
-    return f"t = {frame.time:.3g} s"
+    return f"t = {frame.time:.3g} s" if frame else ""
 
 
 def times(run):
@@ -188,10 +198,11 @@ def draw(run, steps, claims, out, title, alt, profiled=None, driven=False, near=
     the frames."""
     run.require_finished()
     style.use()
-    frames = [run.frame_at_step(step) for step in steps]
+    frames = frames_at(run, steps)
+    seen = [frame for frame in frames if frame] or [run.frame(run.frames[-1])]
     view = view_of(run.manifest["scene"]["name"])
-    size = render.shape_of(view, np.concatenate([subject(run, frame) for frame in frames]), WIDTH)
-    camera = fitted(run, frames, size)
+    size = render.shape_of(view, np.concatenate([subject(run, frame) for frame in seen]), WIDTH)
+    camera = fitted(run, seen, size)
     wide = 3 if len(steps) % 3 == 0 or len(steps) > 4 else 2
     parts = [frames[:wide], frames[wide:]] if len(steps) > wide else [frames]
     rows = [*(style.pictures(len(part), size) for part in parts), *([style.pictures(1, NEAR)] if near else []), PLOTS]
@@ -200,7 +211,7 @@ def draw(run, steps, claims, out, title, alt, profiled=None, driven=False, near=
         for frame, place in zip(part, row):
             show(place, run, frame, camera, moment(frame), size)
     if near:
-        show(axes[-2][0], run, frames[-1], near[0](run, frames[-1]), near[1], NEAR)
+        show(axes[-2][0], run, frames[-1], frames[-1] and near[0](run, frames[-1]), near[1], NEAR)
     draw_time(axes[-1][0], run, claims, profiled or run)
     (draw_lag if driven else draw_detections)(axes[-1][1], run)
     draw_distance(axes[-1][2], run)

@@ -7,16 +7,18 @@ import numpy as np
 
 from plots import render, style
 from plots.camera import around, densest, fitted, is_cloth, subject
-from plots.scene_figure import PICTURE, render_frame, source_of
+from plots.scene_figure import PICTURE, moment, render_frame, source_of
 from ogc_testbed.runs import Run, RunError
 
 # Share of the run at which it is shown: the dancer in the middle of the motion, the shirt as it hangs.
 MOMENTS = {"robot_shirt": 0.62, "dress": 0.66}
-KNOT, KNOT_SEEN = 0.06, 0.13  # neighbourhood of the tightest place, and what is shown of it [m]
-TITLE = "Fig. 1. Scenes of the paper, simulated without a single intersection"
+# Neighbourhood of the tightest place, and what is shown of it; what is shown of the loose knots [m].
+KNOT, KNOT_SEEN, LOOSE = 0.06, 0.13, 0.6
+TITLE = "Fig. 1. Scenes of the paper, {audit}"
 ALT = ("Renderings of scenes, each at one moment, sheets blue in front and sand behind: {scenes}.")
-WORDS = {"fifty_layers": "fifty cloths at rest", "knot": "a knot pulled tight", "twist": "a cloth twisted eight turns",
-         "dress": "a dress on a dancer", "robot_shirt": "a T-shirt between grippers",
+WORDS = {"fifty_layers": "fifty cloths", "knot": "four knots, pulled", "twist": "a cloth, twisted",
+         "three_cloths_on_sphere": "three cloths on a sphere", "dress": "a dress on a dancer",
+         "robot_shirt": "a T-shirt between grippers",
          "cloth_on_sphere": "a cloth on a sphere", "yarn_twist": "a knitted cloth of one yarn, twisted",
          "yarn_stretch": "a knitted cloth of one yarn, pulled", "mat_twist": "a solid mat, twisted"}
 
@@ -24,8 +26,9 @@ WORDS = {"fifty_layers": "fifty cloths at rest", "knot": "a knot pulled tight", 
 def camera_of(run, frame):
     scene = run.manifest["scene"]["name"]
     if scene == "knot":
-        points = subject(run, frame)
-        return around(points, densest(points, KNOT), KNOT_SEEN, run, size=PICTURE)
+        points, tight = subject(run, frame), run.column("step")[-1] == frame.step
+        centre = densest(points, KNOT if tight else LOOSE)
+        return around(points, centre, KNOT_SEEN if tight else LOOSE, run, size=PICTURE)
     return fitted(run, [frame], PICTURE)
 
 
@@ -35,7 +38,7 @@ def words(run, frame):
     vertices = sum(body["vertex_count"] for body in scene["bodies"] if is_cloth(body))
     wall = np.mean(run.column("wall")[1:])
     where = run.manifest["device"].partition(",")[0].removeprefix("NVIDIA ")
-    return f"{WORDS[scene['name']]}: {vertices:,} vertices, {wall:.2g} ms a step ({where})"
+    return f"{WORDS[scene['name']]}, {moment(frame)}: {vertices:,} vertices, {wall:.2g} ms a step ({where})"
 
 
 def draw(runs, out):
@@ -53,8 +56,10 @@ def draw(runs, out):
     style.use()
     pairs = [runs[i:i + 2] for i in range(0, len(runs), 2)]
     scales = sorted({run.manifest["scale"] for run in runs})
+    audited = all(int(run.manifest.get("audited_states", 0)) for run in runs)
+    title = TITLE.format(audit="simulated without one intersection" if audited else "each at one moment")
     below = "" if scales == ["paper"] else f"scale {' and '.join(scales)}, not the paper's size"
-    figure, axes = style.page([style.pictures(2, PICTURE)] * len(pairs), TITLE, below)
+    figure, axes = style.page([style.pictures(2, PICTURE)] * len(pairs), title, below)
     places = [place for row in axes for place in row]
     for place in places[len(runs):]:
         place.axis("off")
@@ -62,7 +67,7 @@ def draw(runs, out):
         frame = run.frame(run.frames[round(MOMENTS.get(run.manifest["scene"]["name"], 1) * (len(run.frames) - 1))])
         style.picture(place, render_frame(run, frame, camera_of(run, frame)), words(run, frame))
     scenes = "; ".join(WORDS[run.manifest["scene"]["name"]] for run in runs)
-    style.save(figure, out, TITLE, ALT.format(scenes=scenes), source_of(runs))
+    style.save(figure, out, title, ALT.format(scenes=scenes), source_of(runs))
 
 
 if __name__ == "__main__":

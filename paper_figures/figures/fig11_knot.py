@@ -10,8 +10,8 @@ from matplotlib.collections import LineCollection
 from paper_figures.workflow.common import claims_of, run_of, scaled
 from plots import render, style
 from plots.camera import around, densest, subject, view_of
-from plots.scene_figure import (PLOTS, beside_paper, draw_contacts, draw_distance, draw_movie, draw_time, moment, show,
-                                source_of)
+from plots.scene_figure import (PLOTS, beside_paper, draw_contacts, draw_distance, draw_movie, draw_time, frames_at,
+                                moment, show, source_of)
 from ogc_testbed.runs import RunError
 
 SCENE, STEPS = "knot", (0, 3550, 7100, 10650)
@@ -72,19 +72,19 @@ def draw_cut(axes, run, frame):
 def draw(run, out):
     run.require_finished()
     style.use()
-    frames = [run.frame_at_step(step) for step in scaled(run, STEPS)]
-    view = view_of(SCENE)
-    size = render.shape_of(view, subject(run, frames[-1]), WIDE, 0.24)
+    frames = frames_at(run, scaled(run, STEPS))
+    view, end = view_of(SCENE), run.frame(run.frames[-1])
+    size = render.shape_of(view, subject(run, end), WIDE, 0.24)
     near = style.pictures(2, CLOSE, 0.7)
     rows = [style.pictures(2, size), style.pictures(2, size), (near[0], [*near[1], (0.3, "plot")]), PLOTS]
     figure, axes = style.page(rows, TITLE, beside_paper(run, claims_of(run)))
     for place, frame in zip((*axes[0], *axes[1]), frames):
-        show(place, run, frame, view.fit(subject(run, frame), size), moment(frame), size)
-    for place, frame, words in zip(axes[2], (frames[1], frames[-1]), ("a small knot", "the tight knot")):
-        points = subject(run, frame)
+        show(place, run, frame, frame and view.fit(subject(run, frame), size), moment(frame), size)
+    for place, frame, words in zip(axes[2], (frames[1], end), ("a small knot", "the tight knot")):
+        points = subject(run, frame or end)
         camera = around(points, densest(points, REACH), SEEN, run, view, CLOSE)
         show(place, run, frame, camera, f"{words}, {moment(frame)}", CLOSE)
-    layers = draw_cut(axes[2][2], run, frames[-1])
+    layers = draw_cut(axes[2][2], run, end)
     draw_time(axes[3][0], run, claims_of(run), run)
     draw_contacts(axes[3][1], run)
     draw_distance(axes[3][2], run)

@@ -11,8 +11,8 @@ from paper_figures.workflow.common import claims_of, run_of, scaled
 from plots import render, style
 from plots.bodies import bodies_of
 from plots.camera import fitted, is_cloth, subject, view_of
-from plots.scene_figure import (PLOTS, beside_paper, draw_detections, draw_lag, draw_movie, draw_time, moment, show,
-                                source_of)
+from plots.scene_figure import (PLOTS, beside_paper, draw_detections, draw_lag, draw_movie, draw_time, frames_at,
+                                moment, show, source_of)
 from ogc_testbed.runs import RunError
 
 SCENE, STEPS = "dress", (0, 320, 640, 968)
@@ -76,13 +76,14 @@ def worst_frame(run):
 def draw(run, out):
     run.require_finished()
     style.use()
-    frames = [run.frame_at_step(step) for step in scaled(run, STEPS)]
+    frames = frames_at(run, scaled(run, STEPS))
+    seen = [frame for frame in frames if frame] or [run.frame(run.frames[-1])]
     volume = "vertices_inside" in run.steps and np.any(run.column("vertices_inside") > 0)
     figure, rows = style.page([style.pictures(2, BROAD), style.pictures(4, TALL), PLOTS], TITLE,
                               beside_paper(run, claims_of(run)))
     axes = rows[0][0]
     usable, reason = render.available()
-    pieces, points = exploded(run, frames[0])
+    pieces, points = exploded(run, seen[0])
     title = f"(a) its {len(pieces)} pieces, drawn apart"
     if usable:
         style.picture(axes, render.picture(pieces, render.View((0.15, 0.1, 1)).fit(points, BROAD), BROAD), title)
@@ -99,7 +100,7 @@ def draw(run, out):
     else:
         style.not_run(axes, "not run: here the body is a surface, which nothing enters")
         axes.set_title("(b) vertices inside the body")
-    camera = fitted(run, frames, TALL)
+    camera = fitted(run, seen, TALL)
     for column, frame in enumerate(frames):
         show(rows[1][column], run, frame, camera, moment(frame), TALL)
     draw_time(rows[2][0], run, claims_of(run), run)

@@ -21,7 +21,7 @@ from paper_figures.workflow.jobs import ENDED_BY_TIME, Job, Limit, RunFailure
 from paper_figures.workflow.runs import provenance, write_table
 from plots import style
 from plots.camera import fitted
-from plots.scene_figure import audit_in_words, draw_movie, moment, show, source_of
+from plots.scene_figure import audit_in_words, draw_movie, frames_at, moment, show, source_of
 from ogc_testbed.runs import Run, RunError
 
 GIPC, GIPC_DEVICE = RESULTS / "h200" / "gipc_mat.csv", "NVIDIA H200"
@@ -264,7 +264,8 @@ def draw(runs, theirs, backend, out, rows=None):
             *(row for row in (rows or table(runs, theirs)) if row["what"] != "whole")]
     whole = runs["planes/whole"]
     last = whole.column("step")[-1]
-    frames = [whole.frame_at_step(round(share / 100 * last)) for share in commands.MAT_WINDOWS]
+    frames = frames_at(whole, [round(share / 100 * last) for share in commands.MAT_WINDOWS])
+    seen = [frame for frame in frames if frame] or [whole.frame(whole.frames[-1])]
     size = (640, 400)
     scale = whole.manifest["scale"]
     below = (f"15,312 vertices, planes: {audit_in_words(whole)}" if scale == "paper"
@@ -275,7 +276,7 @@ def draw(runs, theirs, backend, out, rows=None):
     rows_of_page = [style.pictures(4, size), (2.6, [half, half]), (2.2, [half, (0.5, "picture")])]
     figure, axes = style.page(rows_of_page, TITLE, below)
     for place, frame in zip(axes[0], frames):
-        show(place, whole, frame, fitted(whole, frames, size), moment(frame), size)
+        show(place, whole, frame, fitted(whole, seen, size), moment(frame), size)
     draw_gpu(axes[1][0], runs, theirs, backend)
     draw_cpu(axes[1][1], rows)
     draw_lag(axes[2][0], runs)
