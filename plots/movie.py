@@ -8,27 +8,16 @@ import argparse
 import sys
 from pathlib import Path
 
-import numpy as np
-
 from plots import render
 from ogc_testbed.runs import Run, RunError
-from plots.scene_figure import bodies_of, draw_movie, is_cloth
+from plots.bodies import bodies_of
+from plots.camera import fitted
+from plots.scene_figure import MOVIE, draw_movie, look_of
 
-UP, TOWARDS_EYE = (0, 1, 0), np.array([0.55, 0.35, 1.0])
-DISTANCE = 2.2  # distance of the eye in diagonals of the box around the moving bodies
 
-
-def camera_of(run):
+def camera_of(run, size=MOVIE):
     """Returns (eye, target, up) of a camera that shows the simulated bodies at their start and end."""
-    moving = [body for body in run.manifest["scene"]["bodies"] if is_cloth(body)]
-    ranges = [slice(body["first_vertex"], body["first_vertex"] + body["vertex_count"]) for body in moving or [
-        {"first_vertex": 0, "vertex_count": None}] if body["vertex_count"]] or [slice(None)]
-    states = [run.frame(path).positions for path in (run.frames[0], run.frames[-1])]
-    seen = np.concatenate([state[part] for state in states for part in ranges]).astype(float)
-    low, high = seen.min(axis=0), seen.max(axis=0)
-    target = (low + high) / 2
-    away = TOWARDS_EYE / np.linalg.norm(TOWARDS_EYE) * DISTANCE * np.linalg.norm(high - low)
-    return tuple(target + away), tuple(target), UP
+    return fitted(run, [run.frame(path) for path in (run.frames[0], run.frames[-1])], size)
 
 
 def main():
@@ -42,10 +31,11 @@ def main():
         if not run.frames:
             raise RunError(f"{options.run} has no stored frame: its movie can't be drawn")
         camera, out = camera_of(run), options.out or run.folder / "movie.mp4"
-        draw_movie(run, camera, out)
+        draw_movie(run, out, camera)
         if options.picture:
             from PIL import Image  # a dependency of the renderer
-            Image.fromarray(render.picture(bodies_of(run, run.frame(run.frames[-1])), camera)).save(options.picture)
+            shown = render.picture(bodies_of(run, run.frame(run.frames[-1])), camera, MOVIE, **look_of(run))
+            Image.fromarray(shown).save(options.picture)
     except RunError as error:
         sys.exit(f"movie: {error}")
     print(out)

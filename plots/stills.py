@@ -4,12 +4,10 @@ import numpy as np
 
 from ogc_testbed.motion import CONTACTS, PLANES, SCALE, Motion, rgb, scaled
 from ogc_testbed.page import placed
-from plots import render, scene_figure
+from plots import bodies, render
 
-TOWARDS_EYE, UP = np.array([0.55, 0.35, 1.0]), (0, 1, 0)
+VIEW = render.View()
 SIZE = (1280, 720)
-HALF_ANGLE = np.radians(15)  # of view, from the middle to the top: VTK's
-FILLED = 0.88  # share of the picture that the subject may fill
 EDGE = 0.15  # radius of loose edges, in contact radii
 THREE = 2 * np.pi / 3 * np.arange(3)
 
@@ -28,24 +26,6 @@ def prisms(segments, radius):
     return points, (6 * np.arange(len(ends))[:, None, None] + one).reshape(-1, 3)
 
 
-def axes_of_view():
-    """Returns the directions right, up and towards the eye of the picture."""
-    away = TOWARDS_EYE / np.linalg.norm(TOWARDS_EYE)
-    right = np.cross(UP, away) / np.linalg.norm(np.cross(UP, away))
-    return np.stack([right, np.cross(away, right), away])
-
-
-def fitted_camera(points, size=SIZE):
-    """Returns (eye, target, up) of the nearest camera that sees all points (n, 3)."""
-    axes, slope = axes_of_view(), np.tan(HALF_ANGLE) * FILLED
-    seen = points @ axes.T
-    middle = (seen.min(axis=0) + seen.max(axis=0)) / 2
-    across = np.abs(seen[:, :2] - middle[:2]) / (slope * np.array([size[0] / size[1], 1]))
-    distance = float((across.max(axis=1) + seen[:, 2] - middle[2]).max()) or 1.0
-    target = middle @ axes
-    return tuple(target + max(distance, 1e-6) * axes[2]), tuple(target), UP
-
-
 class Stage:
     """Motions beside each other, what colours them, and the camera. `colour`: name of a field. `segments`: "contacts"
     and "planes" that are drawn."""
@@ -59,7 +39,7 @@ class Stage:
         self.offsets, _, _ = placed(shown)
         count = len(shown[0])
         chosen = sorted({0, count // 3, 2 * count // 3, count - 1}) if frames is None else frames
-        self.camera = fitted_camera(np.concatenate([self._subject(i) for i in chosen]))
+        self.camera = VIEW.fit(np.concatenate([self._subject(i) for i in chosen]), SIZE)
         self.limits = None
         if colour != "body":
             ends = [motion.limits(colour, frames) for motion in shown]
@@ -91,7 +71,7 @@ class Stage:
     def _plain(self, motion, i, x, offset):
         if motion.run is not None:  # as figures draw it, with plies of yarn
             frame = motion.run.frame_at_step(int(motion.steps[i]))
-            return [(points + offset, *rest) for points, *rest in scene_figure.bodies_of(motion.run, frame)]
+            return [(points + offset, *rest) for points, *rest in bodies.bodies_of(motion.run, frame)]
         corners = motion.body[motion.triangles[:, 0]]
         found = [(x[motion.body == b], motion.triangles[corners == b] - int((motion.body < b).sum()), front, back)
                  for b, (front, back) in enumerate(motion.colours()) if (corners == b).any()]
@@ -110,10 +90,12 @@ class Stage:
         points, triangles = prisms(x[motion.edges], EDGE * motion.radius)
         return [(points, triangles, colours[motion.edges].repeat(3, axis=1).reshape(-1, 3), None)]
 
-    def image(self, i, size=SIZE):
+    def image(self, i, size=SIZE, finer=render.FINER):
         """Returns the picture of frame i, uint8 (height, width, 3), with segments above it, since surfaces hide them,
         and with a legend if a field colours it."""
-        image = render.picture(self.bodies(i), self.camera, size)
+        run = self.shown[0].run
+        floor = bodies.floor_of(run) if run is not None and self.colour == "body" else None
+        image = render.picture(self.bodies(i), self.camera, size, floor=floor, finer=finer)
         if self.limits is None and not self.segments:
             return image
         from PIL import Image, ImageDraw
@@ -129,8 +111,8 @@ class Stage:
 
     def _on_picture(self, ends, size):
         """Returns the pixels of segments (n, 2, 3)."""
-        seen = (ends - np.array(self.camera[0])) @ axes_of_view().T
-        scale = size[1] / 2 / np.tan(HALF_ANGLE) / -seen[..., 2:]
+        seen = (ends - np.array(self.camera[0])) @ VIEW.axes().T
+        scale = size[1] / 2 / np.tan(np.radians(render.ANGLE / 2)) / -seen[..., 2:]
         return np.array(size) / 2 + seen[..., :2] * scale * np.array([1, -1])
 
     def _draw_legend(self, picture, draw):
@@ -165,5 +147,5 @@ def save_movie(stage, out, rate, progress):
     with imageio.get_writer(out, fps=rate, codec="libx264", quality=7, macro_block_size=16,
                             ffmpeg_log_level="error") as writer:
         for i in range(count):
-            writer.append_data(stage.image(i))
+            writer.append_data(stage.image(i, finer=render.FINER_IN_MOVIES))
             progress(i + 1, count)

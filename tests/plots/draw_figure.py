@@ -90,7 +90,8 @@ def check_refused(source, module, folder, scratch):
     good, rows = json.loads((copy / "run.json").read_text()), (copy / "steps.csv").read_text()
     faults = [({"status": "running"}, rows, "not finished"), ({"guarantee_kept": False}, rows, "the audit failed"),
               ({"scene": {**good["scene"], "name": "knot"}}, rows, "is a run of 'knot'"),
-              ({}, rows.replace("edge_edge_contacts", "pairs", 1), "has no column 'edge_edge_contacts'; it has: step"),
+              ({}, rows.replace("discrete_detections", "pairs", 1),
+               "has no column 'discrete_detections'; it has: step"),
               ({}, rows.splitlines()[0] + "\n", "holds no step yet"), ({}, None, "steps.csv is missing")]
     for changes, table, words in faults:
         (copy / "run.json").write_text(json.dumps({**good, **changes}))

@@ -37,10 +37,11 @@ except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
 
+from ogc_testbed import motion  # noqa: E402
 from ogc_testbed.motion import Field, Motion, motion_of_arrays, motion_of_run  # noqa: E402
 from ogc_testbed.page import Page  # noqa: E402
 from ogc_testbed.runs import Run, RunError  # noqa: E402
-from plots import packages, stills, usd, view  # noqa: E402
+from plots import packages, render, stills, style, usd, view  # noqa: E402
 from plots.progress import Progress  # noqa: E402
 
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
@@ -201,16 +202,16 @@ class Contacts(unittest.TestCase):
         both[:, 1] += random.uniform(0, 0.01, len(both)).astype(np.float32)
         faces = np.concatenate([triangles, triangles + np.int32(len(x))])
         radius = 0.03
-        motion = motion_of_arrays(both, faces, radius=radius)
-        ends = motion.segments["contacts"](0).astype(float)
+        shown = motion_of_arrays(both, faces, radius=radius)
+        ends = shown.segments["contacts"](0).astype(float)
         lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
         sets = ogc_package.find_contacts(ogc_package.Mesh(faces, vertex_count=len(both)), both, radius, 2 * radius)
         self.assertEqual(len(ends), len(sets.vertex_facet) + len(sets.edge_edge))
         self.assertGreater(len(sets.edge_edge), 20)
         self.assertLess(lengths.max(), radius * (1 + 1e-5))
         self.assertAlmostEqual(lengths.min(), sets.smallest_distance, delta=1e-6)
-        self.assertAlmostEqual(motion.limits("distance")[0], sets.smallest_distance, delta=1e-6)
-        crosses = motion.segments["planes"](0).astype(float)
+        self.assertAlmostEqual(shown.limits("distance")[0], sets.smallest_distance, delta=1e-6)
+        crosses = shown.segments["planes"](0).astype(float)
         along, across = np.repeat(ends[:, 1] - ends[:, 0], 1, axis=0), crosses[:, 1] - crosses[:, 0]
         self.assertEqual(len(crosses), 2 * len(ends))
         for part in (across[:len(ends)], across[len(ends):]):
@@ -310,16 +311,16 @@ class Program(Scratch):
         self.assertEqual((done.returncode, done.stdout.strip()), (0, str(out)), done.stderr)
         return np.asarray(Image.open(out).convert("RGB")).astype(int)
 
-    def drawn_columns(self, image):
-        return np.flatnonzero((image < 250).any(axis=(0, 2)))
+    def drawn(self, image):
+        """Returns which pixels above the scale bar differ from the background."""
+        return (np.abs(image - image[0, 0]).max(axis=2) > 20)[:-80]
 
     def test_a_picture_fills_the_frame_and_a_second_run_stands_beside(self):
         one = self.shown(self.run_folder)
-        rows = np.flatnonzero((one < 250).any(axis=(1, 2)))
-        filled = max(np.ptp(self.drawn_columns(one)) / one.shape[1], np.ptp(rows) / one.shape[0])
+        filled = max(np.ptp(np.flatnonzero(self.drawn(one).any(axis=axis))) / one.shape[1 - axis] for axis in (0, 1))
         self.assertGreater(filled, 0.7)
         two = self.shown(self.run_folder, "--beside", self.run_folder, "--step", "0")
-        empty = (two >= 250).all(axis=(0, 2))
+        empty = ~self.drawn(two).any(axis=0)
         runs = np.flatnonzero(np.diff(np.concatenate([[1], empty.astype(int), [1]])))
         self.assertGreaterEqual(len(runs), 2)
 
@@ -529,16 +530,21 @@ def Xform "a" {
 
 
 class Stills(unittest.TestCase):
-    def test_the_camera_sees_every_point_and_no_more(self):
-        random = np.random.default_rng(5)
-        for size in ((1280, 720), (400, 900)):
-            points = random.normal(size=(200, 3)) * [3, 1, 0.3] + 5
-            eye, target, _ = stills.fitted_camera(points, size)
-            axes, slope = stills.axes_of_view(), np.tan(stills.HALF_ANGLE)
-            seen = (points - np.array(eye)) @ axes.T
-            reach = np.abs(seen[:, :2] / -seen[:, 2:]) / (slope * np.array([size[0] / size[1], 1]))
-            self.assertLessEqual(reach.max(), stills.FILLED * (1 + 1e-9))
-            self.assertGreater(reach.max(), stills.FILLED * 0.999)
+    def test_colours_are_those_of_all_pictures(self):
+        self.assertEqual((motion.FRONTS, motion.BACKS, motion.STILL), (style.FRONTS, style.BACKS, style.BODY))
+
+    def test_segments_lie_where_the_picture_has_their_ends(self):
+        """A red body at the end of a segment is drawn where the segment ends."""
+        frames = np.zeros((1, 3, 3), np.float32)
+        frames[0] = [[0, 0, 0], [1, 0, 0], [0.4, 0.7, 0.2]]
+        stage = stills.Stage([plain(frames, np.array([[0, 1, 2]], np.int32))])
+        for place in frames[0].astype(float):
+            near = place + 0.004 * np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+            red = (near, np.array([[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]]), "#FF0000", "#FF0000")
+            image = render.picture([red], stage.camera, stills.SIZE, bar=False).astype(int)
+            rows, columns = np.nonzero(image[..., 0] - image[..., 1] > 60)
+            (x, y), _ = stage._on_picture(np.stack([near.mean(axis=0)] * 2)[None], stills.SIZE)[0]
+            self.assertLess(np.hypot(columns.mean() - x, rows.mean() - y), 3)
 
 
 if __name__ == "__main__":

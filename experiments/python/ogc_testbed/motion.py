@@ -9,8 +9,8 @@ import numpy as np
 from ogc_testbed.runs import RunError
 
 REACH = 4  # distances are searched up to this many contact radii
-# Okabe and Ito's palette: the front and back of the sheets of one body after the other, and what does not move.
-FRONTS, BACKS, STILL = ("#56B4E9", "#009E73", "#CC79A7"), ("#E69F00", "#D55E00", "#F0E442"), "#B0B0B0"
+# The front and back of sheets, one after the other, and what does not move: as plots/style.py has them.
+FRONTS, BACKS, STILL = ("#4C86B8", "#7FB0D4", "#2F6393"), ("#E2B458", "#EFD08C", "#C9952F"), "#B9BDC4"
 # Nine colours of viridis, whose lightness grows evenly, also for readers who are colour-blind.
 SCALE = ("#440154", "#472D7B", "#3B528B", "#2C728E", "#21918C", "#28AE80", "#5EC962", "#ADDC30", "#FDE725")
 CONTACTS, PLANES = "#D55E00", "#0072B2"  # colours of segments
