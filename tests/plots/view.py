@@ -172,6 +172,7 @@ class Pages(unittest.TestCase):
             $("canvas").setPointerCapture = () => {};
             for (const kind of ["pointerdown", "pointerup"]) $("canvas").dispatchEvent(new PointerEvent(kind, at));
             note("c" + row());
+            note("d" + getComputedStyle($("contacts-label")).display);
           }
           wait();</script>"""
         with tempfile.TemporaryDirectory() as folder:
@@ -181,8 +182,9 @@ class Pages(unittest.TestCase):
                 [CHROMIUM, "--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
                  f"--user-data-dir={folder}/profile", "--window-size=1000,700", "--virtual-time-budget=20000",
                  "--dump-dom", file.as_uri()], capture_output=True, text=True, timeout=200, check=False).stdout
-        said = {key: value.replace("\t", " ") for key, value in re.findall(r'data-([abce])="([^"]*)"', dom)}
-        self.assertEqual(set(said), {"a", "b", "c"}, dom[:3000] if not said else said)
+        said = {key: value.replace("\t", " ") for key, value in re.findall(r'data-([abcde])="([^"]*)"', dom)}
+        self.assertEqual(set(said), {"a", "b", "c", "d"}, dom[:3000] if not said else said)
+        self.assertEqual(said["d"], "none")  # there are no contacts to switch on
         self.assertIn("vertex 40", said["a"])
         self.assertIn("position 0.5, 1, 0.5 m", said["a"])
         self.assertIn("position 0.5, 0.5, 0.5 m", said["b"])
