@@ -82,3 +82,8 @@ def densest(points, reach, rounds=10):
     for _ in range(rounds):
         centre = points[np.linalg.norm(points - centre, axis=1) < reach].mean(axis=0)
     return centre
+
+
+def of_ends(run, size):
+    """Returns (eye, target, up) of a camera that shows a run's bodies at their start and end."""
+    return fitted(run, [run.frame(path) for path in (run.frames[0], run.frames[-1])], size)

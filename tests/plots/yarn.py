@@ -17,8 +17,7 @@ sys.path.insert(0, str(SOURCE))
 try:
     import numpy as np
 
-    from plots import render, style, yarn
-    from plots.movie import camera_of
+    from plots import camera, render, style, yarn
     from ogc_testbed.runs import Run, RunError
     from plots.bodies import bodies_of
 except ImportError as missing:
@@ -117,7 +116,8 @@ class Drawn(unittest.TestCase):
         cls.run_folder = Run(cls.folder)
 
     def picture(self, frame):
-        return render.picture(bodies_of(self.run_folder, frame), camera_of(self.run_folder), bar=False).astype(int)
+        seen = camera.of_ends(self.run_folder, (1280, 720))
+        return render.picture(bodies_of(self.run_folder, frame), seen, bar=False).astype(int)
 
     def test_a_frame_has_an_orientation_of_each_segment_and_a_changed_one_is_damaged(self):
         import h5py

@@ -16,9 +16,8 @@ from paper_figures.figures.table1 import contacts, times
 from paper_figures.workflow import commands
 from paper_figures.workflow.jobs import Limit, RunFailure, parser_of_figure
 from paper_figures.workflow.runs import provenance, write_table
-from plots import render, style
-from plots.movie import camera_of
-from plots.scene_figure import source_of
+from plots import camera, render, style
+from plots.scene_figure import MOVIE, source_of
 from ogc_testbed.runs import Run, RunError
 from plots.bodies import bodies_of
 
@@ -93,7 +92,7 @@ def draw(runs, out):
             frame = run.frame(frame_at(run, share))
             axes.set_title(f"{kind}, {frame.time:.3g} s")
             if usable:
-                axes.imshow(render.picture(bodies_of(run, frame), camera_of(run)))
+                axes.imshow(render.picture(bodies_of(run, frame), camera.of_ends(run, MOVIE)))
             else:
                 axes.text(0.5, 0.5, reason, ha="center", va="center", wrap=True, transform=axes.transAxes)
     about = runs[commands.MAT].manifest
