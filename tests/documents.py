@@ -282,6 +282,8 @@ class AsPrinted(Scratch):
                 for command in lines_of(block) if language == "sh" else [block] if language == "python" else []:
                     if language == "python" and "import ogc_testbed" in command:
                         continue  # tests/experiments/python/programs.py runs these
+                    if language == "python" and name.startswith("experiments/peers/reports/"):
+                        continue  # `experiments/peers/run PEER reports` runs these with the packages of others
                     rules = {rule for rule in NOT_RUN if language == "sh" and re.search(rule, command)}
                     used |= rules
                     if not rules:
