@@ -237,7 +237,8 @@ SOUND = (
 class Scratch(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        holder = tempfile.TemporaryDirectory()
+        # The viewer of `ogc run --view-png` may still draw its last picture into the folder.
+        holder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         cls.addClassCleanup(holder.cleanup)
         cls.place = Place(holder.name)
 
