@@ -1,7 +1,9 @@
 // `ogc bench`: runs Google Benchmark over stages, steps and parts of steps, writes its JSON, and compares two such
 // files by rank.
 #include <algorithm>
+#include <array>
 #include <optional>
+#include <sstream>
 
 #include <benchmark/benchmark.h>
 #include <tbb/task_arena.h>
@@ -15,6 +17,7 @@
 #include "experiments/bench/stage_benchmarks.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/option_checks.hpp"
+#include "experiments/program/progress.hpp"
 #include "experiments/program/version.hpp"
 #include "experiments/scenes/registry.hpp"
 
@@ -35,6 +38,7 @@ struct CommandOptions {
 /// Prints one line (median, spread, counters) after the last repetition of a benchmark.
 class LineReporter : public benchmark::BenchmarkReporter {
  public:
+  explicit LineReporter(std::size_t count) : progress_(0, static_cast<std::int64_t>(count), "benchmark") {}
   bool ReportContext(const Context&) override { return true; }
 
   void ReportRuns(const std::vector<Run>& runs) override {
@@ -51,6 +55,8 @@ class LineReporter : public benchmark::BenchmarkReporter {
     std::ranges::sort(times);
     std::string counters;
     for (const auto& [name, counter] : last->counters) counters += "  " + name + " " + number(counter.value);
+    progress_.show(++done_, "");
+    progress_.end();
     print_result(table({{last->run_name.function_name, duration(median(times)),
                          duration(times.front()) + " to " + duration(times.back()),
                          std::to_string(times.size()) + " repetitions" + counters}},
@@ -58,7 +64,29 @@ class LineReporter : public benchmark::BenchmarkReporter {
   }
 
   std::vector<std::string> failed;
+
+ private:
+  Progress progress_;
+  std::int64_t done_ = 0;
 };
+
+/// Counts the benchmarks of a filter, and prints nothing.
+std::size_t count_benchmarks(const std::string& filter) {
+  std::string program = "ogc", list = "--benchmark_list_tests=true", run = "--benchmark_list_tests=false";
+  const auto set = [&](std::string& flag) {
+    std::array<char*, 3> words{program.data(), flag.data(), nullptr};
+    int count = 2;
+    benchmark::Initialize(&count, words.data());
+  };
+  set(list);
+  std::ostringstream nowhere;
+  benchmark::ConsoleReporter reporter;
+  reporter.SetOutputStream(&nowhere);
+  reporter.SetErrorStream(&nowhere);
+  const std::size_t count = benchmark::RunSpecifiedBenchmarks(&reporter, nullptr, filter);
+  set(run);
+  return count;
+}
 
 std::vector<fast::Backend> backends_of(const std::string& name) {
   if (name == "cpu") return {fast::Backend::cpu};
@@ -94,9 +122,9 @@ void initialize(const CommandOptions& options) {
 void run_benchmarks(const CommandOptions& options) {
   register_stage_benchmarks(options.bench);
   register_scene_benchmarks(options.bench);
+  LineReporter reporter(options.list ? 0 : count_benchmarks(options.filter));
   initialize(options);
   say_context(options);
-  LineReporter reporter;
   const std::size_t found = benchmark::RunSpecifiedBenchmarks(&reporter, nullptr, options.filter);
   if (found == 0)
     throw compare::InputError("--filter " + options.filter + " fits no benchmark; `ogc bench --list` prints all names");
