@@ -21,6 +21,7 @@ QUERY_RADIUS = 0.2
 DECADES = range(-12, 0)  # gaps of 10^k to 10^(k+1) m
 SHAPES = ("parallel", "point_triangle", "edge_edge", "crowded")
 PLACES = ("flat", "turned")
+ROUNDING = 1e-14  # [m] above that of a plane's point: a few units of 1.1e-16 of three products of coordinates below 3 m
 FAN = 6  # triangles around a crowded vertex
 
 
@@ -216,8 +217,8 @@ def write(rows, path):
 
 def planes_of_ipctk(x, triangles, dx):
     """Yields for each near pair of primitives, by the rule of ipctk's planar filter: whether it is left out (nearer
-    than 1e-10 m), whether the plane's normal, as rounded, separates the two sides exactly, and whether a vertex crosses
-    the plane before 1e-10 of its step."""
+    than 1e-10 m), whether the plane's normal, as rounded, separates the two sides exactly, whether a vertex crosses the
+    plane before 1e-10 of its step, and whether one begins beyond the plane where the motions place it."""
     import ipctk
     from conversions import exact
 
@@ -233,7 +234,7 @@ def planes_of_ipctk(x, triangles, dx):
         weights = np.array(weights)[: len(ids)]
         distance = np.linalg.norm(gap)
         if distance < 1e-10:
-            yield True, True, False
+            yield True, True, False, False
             continue
         n = exact(gap / distance)
         heights = [sum(a * b for a, b in zip(n, exact(p))) for p in at]
@@ -245,7 +246,9 @@ def planes_of_ipctk(x, triangles, dx):
         point = -(weights[weights < 0] @ at[weights < 0]) + share * gap
         with np.errstate(all="ignore"):
             crossing = -((at - point) @ (gap / distance)) / speed
-        yield False, apart, bool(((crossing > 0) & (crossing < 1e-10)).any())
+        level = sum(a * b for a, b in zip(n, exact(point)))
+        beyond = max(level - min(heights[:first]), max(heights[first:]) - level) > ROUNDING
+        yield False, apart, bool(((crossing > 0) & (crossing < 1e-10)).any()), beyond
 
 
 def is_edges(pair):
@@ -253,11 +256,12 @@ def is_edges(pair):
 
 
 def causes(options):
-    """Writes how many pairs have, among their primitives, one that is left out, a plane that does not separate, and a
-    crossing that is left out: of those that pass through ipctk's planar filter, and of the others."""
+    """Writes how many pairs have, among their primitives, one that is left out, a plane that does not separate, a
+    crossing that is left out, and a vertex that begins beyond its plane: of those that pass through ipctk's planar
+    filter, and of the others."""
     passed = np.load(options.inputs[0])
     asked = questions(int(passed["pairs"]), int(passed["seed"]))
-    cells = {(d, through): [0] * 5 for d in DECADES for through in (True, False)}
+    cells = {(d, through): [0] * 7 for d in DECADES for through in (True, False)}
     for (_, x, t, dx), (gap, through) in zip(asked, passed["ipctk_planar"]):
         if np.isnan(gap):
             continue
@@ -265,11 +269,14 @@ def causes(options):
         if decade > -6 and not through:
             continue  # none of these passes, so none of them is examined
         found = np.array(list(planes_of_ipctk(x, t, dx)))
-        left_out, tilted, early = found[:, 0].any(), (~found[:, 1]).any(), found[:, 2].any()
+        left_out, tilted, early, beyond = found[:, 0].any(), (~found[:, 1]).any(), found[:, 2].any(), found[:, 3].any()
+        first_three = left_out or tilted or early
         cell = cells[decade, bool(through)]
-        for k, counts in enumerate((True, left_out, tilted, early, not (left_out or tilted or early))):
+        for k, counts in enumerate((True, left_out, tilted, early, beyond, not first_three and beyond,
+                                    not first_three and not beyond)):
             cell[k] += bool(counts)
-    names = ["pairs", "left_out", "plane_does_not_separate", "crossing_left_out", "none_of_these"]
+    names = ["pairs", "left_out", "plane_does_not_separate", "crossing_left_out", "begins_beyond_plane",
+             "this_alone", "none_of_these"]
     write([{"filter": "ipctk_planar", "gap_from_m": f"1e{d}", "pass_through": int(through), **dict(zip(names, cell)),
             "seed": int(passed["seed"])} for (d, through), cell in cells.items() if cell[0]], options.out)
 

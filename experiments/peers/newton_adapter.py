@@ -18,6 +18,7 @@ that are left are no matter of definition.
 import os
 
 import conversions as to
+import newton_steps as steps
 import numpy as np
 import ogc_testbed as ogc
 
@@ -127,21 +128,31 @@ def friction_kernel(
     """Friction alone, by the steps of both functions of contacts."""
     i = wp.tid()
     w = wp.vec4(0.0)
+    diff = wp.vec3(0.0)
+    dx = wp.vec3(0.0)
+    distance = float(0.0)
     if edges[i] == 1:
         st = wp.closest_point_edge_edge(pos[i, 0], pos[i, 1], pos[i, 2], pos[i, 3], eps)
-        w = wp.vec4(1.0 - st[0], st[0], -1.0 + st[1], -st[1])
+        s = st[0]
+        t = st[1]
+        w = wp.vec4(1.0 - s, s, -1.0 + t, -t)
+        c1 = pos[i, 0] + (pos[i, 1] - pos[i, 0]) * s
+        c2 = pos[i, 2] + (pos[i, 3] - pos[i, 2]) * t
+        c1_start = start[i, 0] + (start[i, 1] - start[i, 0]) * s
+        c2_start = start[i, 2] + (start[i, 3] - start[i, 2]) * t
+        diff = c1 - c2
+        distance = st[2]
+        dx = (c1 - c1_start) - (c2 - c2_start)
     else:
         near, bary, kind = triangle_closest_point(pos[i, 1], pos[i, 2], pos[i, 3], pos[i, 0])
         w = wp.vec4(1.0, -bary[0], -bary[1], -bary[2])
-    gap = wp.vec3(0.0)
-    dx = wp.vec3(0.0)
-    for k in range(4):
-        gap += w[k] * pos[i, k]
-        dx += w[k] * (pos[i, k] - start[i, k])
-    distance = wp.length(gap)
+        diff = pos[i, 0] - near
+        distance = wp.length(diff)
+        near_start = bary[0] * start[i, 1] + bary[1] * start[i, 2] + bary[2] * start[i, 3]
+        dx = (pos[i, 0] - start[i, 0]) - (near - near_start)
     if distance < radius[i]:
         slope, curvature = vbd.evaluate_self_contact_force_norm(distance, radius[i], stiffness[i])
-        e0, e1 = vbd.orthonormal_basis(gap / distance)
+        e0, e1 = vbd.orthonormal_basis(diff / distance)
         basis = vbd.mat32(e0[0], e1[0], e0[1], e1[1], e0[2], e1[2])
         f, h = vbd.compute_friction(mu[i], -slope, basis, wp.transpose(basis) * dx, limit[i])
         force[i] = w[order[i]] * f
@@ -318,7 +329,11 @@ def contact_force(cases):
             mesh, order = index[:, 1:], np.array([3, 0, 1, 2])[some["own"]]  # Newton: three corners, then the vertex
         arguments = [pos, integers(mesh), integers(order), numbers(some["contact_radius"]), numbers(some["stiffness"])]
         arguments += [PARALLEL_EPSILON] if sides == to.EDGE_EDGE else []
-        f, h = launch(kernel, len(some), arguments, [wp.vec3, wp.mat33])
+        if steps.ASKED:
+            x = to.singles(some["vertex"])
+            f, h = steps.contact_force(x, sides == to.EDGE_EDGE, some["own"], some["contact_radius"], some["stiffness"])
+        else:
+            f, h = launch(kernel, len(some), arguments, [wp.vec3, wp.mat33])
         force[chosen], block[chosen] = f, to.packed(h)
     to.log(stage="contact_force", cases=len(cases), asked=int(asked.sum()))
     return force, block
@@ -333,12 +348,20 @@ def friction_force(cases):
     if OWN:  # Newton's friction has no block where nothing slips
         asked &= np.linalg.norm(slip, axis=1) > 0
     force, block = force.astype(np.float32), block.astype(np.float32)
-    if asked.any():
-        some, part = cases[asked], case[asked]
-        arguments = [vectors(part["vertex"]), vectors(some["start"]), integers(part["own"])]
-        arguments += [integers(part["sides"] == to.EDGE_EDGE), numbers(part["contact_radius"])]
-        arguments += [numbers(part["stiffness"]), numbers(some["friction"]), numbers(some["slip_limit"])]
-        f, h = launch(friction_kernel, len(some), [*arguments, PARALLEL_EPSILON], [wp.vec3, wp.mat33])
-        force[asked], block[asked] = f, to.packed(h)
+    for sides in (to.POINT_TRIANGLE, to.EDGE_EDGE):
+        chosen = asked & (case["sides"] == sides)
+        if not chosen.any():
+            continue
+        some, part = cases[chosen], case[chosen]
+        if steps.ASKED:
+            x, start = to.singles(part["vertex"]), to.singles(some["start"])
+            f, h = steps.friction_force(x, start, sides == to.EDGE_EDGE, part["own"], part["contact_radius"],
+                                        part["stiffness"], some["friction"], some["slip_limit"])
+        else:
+            arguments = [vectors(part["vertex"]), vectors(some["start"]), integers(part["own"])]
+            arguments += [integers(part["sides"] == to.EDGE_EDGE), numbers(part["contact_radius"])]
+            arguments += [numbers(part["stiffness"]), numbers(some["friction"]), numbers(some["slip_limit"])]
+            f, h = launch(friction_kernel, len(some), [*arguments, PARALLEL_EPSILON], [wp.vec3, wp.mat33])
+        force[chosen], block[chosen] = f, to.packed(h)
     to.log(stage="friction_force", cases=len(cases), asked=int(asked.sum()))
     return force, block

@@ -172,6 +172,11 @@ def kernels():
     return prescribe, keep
 
 
+def copied(array):
+    """Returns a copy of an array of Warp. On the processor its numpy() is a view, which later steps overwrite."""
+    return array.numpy().copy()
+
+
 def simulate(options):
     """Runs the scene in Newton and writes states (every `every` steps, the start first) and times."""
     began = time.perf_counter()
@@ -227,7 +232,7 @@ def simulate(options):
         graph = capture.graph
     prepared = time.perf_counter() - began
 
-    stored, walls, processors = [states[0].particle_q.numpy()], [], 0.0
+    stored, walls, processors = [copied(states[0].particle_q)], [], 0.0
     end, began = "all steps", time.perf_counter()
     for first in range(0, steps, BLOCK):
         at, cpu = time.perf_counter(), time.process_time()
@@ -240,7 +245,7 @@ def simulate(options):
         processors += time.process_time() - cpu
         for slot in range(BLOCK):
             if (first + slot + 1) % options.every == 0:
-                stored.append(ring[slot].numpy())
+                stored.append(copied(ring[slot]))
         if not np.isfinite(stored[-1]).all():
             end = "not a number"
             stored.pop()

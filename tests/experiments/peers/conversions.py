@@ -99,6 +99,7 @@ sys.modules["ipctk"] = fake_ipctk(CALLS)
 sys.modules["ogc_testbed"] = fake_testbed()
 import ipctk_adapter as adapter  # noqa: E402
 import newton_adapter as newton  # noqa: E402
+import newton_steps as steps  # noqa: E402
 import reports  # noqa: E402
 import sets  # noqa: E402
 import trajectories  # noqa: E402
@@ -306,6 +307,52 @@ class Contacts(unittest.TestCase):
                         self.assertAlmostEqual(force[axis], -(energy[1] - energy[0]) / 2e-6, delta=1e-4)
 
 
+class Steps(unittest.TestCase):
+    """Newton's formulas in newton_steps.py against those of conversions.py, which find the nearest points otherwise."""
+
+    def setUp(self):
+        self.addCleanup(setattr, steps, "DOUBLE", steps.DOUBLE)
+        rng = np.random.default_rng(5)
+        self.x = rng.uniform(-1, 1, (300, 4, 3)).astype(np.float32)
+        self.start = (self.x + rng.normal(scale=1e-2, size=self.x.shape)).astype(np.float32)
+
+    def case(self, edges, own):
+        kind = [("sides", np.uint8), ("own", np.int32), ("vertex", float, (4, 3)), ("previous", float, (4, 3)),
+                ("rest_squared", float, 2), ("contact_radius", float), ("stiffness", float), ("activation", np.int64),
+                ("together", np.uint8)]
+        both = np.zeros(len(self.x), [("contact", kind), ("start", float, (4, 3)), ("friction", float),
+                                      ("slip_limit", float)])
+        part = both["contact"]
+        part["sides"], part["own"] = to.EDGE_EDGE if edges else to.POINT_TRIANGLE, own
+        part["vertex"] = part["previous"] = self.x
+        part["contact_radius"], part["stiffness"] = 1, 5
+        both["start"], both["friction"], both["slip_limit"] = self.start, 0.5, 0.01
+        return both
+
+    def test_in_double_forces_are_those_of_the_stage(self):
+        steps.DOUBLE = list(steps.STEPS)
+        for edges in (False, True):
+            for own in range(4):
+                case = self.case(edges, own)
+                part, order = case["contact"], np.full(len(self.x), own)
+                d = to.contact(part)[2]
+                self.assertGreater(int((d < 1).sum()), 100)  # the others have no force; both branches are met
+                self.assertGreater(int((d < 0.5).sum()), 20)
+                numbers = part["contact_radius"], part["stiffness"]
+                force, _ = steps.contact_force(self.x, edges, order, *numbers)
+                np.testing.assert_allclose(force, to.contact_force(part)[0], atol=1e-9)
+                force, _ = steps.friction_force(self.x, self.start, edges, order, *numbers, case["friction"],
+                                                case["slip_limit"])
+                np.testing.assert_allclose(force, to.friction_force(case)[0], atol=1e-9)
+
+    def test_far_from_the_origin_a_point_at_rest_slips_but_by_displacements(self):
+        far = self.x + np.float32(100)
+        for choice, slips in (([], True), (["moves"], False)):
+            steps.DOUBLE = choice
+            *_, way = steps.contact(far, far, edges=False)
+            self.assertEqual(bool(np.abs(way).max() > 0), slips)
+
+
 class Sets(unittest.TestCase):
     def test_two_ways_to_the_distance_of_a_pair_agree(self):
         rng = np.random.default_rng(3)
@@ -364,6 +411,12 @@ class Scenes(unittest.TestCase):
         material = {"bending_stiffness": 5.0, "bending_damping": 0.5}
         rows = trajectories.bending_of(x, np.array([[0, 1, 2, 3], [0, -1, 2, 3]]), material)
         np.testing.assert_allclose(rows, [[3 * 5 * 4 / (1 + 3) / 2, 0.5 * 3 * 5 * 4 / (1 + 3) / 2], [0, 0]])
+
+    def test_a_stored_state_stays_when_the_array_goes_on(self):
+        memory = np.zeros(3)
+        state = trajectories.copied(types.SimpleNamespace(numpy=lambda: memory[:]))
+        memory += 1
+        np.testing.assert_array_equal(state, 0)
 
     def test_a_mesh_comes_from_its_file(self):
         header = ("ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
