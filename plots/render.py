@@ -16,7 +16,7 @@ ANGLE = 30  # vertical angle of view [degrees]
 # A picture is rendered so many times as large and then reduced, against stairs and noise; less for movies, of which
 # each second takes thirty.
 FINER, FINER_IN_MOVIES = 2, 1.5
-# Lights by their places around the camera (right, up, back) and intensities: the key, a fill, and one from behind.
+# Each light has a place around the camera (right, up, back) and an intensity: the key, a fill, and one from behind.
 LIGHTS = (((-1.0, 1.6, 0.8), 0.80), ((1.2, 0.1, 1.2), 0.38), ((0.3, 1.0, -1.6), 0.25))
 AMBIENT, DIFFUSE, SPECULAR, SHININESS = 0.34, 0.80, 0.10, 25
 OCCLUSION = 0.045  # reach of ambient occlusion in diagonals of the subject

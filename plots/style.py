@@ -138,3 +138,17 @@ def paper_line(axes, value, words, dash="--"):
 def rgb(colour):
     """Returns the RGB [3] of a colour such as #0072B2, from 0 to 1."""
     return matplotlib.colors.to_rgb(colour)
+
+
+def table(axes, head, body):
+    """Draws rows of texts under a head; a column is as wide as its longest text, the first begins at the left."""
+    wide = [max(len(str(row[k])) for row in (head, *body)) + (5 if k == 0 else 2) for k in range(len(head))]
+    drawn = axes.table(body, colLabels=head, colWidths=[w / sum(wide) for w in wide], loc="center", cellLoc="center",
+                       edges="horizontal")
+    drawn.auto_set_font_size(False)
+    drawn.set_fontsize(8.5)
+    drawn.scale(1, 1.75)
+    for (row, column), cell in drawn.get_celld().items():
+        cell.set_edgecolor("0.85")
+        cell.set_text_props(fontweight="bold" if row == 0 or column == 0 else None,
+                            ha="left" if column == 0 else "center")

@@ -1,18 +1,14 @@
 """Fig. 11: a long strip with four overhand knots, pulled at both ends, with planes. Draws four moments, the knots from
 near when they are small and when they have merged, a cut through the layers of the last state, time and distances."""
 
-import argparse
-import sys
-
 import numpy as np
 from matplotlib.collections import LineCollection
 
-from paper_figures.workflow.common import claims_of, run_of, scaled
+from paper_figures.workflow.common import claims_of, draw_a_run, scaled
 from plots import render, style
 from plots.camera import around, densest, subject, view_of
-from plots.scene_figure import (PLOTS, beside_paper, draw_contacts, draw_distance, draw_movie, draw_time, frames_at,
+from plots.scene_figure import (PLOTS, beside_paper, draw_contacts, draw_distance, draw_time, frames_at,
                                 moment, show, source_of)
-from ogc_testbed.runs import RunError
 
 SCENE, STEPS = "knot", (0, 3550, 7100, 10650)
 REACH, SEEN, CUT = 0.06, 0.11, 0.05  # neighbourhood of the tightest place; parts shown from near and in the cut [m]
@@ -91,21 +87,5 @@ def draw(run, out):
     style.save(figure, out, TITLE, ALT.format(layers=layers), source_of([run]))
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("run", help="run folder, made by: ogc run knot")
-    parser.add_argument("--out", help="PNG to write (default: knot.png in the run folder)")
-    parser.add_argument("--movie", help="MP4 to write instead of the figure")
-    options = parser.parse_args()
-    try:
-        run = run_of(options.run, SCENE)
-        if options.movie:
-            draw_movie(run, options.movie)
-        else:
-            draw(run, options.out or f"{options.run}/{SCENE}.png")
-    except RunError as error:
-        sys.exit(f"fig11: {error}")
-
-
 if __name__ == "__main__":
-    main()
+    draw_a_run(SCENE, draw)

@@ -2,18 +2,14 @@
 close view with the vertices inside the body marked, four moments of the motion, time, vertices inside and detections;
 for the stand-in or for Codimensional IPC's dress and dancer (ogc run dress --set data=DIR)."""
 
-import argparse
-import sys
-
 import numpy as np
 
-from paper_figures.workflow.common import claims_of, run_of, scaled
+from paper_figures.workflow.common import claims_of, draw_a_run, scaled
 from plots import render, style
 from plots.bodies import bodies_of
 from plots.camera import fitted, is_cloth, subject, view_of
-from plots.scene_figure import (PLOTS, beside_paper, draw_detections, draw_lag, draw_movie, draw_time, frames_at,
+from plots.scene_figure import (PLOTS, beside_paper, draw_detections, draw_lag, draw_time, frames_at,
                                 moment, show, source_of)
-from ogc_testbed.runs import RunError
 
 SCENE, STEPS = "dress", (0, 320, 640, 968)
 APART = 0.28  # how far panels are drawn from one another [m]
@@ -111,21 +107,5 @@ def draw(run, out):
     style.save(figure, out, TITLE, ALT, source_of([run]))
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("run", help="run folder, made by: ogc run dress")
-    parser.add_argument("--out", help="PNG to write (default: dress.png in the run folder)")
-    parser.add_argument("--movie", help="MP4 to write instead of the figure")
-    options = parser.parse_args()
-    try:
-        run = run_of(options.run, SCENE)
-        if options.movie:
-            draw_movie(run, options.movie)
-        else:
-            draw(run, options.out or f"{options.run}/{SCENE}.png")
-    except RunError as error:
-        sys.exit(f"fig13: {error}")
-
-
 if __name__ == "__main__":
-    main()
+    draw_a_run(SCENE, draw)

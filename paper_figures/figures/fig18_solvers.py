@@ -152,16 +152,7 @@ def draw_table(axes, runs):
     """Draws `cells` as a table; a column is as wide as its longest text."""
     axes.axis("off")
     head, body = cells(runs)
-    wide = [max(len(row[k]) for row in (head, *body)) + (5 if k == 0 else 2) for k in range(len(head))]
-    drawn = axes.table(body, colLabels=head, colWidths=[w / sum(wide) for w in wide], loc="center", cellLoc="center",
-                       edges="horizontal")
-    drawn.auto_set_font_size(False)
-    drawn.set_fontsize(8.5)
-    drawn.scale(1, 1.75)
-    for (row, column), cell in drawn.get_celld().items():
-        cell.set_edgecolor("0.85")
-        cell.set_text_props(fontweight="bold" if row == 0 or column == 0 else None,
-                            ha="left" if column == 0 else "center")
+    style.table(axes, head, body)
     axes.set_title("a step on average; in brackets the paper's number")
 
 

@@ -41,16 +41,16 @@ def ipc_windows(arguments, scene, whole, starts, steps=20):
     return [run_job(arguments.ogc, job, arguments.folder) for job in jobs]
 
 
-def main(scene, frames, title, alt, driven=False, near=None):
-    """Draws the figure of one run of `scene`. `frames` are steps, moved together if the run is shorter than the last of
-    them. `title`: its claim, in a clause. `alt`: what it shows, for readers who don't see it. `driven`: a motion that
-    may be faster than bounds allow drives a body, whose lag is shown in place of detections. `near`: (a camera for the
-    last frame as a function of run and frame, words)."""
+def draw_a_run(scene, draw_it, profiled=False):
+    """Draws the figure of the run of `scene` that the command line names, by draw_it(run, out), or its movie.
+    `profiled`: draw_it gets a third argument, the run of the option --profiled, or None."""
     parser = argparse.ArgumentParser(description=f"Draws the figure of a run of {scene}.")
     parser.add_argument("run", help="run folder, made by: ogc run " + scene)
-    parser.add_argument("--out", help="PNG to write; a PDF is put beside it (default: SCENE.png in the run folder)")
+    parser.add_argument("--out", help="picture to write (default: SCENE.png in the run folder)")
     parser.add_argument("--movie", help="MP4 to write instead of the figure")
-    parser.add_argument("--profiled", help="run folder of the same scene, made with --profile, for the times by stage")
+    if profiled:
+        parser.add_argument("--profiled",
+                            help="run folder of the same scene, made with --profile, for the times by stage")
     arguments = parser.parse_args()
     try:
         run = run_of(arguments.run, scene)
@@ -58,11 +58,22 @@ def main(scene, frames, title, alt, driven=False, near=None):
             draw_movie(run, arguments.movie)
             sys.exit()
         out = Path(arguments.out or Path(arguments.run) / f"{scene}.png")
-        draw(run, scaled(run, frames), claims_of(run), out, title, alt,
-             Run(arguments.profiled) if arguments.profiled else None, driven, near)
+        more = (Run(arguments.profiled) if arguments.profiled else None,) if profiled else ()
+        draw_it(run, out, *more)
     except RunError as error:
         sys.exit(f"{Path(sys.argv[0]).name}: {error}")
     print(out)
+
+
+def main(scene, frames, title, alt, driven=False, near=None):
+    """Draws the figure of one run of `scene`. `frames` are steps, moved together if the run is shorter than the last of
+    them. `title`: its claim, in a clause. `alt`: what it shows, for readers who don't see it. `driven`: a motion that
+    may be faster than bounds allow drives a body, whose lag is shown in place of detections. `near`: (a camera for the
+    last frame as a function of run and frame, words)."""
+    def figure(run, out, by_stage):
+        draw(run, scaled(run, frames), claims_of(run), out, title, alt, by_stage, driven, near)
+
+    draw_a_run(scene, figure, profiled=True)
 
 
 def run_of(folder, scene):

@@ -380,7 +380,7 @@ std::vector<WrongForm> ccd_forms() {
   forms.push_back(told("impacts_before_1e-10_skipped", "what meets before 1e-10 of the motion never meets",
                        &Authority::ccd, [](const CcdIn& in, CcdTruth& truth) {
                          for (std::size_t i = 0; i < truth.impact.size(); ++i) {
-                           // elsewhere a right time may be that early or not, and both are taken
+                           // elsewhere a right time may be that early or not: the judge accepts both
                            if (truth.early[i] >= 1e-10 || surely_apart(in.cases[i]) > 2e-10) continue;
                            truth.early[i] = truth.impact[i] < 1e-10 ? 1 : 0;
                            truth.impact[i] = std::numeric_limits<double>::infinity();

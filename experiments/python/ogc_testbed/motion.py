@@ -9,9 +9,9 @@ import numpy as np
 from ogc_testbed.runs import RunError
 
 REACH = 4  # distances are searched up to this many contact radii
-# The front and back of sheets, one after the other, and what does not move: as plots/style.py has them.
+# Sheets have these colours in front and behind, what does not move has the last; they are those of plots/style.py.
 FRONTS, BACKS, STILL = ("#4C86B8", "#7FB0D4", "#2F6393"), ("#E2B458", "#EFD08C", "#C9952F"), "#B9BDC4"
-# Nine colours of viridis, whose lightness grows evenly, also for readers who are colour-blind.
+# These are nine colours of viridis. Their lightness grows evenly, so colour-blind readers can order them, too.
 SCALE = ("#440154", "#472D7B", "#3B528B", "#2C728E", "#21918C", "#28AE80", "#5EC962", "#ADDC30", "#FDE725")
 CONTACTS, PLANES = "#D55E00", "#0072B2"  # colours of segments
 

@@ -266,15 +266,7 @@ def draw_rows(axes, scene, rows):
                  str(row["steps asked [1]"]),
                  short(row[apart[0]] or row[apart[1]]) if "released" in row["run"] else "–"]
                 for row in rows if row["run"] != "hanging"]
-    wide = [max(len(str(row[k])) for row in (head, *body)) + 3 for k in range(len(head))]
-    drawn = axes.table(body, colLabels=head, colWidths=[w / sum(wide) for w in wide], loc="center", cellLoc="center",
-                       edges="horizontal")
-    drawn.auto_set_font_size(False)
-    drawn.set_fontsize(8)
-    drawn.scale(1, 1.5)
-    for (row, column), cell in drawn.get_celld().items():
-        cell.set_edgecolor("0.85")
-        cell.set_text_props(fontweight="bold" if row == 0 else None, ha="left" if column == 0 else "center")
+    style.table(axes, head, body)
 
 
 def draw(scene, runs, rows, out):
