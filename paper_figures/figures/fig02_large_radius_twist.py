@@ -102,21 +102,38 @@ def whole(run):
     return run is not None and run.column("step")[0] == 1
 
 
-def draw_pair(axes, runs, edges, reach=None):
-    """Draws the last common state of IPC's run and OGC's, side by side; `reach` [m]: of what is shown."""
-    there = [run for run in runs if whole(run)]
-    last = min((int(run.column("step")[-1]) for run in there), default=0)
-    for place, run, letter, name in zip(axes, runs, "ab", ("IPC", "OGC")):
+def size_of(run):
+    """Returns the vertices along both sides of the cloth in words."""
+    side = round(run.bodies()[0]["vertex_count"] ** 0.5)
+    return f"{side} × {side} vertices"
+
+
+def frames_of(runs):
+    """Returns a frame of each run: of whole runs the last that both reached; of a window of IPC's its last, beside the
+    state of OGC's run from which it began."""
+    ipc, ogc = runs
+    if ipc is None or not whole(ipc):
+        begins = ipc and int(ipc.column("step")[0]) - 1
+        return ipc and ipc.frame(ipc.frames[-1]), ogc and ogc.frame_at_step(begins or ogc.column("step")[-1])
+    last = min(int(run.column("step")[-1]) for run in runs if run)
+    return ipc.frame_at_step(last), ogc and ogc.frame_at_step(last)
+
+
+def draw_pair(axes, runs, edges, reach=None, sizes=False):
+    """Draws states of IPC's run and OGC's, side by side; `reach` [m]: of what is shown; `sizes`: titles name them."""
+    for place, run, frame, letter, name in zip(axes, runs, frames_of(runs), "ab", ("IPC", "OGC")):
         title = f"({letter}) {name}, r = {edges}" + (", from near" if reach else "")
-        if not whole(run):
-            style.not_run(place, "not run from the start" if run else "not run")
+        if run is None:
+            style.not_run(place)
             place.set_title(title)
             continue
-        frame = run.frame_at_step(last)
         points = subject(run, frame)
         size = NEAR if reach else SIZE
         camera = (around(points, np.median(points, axis=0), reach, run, size=size) if reach
                   else fitted(run, [frame], size))
+        begins = int(run.column("step")[0]) - 1
+        title += f", {len(run.column('step'))} steps from OGC's state" if begins else ""
+        title += f", {size_of(run)}" if sizes else ""
         show(place, run, frame, camera, f"{title}, {moment(frame)}", size)
 
 
@@ -136,16 +153,16 @@ def draw(runs, out, wide=(None, None)):
     found = {name: history(run, rest) for name, run in curves}
     ends = {name: rough[-1] for name, (_, rough, _) in found.items()}
     scale = ogc.manifest["scale"]
-    side = round(len(rest) ** 0.5)
-    below = (f"{side} × {side} vertices{'' if scale == 'paper' else f' (scale {scale}; the paper has 200 × 200)'}; "
+    below = (f"{size_of(ogc)}{'' if scale == 'paper' else f' (scale {scale}; the paper has 200 × 200)'}; "
              "roughness at the end [edge lengths]: " + ", ".join(f"{name} {rough:.2g}" for name, rough in ends.items())
-             + ("; IPC's curve: windows of 20 steps from OGC's states" if ipc and not whole(ipc) else ""))
+             + ("; IPC's curve: a window of {len(ipc.column('step'))} steps from OGC's state"
+             if ipc and not whole(ipc) else ""))
     title = title_of(ends if whole(ipc) else {})
     figure, axes = style.page([*rows, (2.4, third)], title, below)
     draw_pair(axes[0], (ipc, ogc), "one edge")
     draw_pair(axes[1], (ipc, ogc), "one edge", MIDDLE)
     if any(wide):
-        draw_pair(axes[2], wide, "ten edges")
+        draw_pair(axes[2], wide, "ten edges", sizes=True)
     rough_axes, stretch_axes, energy_axes = axes[-1]
     for (name, run), colour in zip(curves, (style.BASELINE, style.OURS, style.COLOURS[1], style.COLOURS[4])):
         time, rough, stretched = found[name]

@@ -17,16 +17,15 @@ from matplotlib.colors import BoundaryNorm, ListedColormap  # imported after the
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection  # noqa: E402
 
 TITLES = {
-    "fig02_models": "Fig. 2c to e: what IPC and OGC offset, and the forces that it gives (dashed: boundaries in the "
-                    "colour of their facet)",
-    "fig03": "Fig. 3: contact face sets and the forces that they give",
-    "fig04": "Fig. 4: a curve, its offset, and its offset that knows its layers",
-    "fig05": "Fig. 5: vertices, their blocks (green) and spherical indicatrices",
-    "fig06": "Fig. 6: normals of a triangle and of an edge",
-    "fig07": "Fig. 7: blocks of the surface; dashed boundaries are open",
-    "fig08": "Fig. 8: Gauss maps and blocks of the edge-only manifold; dashed boundaries are open",
-    "fig09": "Fig. 9: a single iteration, cut as a whole and cut vertex by vertex",
-    "fig22": "Fig. 22: limitations",
+    "fig02_models": "Fig. 2c to e. IPC's offsets push a sheet's own neighbours apart; OGC's blocks do not",
+    "fig03": "Fig. 3. OGC's contact face sets give forces along the normals of the faces",
+    "fig04": "Fig. 4. OGC's offset of a curve knows its layers where they overlap",
+    "fig05": "Fig. 5. A vertex has the normals inside its indicatrix: all, a part, or none",
+    "fig06": "Fig. 6. A triangle has two opposite normals, an edge an arc between those of its triangles",
+    "fig07": "Fig. 7. Each face has its block of the offset; dashed boundaries are open",
+    "fig08": "Fig. 8. Normals and blocks of an edge and a vertex without faces; dashed boundaries are open",
+    "fig09": "Fig. 9. Cut vertex by vertex, an iteration keeps most of its step; cut as a whole, little",
+    "fig22": "Fig. 22. Limitations: the force jumps at an open boundary, and a fast fall needs many rounds",
 }
 ALTS = {
     "fig02_models": "Three drawings of a bent line with a point near it. IPC offsets each segment by a capsule, so "
@@ -175,12 +174,11 @@ def draw_path(figure, left, right, panels):
     path = xy(layers(panels[0], "path")[0])
     left.annotate("", path[-1], path[0], arrowprops={"arrowstyle": "-|>", "color": "black", "linewidth": 1.5,
                                                      "shrinkA": 0, "shrinkB": 0})
-    for layer, dash in zip(panels[1]["layers"], style.DASHES):
-        right.plot(*xy(layer).T, dash, label=layer["name"])
+    for layer, colour, dash in zip(panels[1]["layers"], style.COLOURS, style.DASHES):
+        right.plot(*xy(layer).T, dash, color=colour, label=layer["name"].replace("force of the ", ""))
     right.set(xlabel="way along the path (0: its start, 1: its end)", ylabel="force / $k_c$ [lengths of the drawing]",
               title=wrapped(panels[1]["caption"], 60))
-    right.set_ylim(top=1.25 * right.get_ylim()[1])
-    right.legend(loc="upper center", ncols=2)
+    right.legend(loc="upper center")
 
 
 # Truncated steps. Lengths are in metres and drawn in millimetres ---
@@ -262,8 +260,8 @@ def draw_rounds(axes, panel):
     limit = xy(layers(panel, "guess_rounds")[0])
     axes.plot(*limit.T, "--", color=style.COLOURS[3], label=f"default limit, guess_rounds = {limit[0][1]:g}")
     axes.axhline(1, color="grey", linewidth=0.8, linestyle=":", label="a line search with CCD: 1")
-    axes.set(xlabel="speed at the start of the step [m/s]", ylabel="rounds", ylim=(0, 26), yticks=range(0, 26, 4),
-             title=panel["caption"])
+    axes.set(xlabel="speed at the start of the step [m/s]", ylabel="rounds", ylim=(0, 30), yticks=range(0, 30, 4),
+             title=wrapped(panel["caption"], 60))
     axes.legend(loc="upper left")
 
 
@@ -414,7 +412,7 @@ def draw(path):
     drawer, size = DRAWERS[data["figure"]]
     figure = plt.figure(figsize=size)
     drawer(figure, data["panels"])
-    figure.suptitle(TITLES[data["figure"]])
+    figure.suptitle(TITLES[data["figure"]], x=0.012, ha="left", fontweight="bold")
     out = Path(path).with_suffix(".png")
     name = data["figure"]
     style.save(figure, out, TITLES[name], ALTS[name], f"ogc illustrate {name}")
