@@ -221,9 +221,9 @@ def draw_pictures(axes, scene, found, words):
 
 
 def draw_near(place, scene, run, frame, words):
-    """Draws a close view of the cloth's middle."""
+    """Draws a close view of where the yarn is densest."""
     points = frame.positions.astype(float)
-    centre = densest(points, NEAR_REACH) if scene == commands.YARN_TWIST else np.median(points, axis=0)
+    centre = densest(points, NEAR_REACH)
     show(place, run, frame, around(points, centre, NEAR_REACH, run, NEAR_VIEW[scene], NEAR_SIZE), words, NEAR_SIZE)
 
 
