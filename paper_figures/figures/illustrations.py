@@ -21,9 +21,9 @@ TITLES = {
     "fig03": "Fig. 3. OGC's contact face sets give forces along the normals of the faces",
     "fig04": "Fig. 4. OGC's offset of a curve knows its layers where they overlap",
     "fig05": "Fig. 5. A vertex has the normals inside its indicatrix: all, a part, or none",
-    "fig06": "Fig. 6. A triangle has two opposite normals, an edge an arc between those of its triangles",
+    "fig06": "Fig. 6. A triangle has two opposite normals, an edge an arc of them",
     "fig07": "Fig. 7. Each face has its block of the offset; dashed boundaries are open",
-    "fig08": "Fig. 8. Normals and blocks of an edge and a vertex without faces; dashed boundaries are open",
+    "fig08": "Fig. 8. Without faces an edge has a cylinder, a vertex a cut ball",
     "fig09": "Fig. 9. Cut vertex by vertex, an iteration keeps most of its step; cut as a whole, little",
     "fig22": "Fig. 22. Limitations: the force jumps at an open boundary, and a fast fall needs many rounds",
 }
@@ -49,6 +49,7 @@ ALTS = {
     "fig22": "Left: a point's way past a corner along which the direction of the contact force jumps. Right: two "
              "triangles that fall beside each other, and the number of rounds they need over their speed.",
 }
+ROOM_OF_TITLE = 0.5  # [inches]
 SEGMENT_COLOURS = [style.COLOURS[0], style.COLOURS[3], style.COLOURS[2], style.COLOURS[5], style.COLOURS[1]]
 
 
@@ -412,7 +413,9 @@ def draw(path):
     drawer, size = DRAWERS[data["figure"]]
     figure = plt.figure(figsize=size)
     drawer(figure, data["panels"])
-    figure.suptitle(TITLES[data["figure"]], x=0.012, ha="left", fontweight="bold")
+    high = size[1]
+    figure.get_layout_engine().set(rect=(0, 0, 1, 1 - ROOM_OF_TITLE / high))
+    figure.text(style.EDGE / size[0], 1 - 0.1 / high, TITLES[data["figure"]], va="top", fontsize=12, fontweight="bold")
     out = Path(path).with_suffix(".png")
     name = data["figure"]
     style.save(figure, out, TITLES[name], ALTS[name], f"ogc illustrate {name}")
@@ -424,7 +427,7 @@ def main():
     parser.add_argument("folder", help="folder that `ogc illustrate --out` wrote to")
     parser.add_argument("figures", nargs="*", help="fig03 … (default: all that lie there)")
     arguments = parser.parse_args()
-    files = sorted(Path(arguments.folder).glob("fig*.json"))
+    files = sorted(path for path in Path(arguments.folder).glob("fig*.json") if not path.name.endswith(style.CAPTION))
     if arguments.figures:
         files = [path for path in files if path.stem in arguments.figures]
     if not files:

@@ -128,13 +128,17 @@ def row_of(name, runs):
             **provenance(run)}
 
 
+def cell_of(row, words):
+    """Returns a distance of a row [m], of cloths at rest or, if they are not, while one moves; not-a-number without
+    one."""
+    return float(row[f"distance, {words} [m]"] or row.get(f"distance while it moves, {words} [m]", "") or "nan")
+
+
 def draw_distances(axes, rows, names):
     """Draws a line for each row: the median of the vertices' distances, and ranges up to nine in ten and the
     largest."""
     for place, row in enumerate(rows):
-        cells = [row[f"distance, {words} [m]"] or row.get(f"distance while it moves, {words} [m]", "")
-                 for words in SHARES]
-        median, ninth, largest = (1e3 * float(cell) for cell in cells)
+        median, ninth, largest = (1e3 * cell_of(row, words) for words in SHARES)
         rests = row["at rest"] == "yes"
         colour = style.OURS if rests else "0.6"
         axes.plot([median, largest], [place] * 2, color=colour, linewidth=1.2)
@@ -154,7 +158,7 @@ def draw_distances(axes, rows, names):
 def title_of(rows):
     """Returns the title: how far the cloth without friction ends from its place."""
     row = next(row for row in rows if row["run"] == f"released{FRICTIONLESS}")
-    far = 1e3 * float(row["distance, nine vertices in ten within [m]"] or "nan")
+    far = 1e3 * cell_of(row, "nine vertices in ten within")
     return f"Let go and braked, nine in ten vertices of the twisted knit end within {far:.2g} mm of the untwisted one"
 
 
