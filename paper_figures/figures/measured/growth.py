@@ -116,7 +116,8 @@ def draw(rows, out):
 def draw_threads(axes, rows, style):
     numbers, times = [row["threads"] for row in rows], [row["median [ms]"] for row in rows]
     axes.plot(numbers, times, "o-", color=style.BASELINE, label="measured")
-    axes.plot(numbers, [times[0] * numbers[0] / n for n in numbers], ":", color=style.PAPER, label="shared out\nperfectly")
+    axes.plot(numbers, [times[0] * numbers[0] / n for n in numbers], ":", color=style.PAPER,
+              label="shared out\nperfectly")
     axes.set(xscale="log", yscale="log", xlabel="threads", ylabel="median time a step [ms]",
              title=f"CPU, {rows[0]['vertices']:,} vertices", xticks=numbers, xticklabels=numbers, yticks=times,
              yticklabels=[f"{t:.3g}" for t in times])

@@ -27,9 +27,9 @@ OTHER_STATE, ABSENT, FAILED = "asked of another state", "not run", "Newton's met
 LAGS = "what is prescribed lags"
 COLOURS_OF = {"ball": lambda style: style.COLOURS[4], "ball, r_q = r": lambda style: style.COLOURS[1],
               "planes": lambda style: style.OURS}
-ALT = ("Three plots with a line for each scene and dots for balls, balls with a query radius of r, and planes: the time "
-       "until a tenth of a step's force is left, until a hundredth is left, with a cross where it never is, and the "
-       "share of the force that the scene's number of iterations leaves.")
+ALT = ("Three plots with a line for each scene and dots for balls, balls with a query radius of r, and planes: the "
+       "time until a tenth of a step's force is left, until a hundredth is left, with a cross where it never is, and "
+       "the share of the force that the scene's number of iterations leaves.")
 
 
 def finished(folder):
@@ -189,8 +189,8 @@ def draw(rows, scale, out):
     reached = {name: sum(bool(row[f"to {name} [ms]"]) for row in rows) for name in SHARES}
     title = (f"{reached['a tenth']} of {len(rows)} steps come down to a tenth of their force, "
              f"{reached['a hundredth']} to a hundredth")
-    below = (f"scale {scale}, {rows[0]['device']}; steps from three states of each run, with two or four times the scene's "
-             "iterations")
+    below = (f"scale {scale}, {rows[0]['device']}; steps from three states of each run, with two or four times the "
+             "scene's iterations")
     figure, (panels,) = style.page([(0.95 + 0.5 * len(scenes), [(1 / 3, "plot")] * 3)], title, below)
     columns = {f"to {name} [ms]": f"Time to {name} of the force [ms]" for name in SHARES}
     columns["residual after the scene's [1]"] = "Share of the force after the scene's iterations"

@@ -29,8 +29,8 @@ LONGER = 3  # factor on the steps that brake a twisted cloth of stiffer yarn
 COARSE = ("--set", "time_step=4e-4", "--set", "iterations=4")  # the scene's own settings
 STIFFNESS, PACE = "stiffness of the scene's yarn [1]", "pace of the scene's [1]"
 ROW = 0.01  # m between two rows of the knit
-ALT = ("A plot with a line for each variant of twist, yarn and start: how far the vertices of the hanging knit end from "
-       "the knit that was never twisted, their median, nine in ten, and the largest.")
+ALT = ("A plot with a line for each variant of twist, yarn and start: how far the vertices of the hanging knit end "
+       "from the knit that was never twisted, their median, nine in ten, and the largest.")
 
 
 @dataclass(frozen=True)
