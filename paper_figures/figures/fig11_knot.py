@@ -7,8 +7,8 @@ from matplotlib.collections import LineCollection
 
 from paper_figures.workflow.common import claims_of, draw_a_run, scaled
 from plots import render, style
-from plots.camera import around, densest, subject, view_of
-from plots.scene_figure import (PLOTS, beside_paper, draw_contacts, draw_distance, draw_time, frames_at,
+from plots.camera import around, densest, fitted, subject, view_of
+from plots.scene_figure import (MOVIE, PLOTS, beside_paper, draw_contacts, draw_distance, draw_time, frames_at,
                                 moment, show, source_of)
 
 SCENE, WHOLE, MIDDLE = "knot", (0, 3550), (4970, 8520, 10650)  # steps
@@ -67,6 +67,11 @@ def draw_cut(axes, run, frame):
     return layers
 
 
+def middle_of(run):
+    """Returns the movie's camera: it shows where the knots are, and the strip's ends leave the picture."""
+    return fitted(run, [run.frame(run.frames[0])], MOVIE)
+
+
 def draw(run, out):
     run.require_finished()
     style.use()
@@ -95,4 +100,4 @@ def draw(run, out):
 
 
 if __name__ == "__main__":
-    draw_a_run(SCENE, draw)
+    draw_a_run(SCENE, draw, seen=middle_of)
