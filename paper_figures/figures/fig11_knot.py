@@ -7,7 +7,7 @@ from matplotlib.collections import LineCollection
 
 from paper_figures.workflow.common import claims_of, draw_a_run, scaled
 from plots import render, style
-from plots.camera import around, densest, fitted, subject, view_of
+from plots.camera import around, densest, subject, view_of
 from plots.scene_figure import (MOVIE, PLOTS, beside_paper, draw_contacts, draw_distance, draw_time, frames_at,
                                 moment, show, source_of)
 
@@ -68,8 +68,13 @@ def draw_cut(axes, run, frame):
 
 
 def middle_of(run):
-    """Returns the movie's camera: it shows where the knots are, and the strip's ends leave the picture."""
-    return fitted(run, [run.frame(run.frames[0])], MOVIE)
+    """Returns the movie's camera: it shows all that is between the places where the strip's ends are at the start, and
+    the ends leave the picture."""
+    sampled = run.frames[::max(1, len(run.frames) // 12)]
+    points = np.concatenate([subject(run, run.frame(path)) for path in sampled])
+    across = points @ view_of(SCENE).axes()[0]
+    low, high = np.sort(subject(run, run.frame(run.frames[0])) @ view_of(SCENE).axes()[0])[[0, -1]]
+    return view_of(SCENE).fit(points[(low <= across) & (across <= high)], MOVIE)
 
 
 def draw(run, out):

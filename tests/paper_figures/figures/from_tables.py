@@ -1,5 +1,5 @@
 """Pictures that are drawn from accepted tables, without runs: each has its picture among the results, every row is in
-the picture, and titles say what the rows say; pictures of Fig. 2, 15 and 17 show what is known and name what is not;
+the picture, and titles say what the rows say; pictures of Fig. 2, 11, 15 and 17 show what is known and name what is not;
 a picture without its title keeps all below it.
 
 Usage: from_tables.py SOURCE_DIR. Exit status 77: skipped, matplotlib, h5py or PyYAML is missing.
@@ -23,7 +23,7 @@ try:
     from paper_figures.figures import fig17_three_cloths_on_sphere as fig17
     from paper_figures.figures import from_tables
     from paper_figures.figures.measured import yarn, yarn_rest, yarn_return
-    from paper_figures.workflow import untitled
+    from paper_figures.workflow import common, untitled
     from paper_figures.workflow.evidence import RESULTS
     from paper_figures.workflow.runs import Iterations
     from plots import style
@@ -130,6 +130,14 @@ class Curves(unittest.TestCase):
                 {"run": "b", "first meeting at step": "6", "mean tension there [N]": "0.25"}]
         self.assertEqual(yarn.first_pull("b", run, {}, rows), (3.0, 0.25))
         self.assertIsNone(yarn.first_pull("a", run, {}, rows))
+
+    def test_a_movie_of_fig_11_has_the_camera_of_its_figure(self):
+        run = object()
+        with (mock.patch.object(common, "run_of", return_value=run), mock.patch.object(common, "draw_movie") as movie,
+              mock.patch.object(sys, "argv", ["fig11", "runs/knot", "--movie", "out.mp4"]),
+              self.assertRaises(SystemExit)):
+            common.draw_a_run("knot", None, seen=lambda of: ("camera", of))
+        movie.assert_called_once_with(run, "out.mp4", ("camera", run))
 
     def test_fig_17_compares_measured_times_alone(self):
         curve = lambda **more: Iterations({"residual": np.array([1, 1e-2, 1e-4]), **more})  # noqa: E731
