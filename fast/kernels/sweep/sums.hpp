@@ -30,7 +30,7 @@ struct SumList {
   }
 };
 
-/// The sums for scenes with only surfaces of the default models, with only surfaces that bend by another model, and with
+/// The sums for scenes with only surfaces of the default models, with only surfaces that bend by another model, with
 /// only solids.
 using GatherSurfaces = Gather<OgcActivation, UsualTriangles, UsualHinges>;
 using GatherBentSurfaces = Gather<OgcActivation, UsualTriangles, Hinges>;
