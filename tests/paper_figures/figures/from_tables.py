@@ -1,6 +1,6 @@
 """Pictures that are drawn from accepted tables, without runs: each has its picture among the results, every row is in
-the picture, and titles say what the rows say; pictures of Fig. 2, 11, 15 and 17 show what is known and name what is not;
-a picture without its title keeps all below it.
+the picture, and titles say what the rows say; pictures of Fig. 2, 11, 15 and 17 show what is known and name what is
+not; a picture without its title keeps all below it.
 
 Usage: from_tables.py SOURCE_DIR. Exit status 77: skipped, matplotlib, h5py or PyYAML is missing.
 """
