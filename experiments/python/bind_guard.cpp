@@ -129,16 +129,14 @@ void bind_guard(nb::module_& module) {
            "Detects at the guard's state: each vertex has the whole region about it again.")
       .def_prop_ro(
           "positions",
-          [](Guard& guard) {
-            std::vector<Vec3f> state;
-            {
-              const nb::gil_scoped_release release;
-              state = guard.positions();
-            }
-            return owned(std::move(state));
+          [](nb::handle self) {
+            auto& guard = nb::cast<Guard&>(self);
+            return StateView{nb::borrow(self),      &guard,
+                             StateField::positions, compare::at(guard.mesh().vertex_count()),
+                             guard.device_number(), guard.version()};
           },
-          nb::sig("def positions(self) -> " OGC_LENT("float32", "(None, 3)")),
-          "float32 (V, 3): the guard's state, copied to the host [m]")
+          nb::sig("def positions(self) -> StateView"),
+          "the guard's state [m], not copied; valid until the next step or reset. positions.cpu() is a copy")
       .def_prop_ro(
           "report", [](const Guard& guard) { return guard.report(); }, nb::sig("def report(self) -> GuardReport"),
           "what the last step did")

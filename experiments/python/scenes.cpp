@@ -131,6 +131,7 @@ Simulation::Simulation(compare::Scene scene, std::string_view backend, const com
     throw compare::InputError("the scene '" + scene_.name + "' cannot be simulated:\n" + compare::describe(problems));
   compare::refuse_unread(scene_.settings, "vbd");
   simulation_ = fast::contestant(chosen).start(scene_, options);
+  state_ = &fast::resident_state(*simulation_);
 }
 
 std::vector<StepMetrics> Simulation::advance(std::int64_t steps, const std::function<void()>& between) {
@@ -141,6 +142,7 @@ std::vector<StepMetrics> Simulation::advance(std::int64_t steps, const std::func
   std::vector<StepMetrics> rows;
   while (steps > 0) {
     const std::int64_t now = std::min(steps, chunk);
+    begin_overwriting();
     const std::vector<StepMetrics> new_rows = simulation_->advance(now);
     rows.insert(rows.end(), new_rows.begin(), new_rows.end());
     rows_.insert(rows_.end(), new_rows.begin(), new_rows.end());
@@ -170,9 +172,23 @@ void Simulation::restore(const compare::Snapshot& snapshot) {
   if (snapshot.positions.size() != scene_.mesh.positions.size())
     throw compare::InputError("snapshot: it has " + std::to_string(snapshot.positions.size()) +
                               " vertices, the scene " + std::to_string(scene_.mesh.positions.size()));
+  begin_overwriting();
   simulation_->restore(snapshot);
   failure_.clear();
   rows_.clear();
+}
+
+const compare::Vec3f* Simulation::lend_rows(StateField field, std::uint64_t version) {
+  const std::lock_guard lock(busy_);
+  expect(version);
+  note_lent();
+  return field == StateField::positions ? state_->positions_resident() : state_->velocities_resident();
+}
+
+std::vector<compare::Vec3f> Simulation::copy_rows(StateField field, std::uint64_t version) {
+  const std::lock_guard lock(busy_);
+  expect(version);
+  return field == StateField::positions ? state_->positions() : state_->velocities();
 }
 
 }  // namespace ogc::python
