@@ -124,7 +124,7 @@ std::span<const MetricColumn> metric_columns() { return all_columns; }
 
 Simulation::Simulation(compare::Scene scene, std::string_view backend, const compare::SimulationOptions& options)
     : scene_(std::move(scene)) {
-  const fast::Backend chosen = parse_backend(backend);
+  const fast::Backend chosen = usable_backend(backend);
   compare::round_to_single(scene_);
   const std::vector<compare::Problem> problems = compare::validate(scene_);
   if (!problems.empty())

@@ -120,6 +120,7 @@ class Guards(unittest.TestCase):
                 (ValueError, "bounds.*'dat'", lambda: ogc.Guard(mesh, x, QUERY, bounds="dat")),
                 (ValueError, "'plane'.*planes", lambda: ogc.Guard(mesh, x, QUERY, bounds="plane")),
                 (ValueError, "query_radius", lambda: ogc.Guard(mesh, x, -1)),
+                (ValueError, "query_radius is .*at least radius", lambda: ogc.Guard(mesh, x, QUERY, radius=2 * QUERY)),
                 (ValueError, "backend", lambda: ogc.Guard(mesh, x, QUERY, backend="gpu"))):
             with self.assertRaisesRegex(kind, words):
                 call()
