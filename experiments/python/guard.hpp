@@ -31,17 +31,20 @@ class Guard : public StateOwner {
   }
   void step(std::span<const compare::Vec3f> x, std::span<const compare::Vec3f> dx, std::span<compare::Vec3f> out) {
     const std::lock_guard lock(busy_);
-    begin_overwriting();
+    wait_for_readers();
     keep(guard_.step(x, dx, out));
+    note_overwritten();  // a step that throws leaves the state as it was
   }
   void step_on_device(const compare::Vec3f* x, const compare::Vec3f* dx, compare::Vec3f* out) {
     const std::lock_guard lock(busy_);
-    begin_overwriting();
+    wait_for_readers();
     keep(guard_.step_resident(x, dx, out));
+    note_overwritten();
   }
   void reset(std::span<const compare::Vec3f> x, bool is_on_device) {
     const std::lock_guard lock(busy_);
-    begin_overwriting();
+    wait_for_readers();
+    note_overwritten();
     is_on_device ? guard_.reset_resident(x.data()) : guard_.reset(x);
   }
   void detect() {
@@ -68,8 +71,8 @@ class Guard : public StateOwner {
   int device_number() const { return guard_.device_number(); }
 
  private:
-  void begin_overwriting() {
-    StateOwner::begin_overwriting([this] { guard_.wait_for_device(); });
+  void wait_for_readers() {
+    if (is_lent()) guard_.wait_for_device();
   }
   void keep(const fast::GuardReport& report) {
     const std::lock_guard lock(reporting_);

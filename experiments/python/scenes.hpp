@@ -76,7 +76,8 @@ class Simulation : public StateOwner {
 
  private:
   void begin_overwriting() {
-    StateOwner::begin_overwriting([this] { state_->wait_for_device(); });
+    if (is_lent()) state_->wait_for_device();
+    note_overwritten();
   }
 
   compare::Scene scene_;

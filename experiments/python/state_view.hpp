@@ -38,12 +38,10 @@ class StateOwner {
   }
   /// Notes that others may read the state.
   void note_lent() { is_lent_ = true; }
-  /// Call before what overwrites the state: `wait` ends all reading on the device.
-  template <class Wait>
-  void begin_overwriting(const Wait& wait) {
-    if (is_lent_) wait();
-    ++version_;
-  }
+  /// Returns whether others may read the state, so that what overwrites it must wait for the device before.
+  bool is_lent() const { return is_lent_; }
+  /// Notes that the state is, or will be, another one.
+  void note_overwritten() { ++version_; }
 
  private:
   std::atomic<std::uint64_t> version_ = 0;

@@ -108,6 +108,7 @@ class Guards(unittest.TestCase):
         frozen.setflags(write=False)
         nan = x.copy()
         nan[2, 0] = np.nan
+        view = guard.positions
         for kind, words, call in (
                 (TypeError, r"dx: float32 \(V, 3\).*dx.astype", lambda: guard.step(x, x.astype(float))),
                 (TypeError, "x: float32", lambda: guard.step(x[:, ::-1], x)),
@@ -125,6 +126,7 @@ class Guards(unittest.TestCase):
             with self.assertRaisesRegex(kind, words):
                 call()
         self.assertEqual(guard.positions.cpu().tobytes(), x.tobytes())
+        self.assertEqual(view.cpu().tobytes(), x.tobytes(), "what is refused overwrites nothing")
 
 
 if __name__ == "__main__":
