@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "compare/problem/error.hpp"
+#include "experiments/python/exchange.hpp"
 #include "experiments/python/state_view.hpp"
 
 namespace ogc::python {
@@ -196,8 +197,10 @@ nb::object source_of(nb::handle value) {
   // Why a view of our own refuses, its user must know.
   if (nb::isinstance<StateView>(value)) return value.attr("__dlpack__")(nb::arg("max_version") = nb::make_tuple(1, 0));
   if (nb::hasattr(value.type(), "__dlpack__") && !nb::isinstance<nb::type_object>(value)) {
-    nb::object capsule = capsule_of(value);
-    if (PyCapsule_CheckExact(capsule.ptr())) return capsule;
+    for (nb::object (*const ask)(nb::handle) : {exchanged, capsule_of}) {
+      nb::object capsule = ask(value);
+      if (PyCapsule_CheckExact(capsule.ptr())) return capsule;
+    }
   }
   nb::object view = nb::steal(PyMemoryView_FromObject(value.ptr()));
   if (view.is_valid()) return view;

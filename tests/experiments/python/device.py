@@ -147,7 +147,7 @@ class Device(unittest.TestCase):
         right, liar.address = liar.address, self.x.ctypes.data
         try:
             for name, call in (("x", lambda: ogc.find_contacts(self.mesh, liar, RADIUS, QUERY, backend="cuda")),
-                               ("x", lambda: guard.step(liar, DeviceArray(self.x))),
+                               ("x", lambda: guard.step(liar, DeviceArray(self.x), out=DeviceArray(self.x))),
                                ("dx", lambda: guard.step(DeviceArray(self.x), liar, out=DeviceArray(self.x))),
                                ("out", lambda: guard.step(DeviceArray(self.x), DeviceArray(self.x), out=liar))):
                 with self.assertRaisesRegex(ValueError, f"^{name}: it is not in the memory of a CUDA device"):

@@ -245,6 +245,13 @@ class OnDevice(OfArrays):
         self.assertEqual(sets.cpu().edge_edge.tobytes(), expected.edge_edge.tobytes())
         self.assertEqual(self.arrays.numpy(out).tobytes(), moved.tobytes())
 
+    def test_what_the_default_stream_still_writes_is_waited_for(self):
+        expected = ogc.find_contacts(self.mesh, self.x, RADIUS, QUERY).edge_edge.tobytes()
+        x, late = self.arrays.array(self.x), self.arrays.array(np.zeros_like(self.x))
+        self.arrays.late(late, x)
+        self.assertEqual(ogc.find_contacts(self.mesh, late, RADIUS, QUERY, backend="cuda").cpu().edge_edge.tobytes(),
+                         expected)
+
     def test_what_another_stream_still_reads_is_not_overwritten(self):
         x, dx = self.arrays.array(self.x), self.arrays.array(self.dx)
         copy = self.arrays.array(np.zeros_like(self.x))
