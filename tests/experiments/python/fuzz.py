@@ -336,10 +336,11 @@ class Fuzz:
         return self.random.choice([
             lambda: ogc.StateView.cpu(view).sum(), lambda: np.asarray(view).sum(),
             lambda: np.array(view, dtype=self.random.choice([np.float32, float, "S4"])),
-            lambda: np.from_dlpack(view).sum(),
-            lambda: view.__dlpack__(**self.random.choice(
+            lambda: np.from_dlpack(owner.positions).sum(),
+            lambda: ogc.StateView.__dlpack__(view, **self.random.choice(
                 [{}, {"copy": True}, {"stream": "x"}, {"max_version": 5}, {"x": 1}])),
-            lambda: view.__array__(self.random.choice([None, 5, "x"]), self.random.choice([None, True, False, "x"])),
+            lambda: ogc.StateView.__array__(view, self.random.choice([None, 5, "x"]),
+                                            self.random.choice([None, True, False, "x"])),
             lambda: ogc.Guard.reset(self.one(ogc.Guard, self.guard), view),
             lambda: ogc.Guard.step(owner, view, view, out=self.random.choice([None, view]))])()
 
