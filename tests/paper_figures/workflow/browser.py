@@ -1,0 +1,215 @@
+"""Opens a report's site in headless Chromium as readers would: in both colour schemes, on a desktop and on a phone of
+360 pixels, with the keyboard, without scripts. Each check must find a planted fault, or the test fails.
+
+Usage: browser.py SITE CHROMIUM [SCREENSHOTS]   (browser.sh makes the site and the environment)
+"""
+
+import shutil
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Error, sync_playwright
+
+DESKTOP, PHONE = {"width": 1280, "height": 900}, {"width": 360, "height": 740}
+SCHEMES = ("light", "dark")
+# Pages of each kind, for screenshots, the keyboard, and what is repeated on all of a kind.
+KINDS = ("index.html", "figures/fig12.html", "claims.html", "table1.html", "ablations.html", "judge.html", "peers.html",
+         "scenes/twist.html", "deviations.html")
+
+LOAD_ALL = """async () => {
+  for (const i of document.images) i.loading = 'eager';
+  const wait = (target, good, bad) => new Promise(done => {
+    target.addEventListener(good, done); target.addEventListener(bad, done); setTimeout(done, 15000); });
+  await Promise.all([...document.images].map(i => i.complete || wait(i, 'load', 'error')));
+  await Promise.all([...document.querySelectorAll('video')].map(v => v.readyState || v.error ||
+    wait(v, 'loadedmetadata', 'error')));
+  return [...[...document.images].filter(i => !i.naturalWidth), ...[...document.querySelectorAll('video')]
+    .filter(v => !v.videoWidth)].map(e => e.getAttribute('src')); }"""
+# What reaches beyond the window, unless a part that scrolls by itself holds it.
+WIDE = """() => [...document.querySelectorAll('main *, header *, footer *')].filter(e => {
+  for (let p = e.parentElement; p; p = p.parentElement)
+    if (['auto', 'scroll', 'hidden'].includes(getComputedStyle(p).overflowX)) return false;
+  const box = e.getBoundingClientRect();
+  return box.width && box.right > innerWidth + 1; }).map(e => `${e.tagName}.${e.className}`)"""
+FOCUSABLE = "a[href], button, input, select, summary, video[controls], [tabindex='0']"
+# The elements that a reader must reach: those that are shown. Browsers leave out what closed details hold.
+TO_REACH = f"""() => [...document.querySelectorAll("{FOCUSABLE}")].filter(e => e.checkVisibility()).map((e, n) => {{
+  e.dataset.reach = n; return e.outerHTML.slice(0, 90); }})"""
+FOCUSED = """() => { const e = document.activeElement, s = getComputedStyle(e);
+  return [e.dataset.reach ?? '', s.outlineStyle !== 'none' && parseFloat(s.outlineWidth) >= 2, e.tagName]; }"""
+
+
+class Reader:
+    """One browser; `faults` of a page in a window and a scheme."""
+
+    def __init__(self, browser):
+        self.browser, self.axe = browser, Axe()
+
+    def open(self, address, window=DESKTOP, scheme="light", scripts=True):
+        context = self.browser.new_context(viewport=window, color_scheme=scheme, java_script_enabled=scripts,
+                                           reduced_motion="reduce")
+        page, heard = context.new_page(), []
+        page.on("console", lambda message: message.type in ("error", "warning") and heard.append(f"says {message.text}"))
+        page.on("pageerror", lambda error: heard.append(f"its script ends with {error.message}"))
+        page.on("request", lambda request: request.url.startswith(("file:", "data:", "blob:"))
+                or heard.append(f"asks the network for {request.url}"))
+        page.on("requestfailed", lambda request: "ERR_ABORTED" in (request.failure or "")
+                or heard.append(f"does not get {request.url}"))
+        page.goto(address)
+        return page, heard
+
+    def faults(self, address, window, scheme):
+        """Returns sentences about a page: what its scripts say, files that are missing, what is too wide, and what
+        axe-core objects to, which includes contrast below 4.5."""
+        page, heard = self.open(address, window, scheme)
+        missing = page.evaluate(LOAD_ALL)
+        found = heard + [f"does not show {source}" for source in missing]
+        width = page.evaluate("document.documentElement.scrollWidth")
+        if width > window["width"]:
+            found.append(f"is {width} pixels wide in a window of {window['width']}")
+        found += [f"{name} reaches beyond the window" for name in page.evaluate(WIDE)[:5]]
+        rules = {"runOnly": ["color-contrast"]} if scheme == "dark" else {"runOnly": ["wcag2a", "wcag2aa", "wcag21aa"]}
+        if window is DESKTOP:
+            objections = self.axe.run(page, options={**rules, "resultTypes": ["violations"]}).response["violations"]
+            found += [f"{each['id']}: {each['nodes'][0]['html'][:120]} ({len(each['nodes'])} times): "
+                      f"{each['nodes'][0]['failureSummary'][:200]}" for each in objections]
+        page.context.close()
+        return found
+
+    def faults_of_keyboard(self, address):
+        """Returns sentences about what the tab key does not reach, and where the focus is not seen."""
+        page, _ = self.open(address)
+        reach, reached, found = page.evaluate(TO_REACH), set(), []
+        for _ in range(2 * len(reach) + 40):  # a video has buttons of its own, which keep it focused
+            page.keyboard.press("Tab")
+            number, seen, tag = page.evaluate(FOCUSED)
+            if tag == "BODY":
+                break
+            reached.add(number)
+            if not seen and tag != "VIDEO":
+                found.append(f"the focus is not seen on {tag} {reach[int(number)] if number else ''}")
+        found += [f"the tab key does not reach {what}" for n, what in enumerate(reach) if str(n) not in reached]
+        page.context.close()
+        return found[:5]
+
+    def check_dialog(self, address):
+        """A picture opens in a dialog by the keyboard, Escape closes it, and the focus returns."""
+        page, _ = self.open(address)
+        link = page.locator("a.zoom").first
+        link.focus()
+        page.keyboard.press("Enter")
+        assert page.locator("dialog.large[open] img").count() == 1, "Enter on a picture does not enlarge it"
+        page.keyboard.press("Escape")
+        assert page.locator("dialog.large[open]").count() == 0, "Escape does not close the enlarged picture"
+        assert page.evaluate("document.activeElement.className") == "zoom", "the focus does not return"
+        page.context.close()
+
+    def check_filter(self, address):
+        """The filter of claims leaves those that have all words, and says how many there are."""
+        page, _ = self.open(address)
+        everything = page.locator("tr.claim").count()
+        page.fill("input[name=words]", "Table 1 knot gpu")
+        shown = page.locator("tr.claim:visible")
+        texts = [text.lower() for text in shown.all_text_contents()]
+        assert 0 < len(texts) < everything, len(texts)
+        assert all(word in text for text in texts for word in ("table 1", "knot", "gpu")), texts
+        assert page.locator("output").inner_text() == f"{len(texts)} of {everything} claims"
+        page.context.close()
+
+    def check_without_scripts(self, site):
+        """All text is there without scripts, and pictures lead to their files."""
+        page, _ = self.open((site / "index.html").as_uri(), scripts=False)
+        assert "are reproduced" in page.locator("#summary").inner_text()
+        assert page.locator("ul.cards li.card").count() > 30
+        page.goto((site / "claims.html").as_uri())
+        assert page.locator("tr.claim").count() > 200 and not page.locator("#filter").is_visible()
+        page.goto((site / "figures/fig12.html").as_uri())
+        page.locator("a.zoom").first.click()
+        assert "/media/" in page.url, page.url
+        page.context.close()
+
+    def shoot(self, site, out):
+        """Keeps screenshots to look at."""
+        out.mkdir(parents=True, exist_ok=True)
+        for name in KINDS:
+            for window in (DESKTOP, PHONE):
+                for scheme in SCHEMES:
+                    page, _ = self.open((site / name).as_uri(), window, scheme)
+                    page.evaluate(LOAD_ALL)
+                    page.screenshot(path=out / f"{name.replace('/', '_')[:-5]}_{window['width']}_{scheme}.png",
+                                    clip={"x": 0, "y": 0, "width": window["width"], "height": 4000}, full_page=True)
+                    page.context.close()
+
+
+def check_that_faults_are_found(reader, site):
+    """Plants faults in copies of a page; a check that overlooks one proves nothing."""
+    page = (site / "figures/fig12.html").read_text(encoding="utf-8")
+    plants = [("</body>", "<script>undefined_function()</script></body>", "its script ends with", DESKTOP),
+              ("</body>", '<img alt="a" src="nowhere.png"></body>', "does not show nowhere.png", DESKTOP),
+              ("</body>", '<video controls aria-label="a" src="nowhere.mp4"></video></body>', "does not show", DESKTOP),
+              ("</body>", '<img alt="a" src="http://127.0.0.1:9/a.png"></body>', "asks the network", DESKTOP),
+              ("</main>", '<p style="width: 500px">wide</p></main>', "reaches beyond", PHONE),
+              ("</body>", '<p style="width: 500px">wide</p></body>', "500 pixels wide", PHONE),
+              ("</main>", '<p style="color: #999; background: #fff">pale</p></main>', "color-contrast", DESKTOP),
+              ('alt="', 'data-alt="', "image-alt", DESKTOP)]
+    copy = site / "figures/planted.html"
+    for old, new, words, window in plants:
+        planted = page.replace(old, new, 1)
+        assert planted != page, f"could not plant: {words}"
+        copy.write_text(planted, encoding="utf-8")
+        found = reader.faults(copy.as_uri(), window, "light")
+        assert any(words in fault for fault in found), f"not found: {words} among {found}"
+    for old, new, words in (("</head>", "<style>:focus-visible { outline: none !important; }</style></head>", "not seen"),
+                            ('<a href="../claims.html"', '<a tabindex="-1" href="../claims.html"', "does not reach")):
+        planted = page.replace(old, new, 1)
+        assert planted != page, f"could not plant: {words}"
+        copy.write_text(planted, encoding="utf-8")
+        found = reader.faults_of_keyboard(copy.as_uri())
+        assert any(words in fault for fault in found), f"not found: {words} among {found}"
+    # In the dark scheme, too: a colour that is readable on white alone.
+    copy.write_text(page.replace("</main>", '<p style="color: #0a5788">dim</p></main>'), encoding="utf-8")
+    assert not any("color-contrast" in fault for fault in reader.faults(copy.as_uri(), DESKTOP, "light"))
+    assert any("color-contrast" in fault for fault in reader.faults(copy.as_uri(), DESKTOP, "dark"))
+    copy.unlink()
+    return len(plants) + 3
+
+
+def main():
+    site, chromium = Path(sys.argv[1]).resolve(), sys.argv[2]
+    began = time.monotonic()
+    with sync_playwright() as playwright, tempfile.TemporaryDirectory() as scratch:
+        here = Path(scratch) / "sent"  # elsewhere than where it was made, as by who gets it
+        shutil.copytree(site, here)
+        browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
+        reader = Reader(browser)
+        planted = check_that_faults_are_found(reader, here)
+        wrong, pages = [], sorted(here.rglob("*.html"))
+        for number, path in enumerate(pages, 1):
+            if not sys.stderr.isatty() or number == len(pages):
+                print(f"page {number} of {len(pages)}, {time.monotonic() - began:.0f} s", file=sys.stderr)
+            for window, scheme in ((DESKTOP, "light"), (DESKTOP, "dark"), (PHONE, "light")):
+                name = f"{path.relative_to(here)}, {window['width']} pixels, {scheme}"
+                wrong += [f"{name}: {fault}" for fault in reader.faults(path.as_uri(), window, scheme)]
+        for name in KINDS:
+            wrong += [f"{name}: {fault}" for fault in reader.faults_of_keyboard((here / name).as_uri())]
+        assert not wrong, "\n".join(wrong)
+        reader.check_dialog((here / "figures/fig12.html").as_uri())
+        reader.check_filter((here / "claims.html").as_uri())
+        reader.check_without_scripts(here)
+        if len(sys.argv) > 3:
+            reader.shoot(here, Path(sys.argv[3]))
+        version = browser.version
+        browser.close()
+    print(f"Chromium {version}: {len(pages)} pages in two colour schemes and two widths, {len(KINDS)} by keyboard: no "
+          f"script error, no missing file, no request, nothing too wide, nothing too pale; {planted} planted faults "
+          f"found; {time.monotonic() - began:.0f} s")
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except Error as error:
+        sys.exit(f"browser: {error}")
