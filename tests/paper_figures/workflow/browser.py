@@ -24,6 +24,7 @@ LOAD_ALL = """async () => {
   const wait = (target, good, bad) => new Promise(done => {
     target.addEventListener(good, done); target.addEventListener(bad, done); setTimeout(done, 15000); });
   await Promise.all([...document.images].map(i => i.complete || wait(i, 'load', 'error')));
+  await Promise.all([...document.images].map(i => i.decode().catch(() => 0)));
   await Promise.all([...document.querySelectorAll('video')].map(v => v.readyState || v.error ||
     wait(v, 'loadedmetadata', 'error')));
   return [...[...document.images].filter(i => !i.naturalWidth), ...[...document.querySelectorAll('video')]
