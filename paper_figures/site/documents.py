@@ -40,7 +40,8 @@ class Documents:
         parts = re.split(r"^## +(.+)\n", text, flags=re.M)
         above = re.sub(r"^# .*\n", "", parts[0])
         named = [("", "", above), *((anchor_of(title), title, body) for title, body in zip(parts[1::2], parts[2::2]))]
-        return [Section(anchor, self.markdown.renderInline(title), self.html(body, path)) for anchor, title, body in named]
+        return [Section(anchor, self.markdown.renderInline(title), self.html(body, path))
+                for anchor, title, body in named]
 
     def html(self, text, path):
         """Returns a text as HTML; `path`: the document in which it stands."""

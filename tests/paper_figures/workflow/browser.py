@@ -53,7 +53,8 @@ class Reader:
         context = self.browser.new_context(viewport=window, color_scheme=scheme, java_script_enabled=scripts,
                                            reduced_motion="reduce")
         page, heard = context.new_page(), []
-        page.on("console", lambda message: message.type in ("error", "warning") and heard.append(f"says {message.text}"))
+        page.on("console", lambda message: message.type in ("error", "warning")
+                and heard.append(f"says {message.text}"))
         page.on("pageerror", lambda error: heard.append(f"its script ends with {error.message}"))
         page.on("request", lambda request: request.url.startswith(("file:", "data:", "blob:"))
                 or heard.append(f"asks the network for {request.url}"))
@@ -163,7 +164,8 @@ def check_that_faults_are_found(reader, site):
         copy.write_text(planted, encoding="utf-8")
         found = reader.faults(copy.as_uri(), window, "light")
         assert any(words in fault for fault in found), f"not found: {words} among {found}"
-    for old, new, words in (("</head>", "<style>:focus-visible { outline: none !important; }</style></head>", "not seen"),
+    unseen = "<style>:focus-visible { outline: none !important; }</style></head>"
+    for old, new, words in (("</head>", unseen, "not seen"),
                             ('<a href="../claims.html"', '<a tabindex="-1" href="../claims.html"', "does not reach")):
         planted = page.replace(old, new, 1)
         assert planted != page, f"could not plant: {words}"
