@@ -48,6 +48,23 @@ def paper_table():
                  (GPU / "whole_runs.csv", GPU / "cpu_windows_paper.csv"), 1, tuple(shades), groups)
 
 
+def just_made(path):
+    """Returns Table 1 as the runs that were just made give it."""
+    shown = ("vertices", "steps", "average [ms]", "maximum [ms]", "contacts, average", "audited states")
+    rows = [(row["scene"], row["backend"], row["device"], *(rounded(row[name]) for name in shown))
+            for row in rows_of(path)]
+    return Table(f"Table 1 at scale {rows_of(path)[0]['scale']}, just made",
+                 ("scene", "on", "device", *shown), tuple(rows), (path,), 3)
+
+
+def rounded(text):
+    """Returns a number in three digits, and any other text as it is."""
+    try:
+        return f"{float(text):,.0f}" if float(text) >= 1000 else f"{float(text):.3g}"
+    except ValueError:
+        return text or "–"
+
+
 def judged():
     """Returns the judge's counts on the GPU, a row a stage."""
     stages = {}

@@ -198,12 +198,17 @@ class Site:
     def table1(self):
         figure = self.figures[figures.TABLE]
         here = [claim for claim in self.claims if figures.TABLE in claim.about["figures"]]
-        return self.render("table1.html", "table1.html", figure=figure, table=self.table(tables.paper_table()),
+        (recipe,) = figure.recipes
+        made = self.fresh and self.fresh.folder / recipe.picture(self.fresh.scale, self.fresh.backend)
+        new = self.table(tables.just_made(made)) if made and made.is_file() else None
+        return self.render("table1.html", "table1.html", figure=figure, table=self.table(tables.paper_table()), new=new,
                            shown=self.shown(figure), claims=self.claims_of(figures.TABLE), all=here)
 
     def table(self, table):
         """Returns a table with the places of its files in the site."""
-        return table, [(path.relative_to(RESULTS).as_posix(), self.files.result(path)) for path in table.files]
+        return table, [(path.relative_to(RESULTS).as_posix(), self.files.result(path))
+                       if path.is_relative_to(RESULTS) else (path.name, self.files.copy(path, f"files/new/{path.name}"))
+                       for path in table.files]
 
     def studies(self):
         return {figure.name: (figure, self.shown(figure), self.claims_of(figure.name))
@@ -316,7 +321,7 @@ def main():
     finally:
         progress.end()
     files = [path for path in options.out.rglob("*") if path.is_file()]
-    print(f"{options.out / 'index.html'}: {len(pages)} pages, {len(files)} files, "
+    print(f"Open {options.out.resolve() / 'index.html'} in a browser: {len(pages)} pages, {len(files)} files, "
           f"{sum(path.stat().st_size for path in files) / 2**20:.1f} MiB")
 
 

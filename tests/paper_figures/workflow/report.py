@@ -6,6 +6,7 @@ Usage: report.py SOURCE_DIR. Exit status 77: skipped, matplotlib or another pack
 """
 
 import csv
+import functools
 import hashlib
 import json
 import re
@@ -90,8 +91,11 @@ class Page(HTMLParser):
         return re.sub(r"\s+", " ", "".join(self.text))
 
 
+parsed = functools.cache(Page)  # pages are read once for each planted fault
+
+
 def pages_of(site):
-    return {path.relative_to(site).as_posix(): Page(path.read_text(encoding="utf-8"))
+    return {path.relative_to(site).as_posix(): parsed(path.read_text(encoding="utf-8"))
             for path in sorted(site.rglob("*.html"))}
 
 
@@ -101,8 +105,9 @@ def kept_verdicts():
         return list(csv.DictReader(file))
 
 
-def readable(path):
-    """Returns whether a file is what its name says."""
+@functools.cache
+def readable(path, changed):
+    """Returns whether a file is what its name says; `changed`: when it was."""
     if path.suffix in files.PICTURES:
         try:
             with Image.open(path) as image:
@@ -140,7 +145,7 @@ def faults(site):
             path = (here / source).resolve()
             if not path.is_relative_to(site) or not path.is_file():
                 found.append(f"{name}: {source} is not in the site")
-            elif not readable(path):
+            elif not readable(path, path.stat().st_mtime_ns):
                 found.append(f"{name}: {source} can't be read")
             seen.add(path)
         found += [f"{name}: no text for {source}" for source, text in page.texts.items() if len(text.split()) < WORDS]
@@ -335,7 +340,7 @@ class Parts(unittest.TestCase):
         self.assertEqual(len(found), 4)
         wall = run.column("wall")
         self.assertIn(f"from {min(wall):.3g} to {max(wall):.3g}, at the end {wall[-1]:.3g}", found[0].alt)
-        self.assertTrue(all(readable(self.folder / curve.src) for curve in found))
+        self.assertTrue(all(readable(self.folder / curve.src, 0) for curve in found))
 
     def test_a_folder_with_other_files_is_refused(self):
         (self.folder / "mine.txt").touch()
@@ -351,6 +356,32 @@ class Parts(unittest.TestCase):
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("report: ", done.stderr)
         self.assertIn("choose an empty folder", done.stderr)
+
+
+def light(colour):
+    """Returns the relative luminance of a colour #rrggbb (WCAG 2.2)."""
+    parts = (int(colour[place:place + 2], 16) / 255 for place in (1, 3, 5))
+    red, green, blue = (part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts)
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+
+class Colours(unittest.TestCase):
+    def test_every_text_has_a_contrast_of_at_least_four_and_a_half(self):
+        """In both schemes, on every ground on which it stands; browser.sh measures what a browser shows."""
+        style = (report.SITE / "style.css").read_text()
+        schemes = [dict(re.findall(r"--([\w-]+): (#[0-9a-f]{6})", each))
+                   for each in re.findall(":root {(.*?)}", style, re.S)]
+        self.assertEqual(len(schemes), 2)
+        grounds = ("ground", "sheet", "code")
+        pairs = [(text, ground) for text in ("ink", "soft", "link", "good", "bad") for ground in grounds]
+        pairs += [(verdict, f"{verdict}-ground") for verdict in ("good", "bad", "apart", "open")]
+        pairs += [("ink", shade) for shade in ("faster", "slower-1", "slower-2", "slower-3", "printed", "open-ground")]
+        for colours in schemes:
+            self.assertEqual(set(colours), set(schemes[0]))
+            for text, ground in pairs:
+                high, low = sorted((light(colours[text]), light(colours[ground])), reverse=True)
+                self.assertGreaterEqual((high + 0.05) / (low + 0.05), 4.5, f"{text} on {ground}: {colours[text]}")
+        self.assertAlmostEqual((light("#ffffff") + 0.05) / (light("#767676") + 0.05), 4.54, places=2)  # WCAG's example
 
 
 class JustMade(unittest.TestCase):
@@ -397,6 +428,15 @@ class JustMade(unittest.TestCase):
         self.assertEqual(page.words.count("Just made:"), 1)
         self.assertIn("with uncommitted changes", page.words)
         self.assertIn("2 runs that were just made, asked for at scale paper on the GPU", Page(site.index()).words)
+
+    def test_table_1_is_shown_where_it_was_made(self):
+        self.assertNotIn("just made", Page(self.site("paper").table1()).words)
+        made = self.runs / "table1-paper-cuda/table1_paper.csv"
+        made.parent.mkdir()
+        made.write_bytes((RESULTS / "h200/table1_paper.csv").read_bytes())
+        page = Page(self.site("paper").table1())
+        self.assertIn("Table 1 at scale paper, just made", page.words)
+        self.assertIn("files/new/table1_paper.csv", page.links)
 
     def test_what_an_audit_did_not_look_at_is_said(self):
         unseen = "the ways between them were not looked at"
