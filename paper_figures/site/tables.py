@@ -122,7 +122,7 @@ def peers_scenes():
     """Returns scenes in Newton Physics' solver and in ours, audited alike."""
     files = (GPU / "peers_newton_gpu.csv", CORES / "peers_trajectories.csv")
     rows = [(row["scene"], row["scale"], row["device"], f"{PEERS[row['program']]}, {row['variant']}",
-             f"{row['steps_done']} of {row['steps']}", f"{float(row['mean_ms']):.3g}", f"{float(row['worst_ms']):.3g}",
+             f"{row['steps_done']} of {row['steps']}", rounded(row["mean_ms"]), rounded(row["worst_ms"]),
              f"{row['states_intersecting']} of {row['states']}", f"{row['motions_meeting']} of {row['motions']}")
             for path in files for row in rows_of(path)]
     return Table("The same scene in Newton Physics and here",
