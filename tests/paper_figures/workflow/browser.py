@@ -43,8 +43,12 @@ FOCUSABLE = "a[href], button, input, select, summary, video[controls], [tabindex
 # The elements that a reader must reach: those that are shown. Browsers leave out what closed details hold.
 TO_REACH = f"""() => [...document.querySelectorAll("{FOCUSABLE}")].filter(e => e.checkVisibility()).map((e, n) => {{
   e.dataset.reach = n; return e.outerHTML.slice(0, 90); }})"""
-FOCUSED = """() => { const e = document.activeElement, s = getComputedStyle(e);
-  return [e.dataset.reach ?? '', s.outlineStyle !== 'none' && parseFloat(s.outlineWidth) >= 2, e.tagName]; }"""
+# Keeps for each of them whether its focus was seen when it had it.
+LISTEN = """() => { window.seen = {}; document.addEventListener('focusin', event => {
+  const e = event.target, s = getComputedStyle(e);
+  if (e.dataset.reach) window.seen[e.dataset.reach] = e.tagName === 'VIDEO' ||
+    s.outlineStyle !== 'none' && parseFloat(s.outlineWidth) >= 2; }); }"""
+PRESSES = 25  # between two looks at what was reached
 
 
 class Reader:
@@ -94,18 +98,16 @@ class Reader:
     def faults_of_keyboard(self, address):
         """Returns sentences about what the tab key does not reach, and where the focus is not seen."""
         page, _ = self.open(address)
-        reach, reached, found = page.evaluate(TO_REACH), set(), []
-        for _ in range(2 * len(reach) + 40):  # a video has buttons of its own, which keep it focused
-            page.keyboard.press("Tab")
-            number, seen, tag = page.evaluate(FOCUSED)
-            if tag == "BODY":
-                break
-            reached.add(number)
-            if not seen and tag != "VIDEO":
-                found.append(f"the focus is not seen on {tag} {reach[int(number)] if number else ''}")
-        found += [f"the tab key does not reach {what}" for n, what in enumerate(reach) if str(n) not in reached]
+        reach, seen, before = page.evaluate(TO_REACH), {}, -1
+        page.evaluate(LISTEN)
+        while len(seen) < len(reach) and len(seen) > before:  # a video has buttons of its own, which keep it focused
+            before = len(seen)
+            for _ in range(PRESSES):
+                page.keyboard.press("Tab")
+            seen = page.evaluate("window.seen")
         page.context.close()
-        return found[:5]
+        found = [f"the tab key does not reach {what}" for n, what in enumerate(reach) if str(n) not in seen]
+        return (found + [f"the focus is not seen on {reach[int(n)]}" for n, well in seen.items() if not well])[:5]
 
     def check_dialog(self, address):
         """A picture opens in a dialog by the keyboard, Escape closes it, and the focus returns."""
