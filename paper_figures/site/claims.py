@@ -15,6 +15,8 @@ MEANING = {
     "as printed": "What we set is what the paper prints.",
     "not as printed": "What we set differs from what the paper prints.",
 }
+MEMBRANES = {"stable_neo_hookean": "stable Neo-Hookean", "st_venant_kirchhoff": "St. Venant–Kirchhoff"}
+NO_UNIT = ("1", "", "not printed")
 
 
 def number(value, unit="1"):
@@ -22,7 +24,7 @@ def number(value, unit="1"):
     if value is None or math.isnan(value):
         return ""
     text = f"{value:,.0f}" if abs(value) >= 1e4 and value == round(value) else f"{value:.4g}"
-    return text if unit in ("1", "") else f"{text} {unit}"
+    return text if unit in NO_UNIT else f"{text} {unit}"
 
 
 def slug(verdict):
@@ -68,6 +70,8 @@ class Claim:
     def note(self):
         """Returns the further remarks as sentences."""
         text = self.judgement.note
+        for name, words in MEMBRANES.items():
+            text = text.replace(name, words)
         return f"{text[0].upper()}{text[1:]}." if text else ""
 
     @property
@@ -90,7 +94,11 @@ def sentence_of(judgement):
         return f"{ours} lies outside of the band ({band})." if ours else \
             f"Our run never comes to what is claimed (the band: {band})."
     if judgement.verdict == "not comparable":
-        return f"Ours is {ours}, of another machine." if ours else "It concerns another machine or another program."
+        if not ours:
+            return ""  # the note says why
+        if claim["kind"] == verdicts.RESULT:
+            return f"The paper's number is of another machine or program; ours is {ours}."
+        return f"Ours is {ours}" + ("; the paper prints no unit." if claim["unit"] == "not printed" else ".")
     if judgement.verdict == "not yet run":
         return MEANING["not yet run"] if not judgement.note else ""
     return f"We set {ours}."

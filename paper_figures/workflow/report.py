@@ -32,7 +32,6 @@ OUT = ROOM / "report"
 PAGES = {"index.html": "Figures", "table1.html": "Table 1", "claims.html": "Claims", "ablations.html": "Ablations",
          "judge.html": "Judge", "peers.html": "Other programs", "more.html": "Beyond the paper",
          "scenes.html": "Scenes", "deviations.html": "Deviations"}
-MEMBRANES = {"stable_neo_hookean": "Stable Neo-Hookean cloth", "st_venant_kirchhoff": "St. Venant–Kirchhoff cloth"}
 ASSETS = ("style.css", "extras.js")
 MARK = "made-by-report"  # a file in the site's folder: only such a folder is emptied
 
@@ -270,7 +269,7 @@ class Site:
         for number, run in enumerate(self.runs_of(name)):
             seconds = seconds_between(run.manifest)
             drawn = self.drawing.draw(run, f"media/curves/{name}_{number}", self.out) if curves.are_drawn(run) else ()
-            membranes = " and ".join(MEMBRANES.get(name, name) for name in sorted(run.membranes))
+            membranes = " and ".join(words.MEMBRANES.get(name, name) for name in sorted(run.membranes))
             found.append(Run(run.source, run.manifest, run.step_count, membranes, audit_in_words(run),
                              "" if seconds is None else recipes.in_words(seconds), tuple(drawn), id(run) in made))
         shown = [figure for figure in self.figures.values() if name in figure.scenes]

@@ -266,6 +266,8 @@ class OfSite(unittest.TestCase):
         self.assertEqual(set(claims.MEANING), {*verdicts.VERDICTS, *verdicts.AS_SET})
         for claim in self.site.claims:
             self.assertTrue(claim.sentence or claim.note, claim.id)
+            self.assertFalse([name for name in claims.MEMBRANES if name in claim.note], claim.id)
+            self.assertNotIn("not printed", claim.paper + claim.ours + claim.sentence, claim.id)
 
     def test_a_figure_without_a_picture_says_the_command_that_makes_it(self):
         self.site.figures["fig11"], kept = figures.Figure("fig11", self.site.figures["fig11"].recipes, (), ()), \
