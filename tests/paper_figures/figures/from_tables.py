@@ -175,6 +175,13 @@ class Untitled(unittest.TestCase):
         self.assertTrue((panel < 128).any(), "the panel's title stays")
         self.assertFalse((whole[begin - 8:begin + 2] < 250).any(), "no line of the title is cut in two")
 
+    def test_the_readers_answers_are_those_that_the_document_counts(self):
+        rows = rows_of("answers")
+        self.assertEqual([row["figure"] for row in rows], untitled.FIGURES)
+        right = sum(row["right"] == "yes" for row in rows)
+        self.assertIn(f"named {right} of the {len(rows)} claims", (RESULTS.parent / "README.md").read_text())
+        self.assertTrue(all(len(row["answer"].split()) > 5 and (RESULTS / row["picture"]).is_file() for row in rows))
+
     def test_each_of_the_papers_figures_is_laid_out_once_under_a_number(self):
         figures = [f"fig{number:02d}" for number in range(1, 23)]
         self.assertEqual(sorted(untitled.pictures()), figures)
