@@ -66,6 +66,7 @@ PROJECT = {
     "experiments/examples": ("compare/", "fast/contact_sets.hpp", "fast/contestant.hpp", "fast/guard.hpp"),
     "experiments/program/commands/contacts.cpp": ("compare/", "experiments/", "reference/contestant.hpp",
                                                   "fast/contestant.hpp", "fast/contact_sets.hpp"),
+    "experiments/program/runs/worlds_run.cpp": ("compare/", "experiments/", "fast/worlds.hpp"),
     "tests": ("",),
 }
 

@@ -99,6 +99,9 @@ class CpuBackend {
  public:
   template <class T>
   using Buffer = CpuBuffer<T>;
+  template <class T>
+  using Shared = CpuBuffer<T>;
+  static constexpr bool has_free_branches = false;
   using Sums = HostSums;
 
   /// Runs ranges of items as tasks; up to 64 items stay in the calling thread.
@@ -212,7 +215,7 @@ class CpuBackend {
 
   /// Runs the body `times` times and measures the time of each run.
   template <class Body>
-  void replay(Recording&, int times, Body body) {
+  void replay(Recording&, int times, Body body, const int* = nullptr) {
     for (int k = 0; k < times; ++k) {
       const auto start = std::chrono::steady_clock::now();
       body();

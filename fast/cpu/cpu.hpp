@@ -9,6 +9,7 @@
 #include "fast/contact_sets.hpp"
 #include "fast/contestant.hpp"
 #include "fast/guard.hpp"
+#include "fast/worlds.hpp"
 
 namespace ogc::fast {
 
@@ -17,6 +18,10 @@ BackendInfo cpu_info();
 
 /// Returns a contestant that runs all stages on the host's threads.
 compare::Contestant cpu_contestant();
+
+/// Starts worlds on the host's threads (fast/worlds.hpp).
+std::unique_ptr<Worlds> start_cpu_worlds(std::span<const compare::Scene> scenes,
+                                         const compare::SimulationOptions& options);
 
 /// Returns the engine of a ContactFinder; `topology` must outlive it.
 std::unique_ptr<ContactEngine> cpu_contact_engine(const compare::Topology& topology,
