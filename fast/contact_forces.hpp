@@ -119,8 +119,8 @@ class ContactForces {
 
   /// Does the same with positions and results in the backend's memory (device memory for Backend::cuda). Returns the
   /// energy. Results are complete on return; they must not overlap what is read. Streams are those of Guard.
-  /// Coordinates are not checked. Throws compare::InputError if there are no contacts of a detection, or h is out of
-  /// range.
+  /// Coordinates are not checked. Throws compare::InputError if there are no contacts of a detection, h is out of
+  /// range, or the device cannot read an argument.
   ContactEnergy evaluate_resident(const FoundContacts& contacts, const compare::Vec3f* positions,
                                   const SlidingResident& sliding, const ContactForceArrays& out);
 

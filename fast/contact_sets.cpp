@@ -16,16 +16,17 @@ namespace ogc::fast {
 namespace {
 
 void check(const ContactQuery& query) {
-  if (!(query.contact_radius > 0 && query.query_radius <= most_query_radius &&
-        query.query_radius >= query.contact_radius)) {
-    const auto text = [](float value) { return compare::shortest(compare::as_typed(static_cast<double>(value))); };
-    throw compare::InputError("contact query: 0 < contact_radius <= query_radius <= " + text(most_query_radius) +
-                              " is needed, not " + text(query.contact_radius) + " and " + text(query.query_radius));
-  }
-  if (!(query.bounds_relaxation > 0 && query.bounds_relaxation < 0.5F)) {
-    throw compare::InputError("contact query: bounds_relaxation must lie between 0 and 0.5, not at " +
-                              std::to_string(query.bounds_relaxation));
-  }
+  const auto text = [](float value) { return compare::shortest(compare::as_typed(static_cast<double>(value))); };
+  const auto need = [text](const char* name, float value, float least, float most) {
+    if (!(value >= least && value <= most))
+      throw compare::InputError(std::string(name) + " is " + text(value) + ", but a length from " + text(least) +
+                                " to " + text(most) + " m is needed");
+  };
+  need("query_radius", query.query_radius, least_radius, most_query_radius);
+  need("contact_radius", query.contact_radius, least_radius, query.query_radius);
+  if (!(query.bounds_relaxation > 0 && query.bounds_relaxation < 0.5F))
+    throw compare::InputError("bounds_relaxation is " + text(query.bounds_relaxation) +
+                              ", but it must lie between 0 and 0.5");
 }
 
 std::unique_ptr<ContactEngine> make_engine(Backend backend, const compare::Topology& topology,
@@ -46,7 +47,7 @@ ContactFinder::ContactFinder(Mesh mesh, Backend backend)
 
 ContactSets ContactFinder::find(std::span<const compare::Vec3f> positions, const ContactQuery& query) {
   check(query);
-  mesh_.check("positions", positions);
+  mesh_.check_positions("positions", positions);
   return engine_->find(positions, query);
 }
 
@@ -55,9 +56,15 @@ ContactView ContactFinder::find_resident(const compare::Vec3f* positions, const 
   return engine_->find_resident(positions, query);
 }
 
-ContactSets ContactFinder::find_at_resident(const compare::Vec3f* positions, const ContactQuery& query) {
+ContactColumns ContactFinder::find_columns(std::span<const compare::Vec3f> positions, const ContactQuery& query) {
   check(query);
-  return engine_->find_at_resident(positions, query);
+  mesh_.check_positions("positions", positions);
+  return engine_->find_columns(positions, query);
+}
+
+ContactColumns ContactFinder::find_columns_resident(const compare::Vec3f* positions, const ContactQuery& query) {
+  check(query);
+  return engine_->find_columns_resident(positions, query);
 }
 
 }  // namespace ogc::fast

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "fast/kernels/arithmetic/qualifiers.hpp"
+
 namespace ogc::fast {
 
 /// A contact (v, a): corner[1] = corner[2] = -1 if a is a vertex, corner[2] = -1 if a is an edge.
@@ -28,6 +30,20 @@ struct Incidence {
   std::uint32_t code;  ///< bit 31: edge–edge; bits 2 … 30: number of the record; bits 0, 1: role
 };
 
+/// Numbers the rows of incidences. A vertex has two rows: one for its vertex–facet contacts, one for its edge–edge
+/// contacts. All rows of vertex–facet contacts come first.
+struct RowNumbers {
+  /// by vertex: the place of its rows among the rows of their kind, 0 … vertex_count − 1; null: its number
+  const int* place = nullptr;
+  int vertex_count = 0;
+
+  /// Returns the number of a vertex's row.
+  OGC_HD int operator()(int vertex, bool edge_edge) const {
+    return (place != nullptr ? place[vertex] : vertex) + (edge_edge ? vertex_count : 0);
+  }
+  OGC_HD int count() const { return 2 * vertex_count; }  ///< number of rows
+};
+
 /// Holds the contacts of a detection. Records are in canonical order (compare/stages), so numbers and sums do not
 /// depend on the order of atomics.
 struct ContactView {
@@ -36,8 +52,9 @@ struct ContactView {
   const EdgeEdgeRecord* edge_edge = nullptr;
   const int* vertex_facet_count = nullptr;  ///< number of records, unknown to the host
   const int* edge_edge_count = nullptr;     ///< number of records
-  const int* incidence_offsets = nullptr;   ///< vertex_count + 1
-  const Incidence* incidences = nullptr;    ///< row of vertex v: from incidence_offsets[v]
+  RowNumbers rows;                          ///< numbers of the rows of `incidences`
+  const int* incidence_offsets = nullptr;   ///< rows.count() + 1
+  const Incidence* incidences = nullptr;    ///< row k: from incidence_offsets[k]
   const float* bound = nullptr;             ///< b_v, Eq. 21 [m]
   /// by vertex: smallest distance (Eq. 22) [m], at most r_q; if bounds are planes, the smallest distance of all pairs
   /// that contain the vertex

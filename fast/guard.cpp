@@ -23,9 +23,11 @@ void check(const GuardOptions& options) {
     if (!holds) throw compare::InputError("guard: " + what);
   };
   const float r = options.contact_radius, r_q = options.query_radius;
-  need(r >= 0 && std::isfinite(r), "contact_radius is " + text_of(r) + ", but 0 or a positive length [m] is needed");
-  need(r_q > 0 && r_q <= most_query_radius, "query_radius is " + text_of(r_q) + ", but a positive length of at most " +
-                                                text_of(most_query_radius) + " [m] is needed");
+  need(r == 0 || (r >= least_radius && std::isfinite(r)),
+       "contact_radius is " + text_of(r) + ", but 0 or a length of at least " + text_of(least_radius) + " m is needed");
+  need(r_q >= least_radius && r_q <= most_query_radius, "query_radius is " + text_of(r_q) + ", but a length from " +
+                                                            text_of(least_radius) + " to " +
+                                                            text_of(most_query_radius) + " m is needed");
   need(r_q >= r, "query_radius is " + text_of(r_q) + ", but at least contact_radius, " + text_of(r) + ", is needed");
   need(options.bounds_relaxation > 0 && options.bounds_relaxation < 0.5F,
        "bounds_relaxation is " + text_of(options.bounds_relaxation) + ", but it must lie between 0 and 0.5");
@@ -59,7 +61,7 @@ std::unique_ptr<GuardEngine> make_engine(Backend backend, const Mesh& mesh, cons
 Guard::Guard(Mesh mesh, std::span<const compare::Vec3f> positions, const GuardOptions& options, Backend backend)
     : mesh_(std::move(mesh)), options_(options) {
   check(options_);
-  mesh_.check("positions", positions);
+  mesh_.check_positions("positions", positions);
   engine_ = make_engine(backend, mesh_, options_);
   engine_->reset(positions);
 }
@@ -82,7 +84,7 @@ GuardReport Guard::step_resident(const compare::Vec3f* positions, const compare:
 void Guard::detect() { engine_->detect(); }
 
 void Guard::reset(std::span<const compare::Vec3f> positions) {
-  mesh_.check("positions", positions);
+  mesh_.check_positions("positions", positions);
   engine_->reset(positions);
 }
 

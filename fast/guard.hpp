@@ -31,10 +31,11 @@ namespace ogc::fast {
 
 /// Parameters of a guard; they never change.
 struct GuardOptions {
-  /// r ≥ 0: range of the contacts that `contacts` lists [m]. The truncation does not depend on it.
+  /// r ≥ least_radius: range of the contacts that `contacts` lists [m]. The truncation does not depend on it. 0 acts as
+  /// least_radius.
   float contact_radius = 0;
-  /// r_q ≥ r, > 0, ≤ most_query_radius: range of the search [m]. No vertex moves farther than γ_p r_q between two
-  /// detections.
+  /// r_q ≥ r, from least_radius to most_query_radius: range of the search [m]. No vertex moves farther than γ_p r_q
+  /// between two detections.
   float query_radius = 0;
   compare::Bounds bounds = compare::Bounds::ball;  ///< `ball` (Eq. 21) or `planes` (method.md §5.6)
   float bounds_relaxation = 0.45F;                 ///< γ_p in (0, 0.5): share of a gap that each of its sides may take
@@ -89,13 +90,14 @@ class GuardEngine {
 /// Functions whose names end in `_resident` take and return pointers to the backend's memory (device memory for
 /// Backend::cuda), one vector for each vertex. Coordinates are not checked. Such a function works on a stream that
 /// synchronises with the legacy default stream, so the caller's work on a non-blocking stream must be complete before
-/// the call. What the function writes is complete on return, and it has read its arguments by then.
+/// the call. What the function writes is complete on return, and it has read its arguments by then. Throws
+/// compare::InputError if the device cannot read an argument.
 class Guard {
  public:
   /// Detects at `positions` [m], which must be free of intersections; no test can show later that they were not. Throws
-  /// compare::InputError if the number of positions is not the mesh's, a coordinate is not finite, or an option is out
-  /// of range; the message names the argument, the vertex and the value. Throws compare::ResourceError if
-  /// `contestant(backend)` throws it, or if memory is used up.
+  /// compare::InputError if the number of positions is not the mesh's, a coordinate is not finite or beyond
+  /// most_coordinate, or an option is out of range; the message names the argument, the vertex and the value. Throws
+  /// compare::ResourceError if `contestant(backend)` throws it, or if memory is used up.
   Guard(Mesh mesh, std::span<const compare::Vec3f> positions, const GuardOptions& options,
         Backend backend = Backend::cpu);
 

@@ -45,9 +45,18 @@ void check_exclusions(const compare::ExclusionView& exclusions, compare::Index v
                                 std::to_string(vertex_count) + " vertices");
 }
 
-std::string text_of(const compare::Vec3f& a) {
-  const auto number = [](float c) { return compare::shortest(compare::as_typed(static_cast<double>(c))); };
-  return "(" + number(a.x) + ", " + number(a.y) + ", " + number(a.z) + ")";
+std::string number_text(float c) { return compare::shortest(compare::as_typed(static_cast<double>(c))); }
+
+/// Throws compare::InputError for the first vector with a coordinate that is not `good`.
+template <class Good>
+void refuse_first(std::string_view argument, std::span<const compare::Vec3f> vectors, Good good,
+                  const std::string& why) {
+  const auto bad = std::find_if_not(vectors.begin(), vectors.end(),
+                                    [good](const compare::Vec3f& a) { return good(a.x) && good(a.y) && good(a.z); });
+  if (bad != vectors.end())
+    throw compare::InputError(std::string(argument) + ": vertex " + std::to_string(bad - vectors.begin()) + " has (" +
+                              number_text(bad->x) + ", " + number_text(bad->y) + ", " + number_text(bad->z) + "), " +
+                              why);
 }
 
 }  // namespace
@@ -70,12 +79,16 @@ void Mesh::check(std::string_view argument, std::span<const compare::Vec3f> vect
   if (vectors.size() != static_cast<std::size_t>(vertex_count()))
     throw compare::InputError(std::string(argument) + ": " + std::to_string(vectors.size()) + " vectors for " +
                               std::to_string(vertex_count()) + " vertices: give one for each vertex");
-  const auto bad = std::find_if_not(vectors.begin(), vectors.end(), [](const compare::Vec3f& a) {
-    return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
-  });
-  if (bad != vectors.end())
-    throw compare::InputError(std::string(argument) + ": vertex " + std::to_string(bad - vectors.begin()) + " has " +
-                              text_of(*bad) + ", which is not finite");
+  refuse_first(
+      argument, vectors, [](float c) { return std::isfinite(c); }, "which is not finite");
+}
+
+void Mesh::check_positions(std::string_view argument, std::span<const compare::Vec3f> positions) const {
+  check(argument, positions);
+  refuse_first(
+      argument, positions, [](float c) { return std::abs(c) <= most_coordinate; },
+      "but coordinates from " + number_text(-most_coordinate) + " to " + number_text(most_coordinate) +
+          " m are needed");
 }
 
 }  // namespace ogc::fast

@@ -1,19 +1,25 @@
-"""Draws the figure of one run (time a step, detections, contacts, smallest distance, rendered frames), and its
-movie."""
+"""Draws the figure of one run (its moments, time a step, detections or lag, smallest distance), and its movie."""
 
 import json
 from pathlib import Path
 
-import h5py  # imported first, so that a missing reader is reported before anything is drawn
+import h5py  # noqa: F401  imported first, so that a missing reader is reported before anything is drawn
 import numpy as np
 
-from plots import render, style, yarn
+from plots import render, style
+from plots.bodies import bodies_of, floor_of
+from plots.camera import fitted, is_cloth, subject, view_of
 from ogc_testbed.runs import RunError, commits_in_words
 
-UNEVEN = 100  # longest step over median step above which times have a logarithmic axis
-NEAR = (1280, 560)  # pixels of a picture as wide as the figure
+RARE = 99.8  # percentile of the steps' times up to which they are drawn, if the longest is far above
+FAR = 3  # factor over that percentile from which the longest is far above
+NEAREST = 0.03  # share of the run within which a stored frame stands for the one that is asked for
+WIDTH, PICTURE = 960, (960, 640)  # pixels
+NEAR = (1280, 560)
+MOVIE = (1280, 720)
+PLOTS = (2.5, [(1 / 3, "plot")] * 3)  # the row of curves below the pictures
+FRAMES_A_SECOND = 30
 BOUNDS = {"planes": "bounds by planes", "dat": "bounds by planes of Divide and Truncate", "off": "without bounds"}
-YARNS = ("#0072B2", "#D55E00", "#009E73")
 
 
 def load_claims(path, backend):
@@ -25,182 +31,193 @@ def load_claims(path, backend):
             if c.get("backend") == backend}
 
 
-def is_cloth(body):
-    """Returns whether a body is simulated, that is neither fixed nor wholly prescribed."""
-    return not body["fixed"] and body.get("prescribed_vertices") != body["vertex_count"]
+def look_of(run):
+    """Returns the options of `render.picture` for a run: the floor of its scene."""
+    return {"floor": floor_of(run)}
 
 
-def bodies_of(run, frame):
-    """Returns the bodies as `render.picture` takes them, at the frame's positions. Fixed and wholly prescribed bodies
-    are grey; rods are tubes with plies."""
-    fronts, backs = ["#56B4E9", "#009E73", "#CC79A7"], ["#E69F00", "#D55E00", "#F0E442"]
-    result, cloth = [], 0
-    for body in run.bodies():
-        first, count = body["first_vertex"], body["vertex_count"]
-        points, triangles = frame.positions[first:first + count], body["triangles"]
-        if "segments" in body:
-            result.append(yarn_of(run, body, frame))
-        if not len(triangles):
-            continue
-        if is_cloth(body):
-            result.append((points, triangles, fronts[cloth % 3], backs[cloth % 3]))
-            cloth += 1
-        else:
-            result.append((points, triangles, "#B0B0B0", "#B0B0B0"))
-    return result
+def render_frame(run, frame, camera, size=PICTURE, **look):
+    """Returns the picture of a frame. Throws RunError if meshes can't be rendered here."""
+    usable, reason = render.available()
+    if not usable:
+        raise RunError(reason)
+    return render.picture(bodies_of(run, frame), camera, size, **{**look_of(run), **look})
 
 
-def yarn_of(run, body, frame):
-    """Returns a rod as `render.picture` takes it, with a colour for each of its chains."""
-    first, count, segments = body["first_vertex"], body["vertex_count"], body["segments"]
-    start = run.start_positions[first:first + count].astype(float)
-    lengths = np.linalg.norm(start[segments[:, 1]] - start[segments[:, 0]], axis=1)
-    diameter = body["material"]["rod"]["diameter"]["value"]
-    chains = yarn.chains(segments, count)
-    colours = np.empty((len(segments), yarn.PLIES, 3))
-    for number, links in enumerate(chains):
-        colours[[e for e, _ in links]] = yarn.plies_of(YARNS[number % len(YARNS)])
-    angles = yarn.angles_of(chains, lengths, yarn.PITCH * diameter)
-    points = frame.positions[first:first + count]
-    orientations = frame.orientations[body["first_segment"]:body["first_segment"] + len(segments)].astype(float)
-    if not len(orientations):  # the start of a scene without orientations; frames follow from its rest shape
-        orientations = yarn.untwisted(chains, points.astype(float), segments)
-    return (*yarn.tubes(points, segments, orientations, angles, diameter, colours), None)
+def frames_at(run, steps):
+    """Returns the frames at these steps; None for a step of which none is stored within NEAREST of the run."""
+    last = run.column("step")[-1]
+    found = [run.frame_at_step(step) for step in steps]
+    return [frame if abs(frame.step - step) <= NEAREST * last else None for frame, step in zip(found, steps)]
+
+
+def show(axes, run, frame, camera, title, size=PICTURE, **look):
+    """Draws a frame into a panel, or the reason why it can't be. `frame`: None says that it was not kept."""
+    usable, reason = render.available()
+    if frame is None:
+        style.not_run(axes, "this state was not kept")
+    elif usable:
+        style.picture(axes, render_frame(run, frame, camera, size, **look), title)
+    else:
+        style.not_run(axes, reason)
+        axes.set_title(title)
+
+
+def moment(frame):
+    return f"t = {frame.time:.3g} s" if frame else ""
+
+
+def times(run):
+    """Returns the times of the run's steps without the first, which also starts the program [ms]."""
+    wall = run.column("wall")
+    return wall[1:] if len(wall) > 1 else wall
+
+
+def ms(time):
+    """Returns a time [ms] as text, with three digits or all of those before the point."""
+    return f"{time:,.0f}" if time >= 100 else f"{time:.3g}"
 
 
 def draw_time(axes, run, claims, profiled):
-    """Draws the time of each step of `run`. Behind it, if `profiled` has times by stage, draws these; their sum is
-    larger, because profiling synchronises after each stage."""
-    stages = profiled.stage_columns()
+    """Draws the time of each step of `run` and the paper's numbers. Behind it, if `profiled` has times by stage, draws
+    these; their sum is larger, because profiling synchronises after each stage. Few steps that took far longer than all
+    others are counted in words, not drawn."""
+    stages, steps, wall = profiled.stage_columns(), run.column("step"), run.column("wall")
     if stages:
         axes.stackplot(profiled.column("step"), list(stages.values()),
                        labels=[f"profiled: {name.replace('_', ' ')}" for name in stages],
                        colors=style.COLOURS[1:], alpha=0.7)
-    axes.plot(run.column("step"), run.column("wall"), label="step")
-    for quantity, dash in (("step_ms_average", "--"), ("step_ms_maximum", ":")):
+    axes.plot(steps, wall, color=style.OURS, linewidth=0.8)
+    named = {"step_ms_average": ("mean", "--"), "step_ms_maximum": ("longest", ":")}
+    top = np.percentile(wall, RARE)
+    for quantity, (word, dash) in named.items():
         if quantity in claims:
-            value, machine = claims[quantity]
-            axes.axhline(value, color="black", linestyle=dash, linewidth=0.8,
-                         label=f"paper, {quantity.split('_')[-1]}: {value:g} ms ({machine})")
-    axes.set(xlabel="step", ylabel="time a step [ms]", title="Time", ylim=(0, None))
-    if run.column("wall").max() > UNEVEN * np.median(run.column("wall")):
-        axes.set(ylim=(None, None), yscale="log")
-        axes.legend(fontsize=6.5, ncols=2, loc="upper left")
-    elif stages:
+            value, _ = claims[quantity]
+            top = max(top, value)
+            style.paper_line(axes, value, f"paper,\n{word} {value:g}", dash)
+    title = "Time a step"
+    if wall.max() > FAR * top:
+        title += f" ({int(np.sum(wall > 1.25 * top))} steps above, the longest {ms(wall.max())} ms)"
+    else:
+        top = max(top, wall.max())
+    axes.set(xlabel="step", ylabel="time [ms]", title=title, ylim=(0, 1.25 * top))
+    style.label_ends(axes)
+    if stages:
         axes.legend(fontsize=6.5, ncols=2)
-    else:  # above the run's line: where we are slow, the paper's lines lie at the bottom and would cover the legend
-        axes.set_ylim(0, 1.25 * axes.get_ylim()[1])
-        axes.legend(fontsize=6.5, ncols=2, loc="upper left")
 
 
 def draw_detections(axes, run):
     steps = run.column("step")
-    axes.step(steps, run.column("discrete_detections"), where="mid", label="detections")
-    axes.step(steps, run.column("guess_rounds"), where="mid", linestyle="--", label="rounds of the guess loop")
-    axes.set(xlabel="step", ylabel="count a step", title="Detections (all discrete; none is continuous)",
-             ylim=(0, None))
-    axes.legend()
+    axes.step(steps, run.column("discrete_detections"), where="mid", linewidth=0.8)
+    axes.set(xlabel="step", ylabel="detections", title="Detections a step", ylim=(0, None))
 
 
 def draw_lag(axes, run):
-    """Draws the lag; if the run never lagged, only the axis."""
-    axes.plot(run.column("step"), 1e3 * run.column("largest_lag"), label="of the prescribed vertex that lags most")
-    axes.axhline(1e3 * run.setting("contact_radius"), color="black", linestyle="--", linewidth=0.8,
-                 label=f"contact radius r = {1e3 * run.setting('contact_radius'):g} mm")
-    axes.set(xlabel="step", ylabel="lag [mm]", title="Lag behind the prescribed motion",
-             ylim=(0, None))
-    axes.legend()
+    """Draws how far the prescribed vertices lag; a run that never lagged has its contacts drawn instead."""
+    lag, radius = 1e3 * run.column("largest_lag"), 1e3 * run.setting("contact_radius")
+    if not np.any(lag > 0):
+        return draw_contacts(axes, run)
+    axes.plot(run.column("step"), lag, linewidth=0.8)
+    style.paper_line(axes, radius, f"contact\nradius {radius:.3g}")
+    axes.set(xlabel="step", ylabel="lag [mm]", title="Lag behind the prescribed motion", ylim=(0, None))
+    style.label_ends(axes)
+    return None
 
 
 def draw_contacts(axes, run):
     steps = run.column("step")
-    axes.plot(steps, run.column("vertex_facet_contacts"), label="vertex–facet")
-    axes.plot(steps, run.column("edge_edge_contacts"), linestyle="--", label="edge–edge")
-    axes.set(xlabel="step", ylabel="contacts", title="Contacts at the last detection of the step", ylim=(0, None))
-    axes.legend()
+    axes.plot(steps, run.column("vertex_facet_contacts"), linewidth=0.9, label="vertex–facet")
+    axes.plot(steps, run.column("edge_edge_contacts"), linestyle="--", linewidth=0.9, label="edge–edge")
+    axes.set(xlabel="step", ylabel="contacts", title="Contacts at the end of the step", ylim=(0, None))
+    style.label_ends(axes)
 
 
 def draw_distance(axes, run):
-    radius, distance = run.setting("contact_radius"), run.column("smallest_distance")
-    axes.plot(run.column("step"), 1e3 * distance, label="smallest distance (never above the exact one)")
-    axes.axhline(1e3 * radius, color="black", linestyle="--", linewidth=0.8,
-                 label=f"contact radius r = {1e3 * radius:g} mm")
-    axes.axhline(5e2 * radius, color="black", linestyle=":", linewidth=0.8, label="τ = r/2")
-    axes.set(xlabel="step", ylabel="distance [mm]", title="Smallest distance of non-adjacent primitives")
-    if 0 < distance.min() < radius / 100:  # a linear axis would make it look like an intersection
+    radius, distance = 1e3 * run.setting("contact_radius"), 1e3 * run.column("smallest_distance")
+    axes.plot(run.column("step"), distance, linewidth=0.8)
+    style.paper_line(axes, radius, f"contact\nradius {radius:.3g}")
+    axes.set(xlabel="step", ylabel="distance [mm]", title="Smallest distance")
+    if 0 < distance.min() < radius / 30:  # a linear axis would make it look like an intersection
         axes.set_yscale("log")
     else:
         axes.set_ylim(0, None)
-    axes.legend()
+    style.label_ends(axes)
 
 
-def draw_frames(figure, grid, run, steps, camera):
-    usable, reason = render.available()
-    for column, step in enumerate(steps):
-        axes = figure.add_subplot(grid[column])
-        axes.axis("off")
-        frame = run.frame_at_step(step)
-        axes.set_title(f"step {frame.step}, t = {frame.time:.3g} s")
-        if usable:
-            axes.imshow(render.picture(bodies_of(run, frame), camera))
-        else:
-            axes.text(0.5, 0.5, reason, ha="center", va="center", wrap=True, transform=axes.transAxes)
-
-
-def draw_near(axes, run, frame, camera):
-    """Draws a close view of the frame, as wide as the figure."""
-    axes.axis("off")
-    axes.set_title(f"step {frame.step}, from near")
-    usable, reason = render.available()
-    if usable:
-        axes.imshow(render.picture(bodies_of(run, frame), camera(frame.positions), NEAR))
-    else:
-        axes.text(0.5, 0.5, reason, ha="center", va="center", wrap=True, transform=axes.transAxes)
-
-
-def draw_movie(run, camera, out, most=160, frames_per_second=24, shortest=5):
-    """Writes an MP4 of a finished run's stored frames. If there are more than `most`, takes only every second, third …
-    of them. The movie lasts at least `shortest` seconds, even with few frames. Throws RunError like `draw`."""
+def draw_movie(run, out, camera=None, most=300, shortest=4):
+    """Writes an MP4 of a finished run's stored frames, 30 in a second. If there are more than `most`, takes only every
+    second, third … of them; if they would last less than `shortest` seconds, each is shown for several frames. Throws
+    RunError like `draw`."""
     run.require_finished()
     chosen = run.frames[::-(-len(run.frames) // most)]
+    shown = [run.frame(path) for path in chosen[::max(1, len(chosen) // 12)]]
     frames = (bodies_of(run, run.frame(path)) for path in chosen)
-    usable, reason = render.write_movie(frames, camera, out, max(1, min(frames_per_second, len(chosen) // shortest)))
+    usable, reason = render.write_movie(frames, camera or fitted(run, shown, MOVIE), out, FRAMES_A_SECOND, MOVIE,
+                                        max(1, -(-shortest * FRAMES_A_SECOND // len(chosen))), **look_of(run))
     if not usable:
         raise RunError(f"{out} can't be made: {reason}")
 
 
-def headline(run):
-    wall = run.column("wall")[1:] if len(run.column("wall")) > 1 else run.column("wall")
+def audit_in_words(run):
     m = run.manifest
-    words = {True: f"exact audit of {m.get('audited_states')} states: no intersection", False: "exact audit: FAILED"}
-    kept = words.get(m.get("guarantee_kept"), "not audited")
+    states = m.get("audited_states")
+    if not int(states or 0):
+        return "not audited"
+    return f"exact audit of {int(states):,} states: no intersection"
+
+
+def beside_paper(run, claims):
+    """Returns our time a step and the paper's, and what the run is, as one line."""
+    m, wall = run.manifest, times(run)
+    size = sum(body["vertex_count"] for body in m["scene"]["bodies"] if is_cloth(body))
+    ours = f"ours {ms(np.mean(wall))} ms a step, longest {ms(wall.max())} ({m['device']}"
     bounds = BOUNDS.get(m["settings"].get("bounds", {}).get("value"))
-    return (f"{m['scene']['name']}{f', {bounds}' if bounds else ''}, {m['backend']} ({m['device']}), "
-            f"{len(run.column('step'))} steps: median {np.median(wall):.3g} ms, "
-            f"worst {wall.max():.3g} ms a step; {kept}; {commits_in_words([run])}")
+    ours += f", {bounds})" if bounds else ")"
+    theirs = [f"{claims[key][0]:g}" for key in ("step_ms_average", "step_ms_maximum") if key in claims]
+    paper = f"; paper {theirs[0]} ms, longest {theirs[-1]} ({claims['step_ms_average'][1]})" if theirs else ""
+    scale = "" if m.get("scale") == "paper" else f" (scale {m.get('scale')})"
+    return f"{size:,} vertices{scale}; {ours}{paper}; {audit_in_words(run)}"
 
 
-def draw(run, frames, camera, claims, out, profiled=None, driven=False, near=None):
+def source_of(runs):
+    """Returns, for a caption, the commands and the commit behind a picture."""
+    return f"{'; '.join(' '.join(command_of(run)) for run in runs)}; {commits_in_words(runs)}"
+
+
+def command_of(run):
+    words = run.manifest["command"]
+    words = words.split() if isinstance(words, str) else words
+    return ["ogc", *(word.rpartition("/")[2] for word in words[1:])]
+
+
+def draw(run, steps, claims, out, title, alt, profiled=None, driven=False, near=None):
     """Draws the whole figure into `out` (PNG, and a PDF beside it). Throws RunError for a run that is unfinished or
     failed its audit.
 
     `profiled`: a run of the same scene with --profile, for the times by stage; None: `run` itself. `driven`: shows lag
-    instead of detections. `near`: a function from positions to a camera for a close view of the last of the `frames`.
-    """
+    instead of detections. `near`: (a function from run and frame to a camera, words) for a close view of the last of
+    the frames."""
     run.require_finished()
-    plt = style.use()
-    figure = plt.figure(figsize=(11, 12.6 if near else 8.2))
-    grid = figure.add_gridspec(4 if near else 3, 4, height_ratios=[1, 1, 0.95, 1.9][:4 if near else 3])
-    draw_time(figure.add_subplot(grid[0, :2]), run, claims, profiled or run)
-    (draw_lag if driven else draw_detections)(figure.add_subplot(grid[0, 2:]), run)
-    draw_contacts(figure.add_subplot(grid[1, :2]), run)
-    draw_distance(figure.add_subplot(grid[1, 2:]), run)
-    draw_frames(figure, [grid[2, i] for i in range(4)], run, frames, camera)
+    style.use()
+    frames = frames_at(run, steps)
+    seen = [frame for frame in frames if frame] or [run.frame(run.frames[-1])]
+    view = view_of(run.manifest["scene"]["name"])
+    size = render.shape_of(view, np.concatenate([subject(run, frame) for frame in seen]), WIDTH)
+    camera = fitted(run, seen, size)
+    wide = 3 if len(steps) % 3 == 0 or len(steps) > 4 else 2
+    parts = [frames[:wide], frames[wide:]] if len(steps) > wide else [frames]
+    rows = [*(style.pictures(len(part), size) for part in parts), *([style.pictures(1, NEAR)] if near else []), PLOTS]
+    figure, axes = style.page(rows, title, beside_paper(run, claims))
+    for part, row in zip(parts, axes):
+        for frame, place in zip(part, row):
+            show(place, run, frame, camera, moment(frame), size)
     if near:
-        draw_near(figure.add_subplot(grid[3, :]), run, run.frame_at_step(frames[-1]), near)
-    figure.suptitle(headline(run), fontsize=9)
+        show(axes[-2][0], run, frames[-1], frames[-1] and near[0](run, frames[-1]), near[1], NEAR)
+    draw_time(axes[-1][0], run, claims, profiled or run)
+    (draw_lag if driven else draw_detections)(axes[-1][1], run)
+    draw_distance(axes[-1][2], run)
     out = Path(out)
     try:
-        style.save(figure, out)
+        style.save(figure, out, title, alt, source_of([run]))
     except OSError as error:
         raise RunError(f"{out} can't be written: {error}") from error

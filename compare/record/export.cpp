@@ -36,7 +36,8 @@ ExportFormat parse_export_format(std::string_view text) {
   throw InputError(unknown_name("export format", text, names));
 }
 
-std::vector<fs::path> export_run(const fs::path& folder, ExportFormat format, const fs::path& out) {
+std::vector<fs::path> export_run(const fs::path& folder, ExportFormat format, const fs::path& out,
+                                 const std::function<void(std::size_t, std::size_t)>& written) {
   const RunReader run(folder);
   if (run.frame_count() == 0)
     throw InputError(folder.string() + ": has no finished frame yet: let the run go on, or run it again");
@@ -53,6 +54,7 @@ std::vector<fs::path> export_run(const fs::path& folder, ExportFormat format, co
     write_frame(out / name, format, run.scene(), bodies, frame, run.provenance().origin);
     files.push_back(out / name);
     index.emplace_back(frame.time, name);
+    if (written) written(i + 1, run.frame_count());
   }
   if (format == ExportFormat::vtp || format == ExportFormat::vtu) {
     files.push_back(out / (run.scene().name + ".pvd"));

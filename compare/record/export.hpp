@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -17,8 +18,10 @@ ExportFormat parse_export_format(std::string_view text);
 /// [m/s], bound [m] and body; VTU (XML UnstructuredGrid) also tetrahedra and their J (compare/record/vtu.hpp). VTP and
 /// VTU get an index of the frames' times, `out`/NAME.pvd, where NAME is the scene's. Positions are in the coordinates
 /// of the mesh's file (Provenance::origin). Returns all files, the index last. Throws InputError if the run has no
-/// frame, ResourceError if the disk fails.
+/// frame, ResourceError if the disk fails. `written` is called after each frame with the numbers of frames written and
+/// of all.
 std::vector<std::filesystem::path> export_run(const std::filesystem::path& folder, ExportFormat format,
-                                              const std::filesystem::path& out);
+                                              const std::filesystem::path& out,
+                                              const std::function<void(std::size_t, std::size_t)>& written = {});
 
 }  // namespace ogc::compare

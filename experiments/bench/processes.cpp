@@ -7,14 +7,16 @@
 #include "compare/files/bytes.hpp"
 #include "experiments/bench/results.hpp"
 #include "experiments/program/own_process.hpp"
+#include "experiments/program/progress.hpp"
 
 namespace ogc::experiments {
 
 void bench_in_processes(const std::vector<std::string>& arguments, int count, const std::filesystem::path& file) {
   const std::filesystem::path part = file.string() + ".part";
   Json all;
+  Progress progress(0, count, "process");
   for (int k = 0; k < count; ++k) {
-    log_line("process " + std::to_string(k + 1) + " of " + std::to_string(count));
+    progress.show(k, "");
     std::vector<std::string> words = arguments;
     words.insert(words.end(), {"--json", part.string()});
     if (const int status = status_of(start_self(words)); status != 0)
@@ -28,6 +30,7 @@ void bench_in_processes(const std::vector<std::string>& arguments, int count, co
     }
     for (Json& run : one.at("benchmarks")) all.at("benchmarks").push_back(std::move(run));
   }
+  progress.show(count, "");
   compare::write_bytes(file, all.dump(1) + "\n");
 }
 

@@ -204,6 +204,19 @@ def dihedral(x):
     return np.where(flat, 0, theta), np.where(flat[:, None, None], 0, gradient), least
 
 
+def stable_neo_hookean_force(cases):
+    """Returns the stage's force of the stable Neo-Hookean membrane without damping, and J, the ratio of areas."""
+    x, g = doubles(cases["corner"]), cases["gradient"].astype(np.float64)
+    mu, lam, area = (cases[name].astype(np.float64)[:, None] for name in ("lame_mu", "lame_lambda", "area"))
+    f = np.einsum("nki,nkj->nij", np.stack([x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]], axis=1), g)
+    b = -g.sum(axis=1)
+    cross = np.cross(f[:, :, 0], f[:, :, 1])
+    j = np.linalg.norm(cross, axis=1)[:, None]
+    t = b[:, :1] * f[:, :, 1] - b[:, 1:] * f[:, :, 0]
+    slope = np.cross(t, cross / np.maximum(j, 1e-300))
+    return -area * (mu * np.einsum("nij,nj->ni", f, b) + ((lam + mu) * (j - 1) - mu) * slope), j[:, 0]
+
+
 def stable_neo_hookean_block(cases):
     """Returns the stage's block of the stable Neo-Hookean membrane without damping (compare/stages/membrane.hpp)."""
     x, g = doubles(cases["corner"]), cases["gradient"].astype(np.float64)
@@ -244,3 +257,120 @@ def activation(distance, radius, stiffness, kind):
         value = np.where((kind <= 1) & (d < tau), l, np.where(kind == 3, i, np.where(kind == 4, c, q)))
         out.append(np.where(d < r, value, 0))
     return out
+
+
+def nearest_of_edges(a, b):
+    """Returns the parameters (n, 2) of the closest points of edges (n, 2, 3) in double."""
+    e, f, r = a[:, 1] - a[:, 0], b[:, 1] - b[:, 0], b[:, 0] - a[:, 0]
+    ee, ff, ef, er, fr = [(u * v).sum(axis=1) for u, v in ((e, e), (f, f), (e, f), (e, r), (f, r))]
+    cross = (np.cross(e, f) ** 2).sum(axis=1)
+    with np.errstate(all="ignore"):
+        tries = [((er * ff - fr * ef) / cross, (er * ef - fr * ee) / cross)]
+        for k in range(2):
+            end = np.full(len(a), float(k))
+            tries.append((end, np.clip(((a[:, k] - b[:, 0]) * f).sum(axis=1) / ff, 0, 1)))
+            tries.append((np.clip(((b[:, k] - a[:, 0]) * e).sum(axis=1) / ee, 0, 1), end))
+        tries = np.array(tries, np.float64)  # (5, 2, n)
+        outside = ~((tries >= 0) & (tries <= 1)).all(axis=1)
+        s, t = tries[:, 0, :, None], tries[:, 1, :, None]
+        gap = ((a[None, :, 0] + s * e - b[None, :, 0] - t * f) ** 2).sum(axis=2)
+    best = np.argmin(np.where(outside, np.inf, gap), axis=0)
+    return tries[best, :, np.arange(len(a))]
+
+
+def nearest_of_triangle(p, t):
+    """Returns the weights (n, 3) of the points of triangles (n, 3, 3) nearest to points (n, 3), in double."""
+    rows = np.arange(len(p))
+    normal = np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0])
+    with np.errstate(all="ignore"):
+        inner = np.stack([(np.cross(t[:, (k + 2) % 3] - t[:, (k + 1) % 3], p - t[:, (k + 1) % 3]) * normal).sum(axis=1)
+                          / (normal * normal).sum(axis=1) for k in range(3)], axis=1)
+        tries = [inner]
+        for k in range(3):
+            a, e = t[:, k], t[:, (k + 1) % 3] - t[:, k]
+            s = np.nan_to_num(np.clip(((p - a) * e).sum(axis=1) / (e * e).sum(axis=1), 0, 1))
+            w = np.zeros((len(p), 3))
+            w[:, k], w[:, (k + 1) % 3] = 1 - s, s
+            tries.append(w)
+        tries = np.array(tries)
+        gap = ((np.einsum("knj,nji->kni", tries, t) - p) ** 2).sum(axis=2)
+        gap = np.where((tries >= 0).all(axis=2), gap, np.inf)
+    return tries[np.argmin(gap, axis=0), rows]
+
+
+def contact(case):
+    """Returns of contacts the signed weights (n, 4), the normal (n, 3) and distance of their points, e_k, and whether
+    their edges are nearly parallel, in double (compare/stages/contact_force.hpp)."""
+    x, sides, n = doubles(case["vertex"]), case["sides"], len(case)
+    w, parallel, e_k = np.zeros((n, 4)), np.zeros(n, bool), np.ones(n)
+    w[:, 0] = 1
+    w[sides == POINT_POINT, 1] = -1
+    i = np.flatnonzero(sides == POINT_EDGE)
+    e = x[i, 2] - x[i, 1]
+    with np.errstate(all="ignore"):
+        s = np.nan_to_num(np.clip(((x[i, 0] - x[i, 1]) * e).sum(axis=1) / (e * e).sum(axis=1), 0, 1))
+    w[i, 1], w[i, 2] = s - 1, -s
+    i = np.flatnonzero(sides == POINT_TRIANGLE)
+    w[i, 1:] = -nearest_of_triangle(x[i, 0], x[i, 1:])
+    i = np.flatnonzero(sides == EDGE_EDGE)
+    before = doubles(case["previous"])[i]
+    parallel[i], middle, _, _ = nearly_parallel(x[i, :2], x[i, 2:])
+    s, t = np.where(parallel[i, None], middle, nearest_of_edges(x[i, :2], x[i, 2:])).T
+    w[i] = np.stack([1 - s, s, t - 1, -t], axis=1)
+    rest = case["rest_squared"].astype(np.float64)[i]
+    limit = 1e-3 * rest[:, 0] * rest[:, 1]
+    c = (np.cross(before[:, 1] - before[:, 0], before[:, 3] - before[:, 2]) ** 2).sum(axis=1)
+    with np.errstate(all="ignore"):
+        e_k[i] = np.where(c < limit, c / limit * (2 - c / limit), 1)
+        were, _, _, share = nearly_parallel(before[:, :2], before[:, 2:])
+        lengths = np.linalg.norm(before[:, [1, 3]] - before[:, [0, 2]], axis=2)
+        share = share * lengths[:, 0] / lengths.min(axis=1)
+    loose = (rest == 0).all(axis=1) & were
+    e_k[i] = np.where(loose, share, e_k[i])
+    gap = np.einsum("nk,nki->ni", w, x)
+    d = np.linalg.norm(gap, axis=1)
+    return w, np.where(d[:, None] > 0, gap / np.maximum(d, 1e-300)[:, None], 0), d, e_k, parallel
+
+
+def contact_slopes(case, d, e_k):
+    """Returns e_k g' and e_k g'' at the distances, which are clamped to 2⁻²³ r … r; beyond r the slope is 0."""
+    r, k, kind = case["contact_radius"].astype(np.float64), case["stiffness"].astype(np.float64), case["activation"]
+    _, slope, curvature = activation(np.maximum(d, 2.0**-23 * r), r, k, kind)
+    curvature = np.where(d >= r, np.where(kind <= 2, k, 0), curvature)
+    return np.where(d > 0, e_k * slope, 0), np.where(d > 0, e_k * curvature, 0)
+
+
+def own_weights(case, w):
+    """Returns the weight of each case's own vertex, and |w| Σ |w_u| over the vertices updated together with it."""
+    rows, own = np.arange(len(case)), case["own"]
+    bits = case["together"].astype(np.int64) | (1 << own.astype(np.int64))
+    moved = np.where((bits[:, None] >> np.arange(4)) & 1, np.abs(w), 0).sum(axis=1)
+    return w[rows, own], np.abs(w[rows, own]) * moved
+
+
+def contact_force(case):
+    """Returns force and block of the stage, packed."""
+    w, n, d, e_k, _ = contact(case)
+    slope, curvature = contact_slopes(case, d, e_k)
+    own, square = own_weights(case, w)
+    return -(slope * own)[:, None] * n, packed((curvature * square)[:, None, None] * n[:, :, None] * n[:, None, :])
+
+
+def friction_force(case):
+    """Returns force and block of the stage, packed, and the slip (n, 3)."""
+    w, n, d, e_k, _ = contact(case["contact"])
+    slope, _ = contact_slopes(case["contact"], d, e_k)
+    own, square = own_weights(case["contact"], w)
+    moved = np.einsum("nk,nki->ni", w, doubles(case["contact"]["vertex"]) - doubles(case["start"]))
+    slip = moved - (moved * n).sum(axis=1)[:, None] * n
+    y, limit = np.linalg.norm(slip, axis=1), case["slip_limit"].astype(np.float64)
+    with np.errstate(all="ignore"):
+        rate = np.where(y < limit, (2 - y / limit) / limit, 1 / y)
+    size = np.where(slope < 0, -case["friction"] * slope, 0) * rate
+    plane = np.eye(3) - n[:, :, None] * n[:, None, :]
+    return -(size * own)[:, None] * slip, packed((size * square)[:, None, None] * plane), slip
+
+
+def alone(case):
+    """Returns of contacts whether no other vertex is updated together with the case's own one."""
+    return (case["together"] & ~(1 << case["own"].astype(np.uint8)) & 15) == 0

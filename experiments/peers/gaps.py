@@ -3,6 +3,7 @@
     PYTHON gaps.py move FILTER… --out moved.npz     # in an environment that has the filter
     PYTHON gaps.py judge moved.npz … --out FILE     # in one that has ogc_testbed with its audit
     PYTHON gaps.py draw FILE --out picture.png      # in one that has Matplotlib
+    PYTHON gaps.py causes passed.npz --out FILE     # in ipctk's, of the pairs that `judge --passed passed.npz` wrote
 
 Filters: `ipctk` (filter_step), `ipctk_planar` (planar_filter_step), `newton`; `ball` and `planes` are ours
 (ogc_testbed.Guard). Every filter gets the same pairs, whose coordinates are single-precision numbers, and the same
@@ -20,6 +21,7 @@ QUERY_RADIUS = 0.2
 DECADES = range(-12, 0)  # gaps of 10^k to 10^(k+1) m
 SHAPES = ("parallel", "point_triangle", "edge_edge", "crowded")
 PLACES = ("flat", "turned")
+ROUNDING = 1e-14  # [m] above that of a plane's point: a few units of 1.1e-16 of three products of coordinates below 3 m
 FAN = 6  # triangles around a crowded vertex
 
 
@@ -176,14 +178,16 @@ def move(options):
 def judge(options):
     import ogc_testbed as ogc
 
-    rows = []
+    rows, passed = [], {}
     for file in options.inputs:
         moved = np.load(file)
+        passed |= {"pairs": moved["pairs"], "seed": moved["seed"]}
         asked = questions(int(moved["pairs"]), int(moved["seed"]))
         splits = np.cumsum([len(x) for _, x, _, _ in asked])[:-1]
         for name in (n for n in moved.files if n in FILTERS):
             cells = {(s, p, d): [0, 0, 0.0] for s in SHAPES for p in PLACES for d in DECADES}
-            for (key, x, t, dx), end in zip(asked, np.split(moved[name], splits)):
+            verdicts = passed[name] = np.full((len(asked), 2), np.nan)  # gap, and 1 where it passes through
+            for index, ((key, x, t, dx), end) in enumerate(zip(asked, np.split(moved[name], splits))):
                 report = ogc.audit(np.stack([x.astype(np.float64), end]), t, motion=True)
                 if report.counts[0]:
                     continue
@@ -193,15 +197,88 @@ def judge(options):
                     continue  # they touch
                 cell = cells[(*key[:2], decade)]
                 cell[0] += 1
-                cell[1] += bool(report.counts[1]) or bool(np.any(report.meeting_counts))
+                verdicts[index] = gap, bool(report.counts[1]) or bool(np.any(report.meeting_counts))
+                cell[1] += int(verdicts[index, 1])
                 cell[2] += np.linalg.norm(end - x, axis=1).sum() / np.linalg.norm(dx, axis=1).sum()
             rows += [{"filter": name, "shape": s, "place": p, "gap_from_m": f"1e{d}", "pairs": n, "pass_through": f,
                       "kept_share": f"{k / n:.3g}" if n else "", "seed": int(moved["seed"])}
                      for (s, p, d), (n, f, k) in cells.items()]
-    with open(options.out, "w", newline="", encoding="utf-8") if options.out else sys.stdout as file:
+    if options.passed:
+        np.savez(options.passed, **passed)
+    write(rows, options.out)
+
+
+def write(rows, path):
+    with open(path, "w", newline="", encoding="utf-8") if path else sys.stdout as file:
         writer = csv.DictWriter(file, rows[0], lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
+
+
+def planes_of_ipctk(x, triangles, dx):
+    """Yields for each near pair of primitives, by the rule of ipctk's planar filter: whether it is left out (nearer
+    than 1e-10 m), whether the plane's normal, as rounded, separates the two sides exactly, whether a vertex crosses the
+    plane before 1e-10 of its step, and whether one begins beyond the plane where the motions place it."""
+    import ipctk
+    from conversions import exact
+
+    start = np.asfortranarray(x.astype(np.float64))
+    mesh = ipctk.CollisionMesh(start, np.asfortranarray(edges_of(triangles)), np.asfortranarray(triangles))
+    region = ipctk.ogc.TrustRegion(QUERY_RADIUS / 2)
+    region.update(mesh, start, ipctk.NormalCollisions())
+    for k in range(len(region.candidates)):
+        pair = region.candidates[k]
+        ids = [v for v in pair.vertex_ids(mesh.edges, mesh.faces) if v >= 0]
+        at = start[ids]
+        gap, weights = pair.compute_distance_vector_with_coefficients(at.ravel())
+        weights = np.array(weights)[: len(ids)]
+        distance = np.linalg.norm(gap)
+        if distance < 1e-10:
+            yield True, True, False, False
+            continue
+        n = exact(gap / distance)
+        heights = [sum(a * b for a, b in zip(n, exact(p))) for p in at]
+        first = len(ids) // 2 if len(pair.vertex_ids(mesh.edges, mesh.faces)) == 4 and is_edges(pair) else 1
+        apart = min(heights[:first]) > max(heights[first:]) or max(heights[:first]) < min(heights[first:])
+        speed = dx[ids].astype(np.float64) @ (gap / distance)
+        toward = np.maximum(0, -speed[weights > 0]).max(initial=0), np.maximum(0, speed[weights < 0]).max(initial=0)
+        share = toward[1] / sum(toward) if sum(toward) > 0 else 0.5
+        point = -(weights[weights < 0] @ at[weights < 0]) + share * gap
+        with np.errstate(all="ignore"):
+            crossing = -((at - point) @ (gap / distance)) / speed
+        level = sum(a * b for a, b in zip(n, exact(point)))
+        beyond = max(level - min(heights[:first]), max(heights[first:]) - level) > ROUNDING
+        yield False, apart, bool(((crossing > 0) & (crossing < 1e-10)).any()), beyond
+
+
+def is_edges(pair):
+    return type(pair).__name__.startswith("EdgeEdge")
+
+
+def causes(options):
+    """Writes how many pairs have, among their primitives, one that is left out, a plane that does not separate, a
+    crossing that is left out, and a vertex that begins beyond its plane: of those that pass through ipctk's planar
+    filter, and of the others."""
+    passed = np.load(options.inputs[0])
+    asked = questions(int(passed["pairs"]), int(passed["seed"]))
+    cells = {(d, through): [0] * 7 for d in DECADES for through in (True, False)}
+    for (_, x, t, dx), (gap, through) in zip(asked, passed["ipctk_planar"]):
+        if np.isnan(gap):
+            continue
+        decade = min(max(int(np.floor(np.log10(gap))), DECADES[0]), DECADES[-1])
+        if decade > -6 and not through:
+            continue  # none of these passes, so none of them is examined
+        found = np.array(list(planes_of_ipctk(x, t, dx)))
+        left_out, tilted, early, beyond = found[:, 0].any(), (~found[:, 1]).any(), found[:, 2].any(), found[:, 3].any()
+        first_three = left_out or tilted or early
+        cell = cells[decade, bool(through)]
+        for k, counts in enumerate((True, left_out, tilted, early, beyond, not first_three and beyond,
+                                    not first_three and not beyond)):
+            cell[k] += bool(counts)
+    names = ["pairs", "left_out", "plane_does_not_separate", "crossing_left_out", "begins_beyond_plane",
+             "this_alone", "none_of_these"]
+    write([{"filter": "ipctk_planar", "gap_from_m": f"1e{d}", "pass_through": int(through), **dict(zip(names, cell)),
+            "seed": int(passed["seed"])} for (d, through), cell in cells.items() if cell[0]], options.out)
 
 
 def draw(options):
@@ -231,13 +308,14 @@ def draw(options):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("do", choices=["move", "judge", "draw"])
+    parser.add_argument("do", choices=["move", "judge", "draw", "causes"])
     parser.add_argument("inputs", nargs="+", help="filters to move by, files to judge, or a table to draw")
     parser.add_argument("--pairs", type=int, default=300, help="of each shape and decade")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--out")
+    parser.add_argument("--passed", help="judge: gaps and verdicts of all pairs go into this file, for causes")
     options = parser.parse_args()
-    {"move": move, "judge": judge, "draw": draw}[options.do](options)
+    {"move": move, "judge": judge, "draw": draw, "causes": causes}[options.do](options)
 
 
 if __name__ == "__main__":

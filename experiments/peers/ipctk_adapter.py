@@ -156,3 +156,44 @@ def bending(cases):
     force, block = to.hinge(theta, theta_start, own, cases)
     to.log(stage="bending", cases=len(x), asked=len(asked))
     return force.astype(np.float32), block.astype(np.float32)
+
+
+FRICTION = {  # by how many vertices of each side have a weight: the collision, and which vertices it takes in order
+    (1, 1): lambda at, potential: ipctk.VertexVertexTangentialCollision(
+        ipctk.VertexVertexNormalCollision(0, 1), at, potential),
+    (1, 2): lambda at, potential: ipctk.EdgeVertexTangentialCollision(
+        ipctk.EdgeVertexNormalCollision(0, 0), at, potential),
+    (2, 2): lambda at, potential: ipctk.EdgeEdgeTangentialCollision(
+        ipctk.EdgeEdgeNormalCollision(0, 1, 0.0, ipctk.EdgeEdgeDistanceType.EA_EB), at, potential),
+    (1, 3): lambda at, potential: ipctk.FaceVertexTangentialCollision(
+        ipctk.FaceVertexNormalCollision(0, 0), at, potential),
+}
+
+
+@ogc.kernel("friction_force")
+def friction_force(cases):
+    """Forces alone: ipctk's second derivative is exact, the stage's block leaves the change of f₁/‖u‖ out. λ and the
+    faces that meet are ours; the basis, the slip, f₁ and the force are ipctk's."""
+    case = cases["contact"]
+    w, _, d, e_k, parallel = to.contact(case)
+    slope, _ = to.contact_slopes(case, d, e_k)
+    force, block, _ = to.friction_force(cases)
+    asked = np.flatnonzero((d > 0) & (slope < 0) & ~parallel & (cases["slip_limit"] > 0))
+    x, start = to.doubles(case["vertex"]), to.doubles(cases["start"])
+    some_potential = ipctk.BarrierPotential(1.0, 1.0)
+    for i in asked:
+        first, second = np.flatnonzero(w[i] > 0), np.flatnonzero(w[i] < 0)
+        if len(first) > len(second):
+            first, second = second, first
+        order = [*first, *second]
+        if case["own"][i] not in order:
+            continue  # its weight is 0
+        collision = FRICTION[len(first), len(second)](x[i, order].ravel(), some_potential)
+        collision.normal_force_magnitude = -slope[i]
+        collision.mu_s = collision.mu_k = mu = float(cases["friction"][i])
+        collision.mu_s_effective_lagged = collision.mu_k_effective_lagged = mu  # which alone are read
+        potential = ipctk.FrictionPotential(float(cases["slip_limit"][i]))
+        slope_of_all = potential.gradient(collision, (x[i, order] - start[i, order]).ravel()).reshape(-1, 3)
+        force[i] = -slope_of_all[order.index(case["own"][i])]
+    to.log(stage="friction_force", cases=len(cases), asked=len(asked))
+    return force.astype(np.float32), block.astype(np.float32)

@@ -4,7 +4,8 @@ The functions below are private names of newton 1.8.0; another version may lack 
 
 - newton._src.geometry.kernels: triangle_closest_point
 - newton._src.solvers.vbd.particle_vbd_kernels: evaluate_self_contact_force_norm,
-  evaluate_vertex_triangle_collision_force_hessian, evaluate_edge_edge_contact,
+  evaluate_vertex_triangle_collision_force_hessian, evaluate_edge_edge_contact, compute_friction,
+  orthonormal_basis, mat32,
   evaluate_neo_hookean_membrane_force_hessian, evaluate_dihedral_angle_based_bending_force_hessian
 
 Public is warp.closest_point_edge_edge, which the solver calls with the epsilon below. All run inside kernels of Warp,
@@ -17,6 +18,7 @@ that are left are no matter of definition.
 import os
 
 import conversions as to
+import newton_steps as steps
 import numpy as np
 import ogc_testbed as ogc
 
@@ -117,8 +119,54 @@ def edge_edge_kernel(
     block[i] = h
 
 
-for _kernel in (closest_face_kernel, closest_points_kernel, activation_kernel, membrane_kernel, bending_kernel,
-                point_triangle_kernel, edge_edge_kernel):
+@wp.kernel(module="unique")
+def friction_kernel(
+    pos: wp.array2d[wp.vec3], start: wp.array2d[wp.vec3], order: wp.array[int], edges: wp.array[int],
+    radius: wp.array[float], stiffness: wp.array[float], mu: wp.array[float], limit: wp.array[float], eps: float,
+    force: wp.array[wp.vec3], block: wp.array[wp.mat33]
+):
+    """Friction alone, by the steps of both functions of contacts."""
+    i = wp.tid()
+    w = wp.vec4(0.0)
+    diff = wp.vec3(0.0)
+    dx = wp.vec3(0.0)
+    distance = float(0.0)
+    if edges[i] == 1:
+        st = wp.closest_point_edge_edge(pos[i, 0], pos[i, 1], pos[i, 2], pos[i, 3], eps)
+        s = st[0]
+        t = st[1]
+        w = wp.vec4(1.0 - s, s, -1.0 + t, -t)
+        c1 = pos[i, 0] + (pos[i, 1] - pos[i, 0]) * s
+        c2 = pos[i, 2] + (pos[i, 3] - pos[i, 2]) * t
+        c1_start = start[i, 0] + (start[i, 1] - start[i, 0]) * s
+        c2_start = start[i, 2] + (start[i, 3] - start[i, 2]) * t
+        diff = c1 - c2
+        distance = st[2]
+        dx = (c1 - c1_start) - (c2 - c2_start)
+    else:
+        near, bary, kind = triangle_closest_point(pos[i, 1], pos[i, 2], pos[i, 3], pos[i, 0])
+        w = wp.vec4(1.0, -bary[0], -bary[1], -bary[2])
+        diff = pos[i, 0] - near
+        distance = wp.length(diff)
+        near_start = bary[0] * start[i, 1] + bary[1] * start[i, 2] + bary[2] * start[i, 3]
+        dx = (pos[i, 0] - start[i, 0]) - (near - near_start)
+    if distance < radius[i]:
+        slope, curvature = vbd.evaluate_self_contact_force_norm(distance, radius[i], stiffness[i])
+        e0, e1 = vbd.orthonormal_basis(diff / distance)
+        basis = vbd.mat32(e0[0], e1[0], e0[1], e1[1], e0[2], e1[2])
+        f, h = vbd.compute_friction(mu[i], -slope, basis, wp.transpose(basis) * dx, limit[i])
+        force[i] = w[order[i]] * f
+        block[i] = w[order[i]] * w[order[i]] * h
+
+
+# A stage alone may be asked for (OGC_PEERS_STAGE): then the kernels of others are not compiled.
+KERNELS = {
+    "closest_face": [closest_face_kernel], "closest_points": [closest_points_kernel],
+    "activation": [activation_kernel], "membrane": [membrane_kernel], "bending": [bending_kernel],
+    "contact_force": [point_triangle_kernel, edge_edge_kernel], "friction_force": [friction_kernel],
+}
+_stage = os.environ.get("OGC_PEERS_STAGE")
+for _kernel in KERNELS.get(_stage, sum(KERNELS.values(), [])):
     with to.Timed(f"compilation of {_kernel.key}"):
         wp.load_module(_kernel.module, device="cpu")
 
@@ -204,8 +252,11 @@ def stencils(array, chosen):
 
 @ogc.kernel("membrane")
 def membrane(cases):
-    force, block = np.zeros((len(cases), 3), np.float32), np.zeros((len(cases), 6), np.float32)
+    own, ratio = to.stable_neo_hookean_force(cases)
+    force, block = own.astype(np.float32), to.packed(to.stable_neo_hookean_block(cases)).astype(np.float32)
     asked = (cases["model"] == 2) & (cases["damping"] == 0)
+    if OWN:  # below, Newton's J is 1e-10 and its normal shorter than 1
+        asked &= ratio > 1e-10
     if asked.any():
         some = cases[asked]
         pos, index = stencils(cases["corner"], asked)
@@ -243,4 +294,74 @@ def bending(cases):
         f, h = launch(bending_kernel, len(some), arguments, [wp.vec3, wp.mat33])
         force[asked], block[asked] = f, to.packed(h)
     to.log(stage="bending", cases=len(cases), asked=int(asked.sum()))
+    return force, block
+
+
+def askable(case, d, e_k, parallel):
+    """Returns which contacts Newton defines as the stage does: of a point and a triangle or of two edges, with the
+    paper's activation, without a mollifier, and of a vertex that is updated alone."""
+    asked = np.isin(case["sides"], [to.EDGE_EDGE, to.POINT_TRIANGLE]) & (case["activation"] == 0) & to.alone(case)
+    asked &= (e_k == 1) & ~parallel & (d > 0)
+    if OWN:  # beyond r Newton has no block, and below 10 µm or r/4 it continues the logarithm by a parabola
+        r = case["contact_radius"]
+        asked &= (d < r * (1 - 1e-6)) & (d > np.minimum(1e-5, r / 4) * (1 + 1e-6))
+        x = to.doubles(case["vertex"])  # edges with a squared length below the epsilon are points
+        least = ((x[:, [1, 3]] - x[:, [0, 2]]) ** 2).sum(axis=2).min(axis=1)
+        asked &= (case["sides"] != to.EDGE_EDGE) | (least > PARALLEL_EPSILON * (1 + 1e-6))
+    return asked
+
+
+@ogc.kernel("contact_force")
+def contact_force(cases):
+    _, _, d, e_k, parallel = to.contact(cases)
+    asked = askable(cases, d, e_k, parallel)
+    force, block = (a.astype(np.float32) for a in to.contact_force(cases))
+    for sides, kernel in ((to.POINT_TRIANGLE, point_triangle_kernel), (to.EDGE_EDGE, edge_edge_kernel)):
+        chosen = asked & (cases["sides"] == sides)
+        if not chosen.any():
+            continue
+        some = cases[chosen]
+        pos, index = stencils(cases["vertex"], chosen)
+        if sides == to.EDGE_EDGE:  # columns: two opposite vertices, two ends; a row an edge
+            mesh, order = np.full((2 * len(some), 4), -1), some["own"]
+            mesh[:, 2:] = index.reshape(-1, 2)
+        else:
+            mesh, order = index[:, 1:], np.array([3, 0, 1, 2])[some["own"]]  # Newton: three corners, then the vertex
+        arguments = [pos, integers(mesh), integers(order), numbers(some["contact_radius"]), numbers(some["stiffness"])]
+        arguments += [PARALLEL_EPSILON] if sides == to.EDGE_EDGE else []
+        if steps.ASKED:
+            x = to.singles(some["vertex"])
+            f, h = steps.contact_force(x, sides == to.EDGE_EDGE, some["own"], some["contact_radius"], some["stiffness"])
+        else:
+            f, h = launch(kernel, len(some), arguments, [wp.vec3, wp.mat33])
+        force[chosen], block[chosen] = f, to.packed(h)
+    to.log(stage="contact_force", cases=len(cases), asked=int(asked.sum()))
+    return force, block
+
+
+@ogc.kernel("friction_force")
+def friction_force(cases):
+    case = cases["contact"]
+    _, _, d, e_k, parallel = to.contact(case)
+    asked = askable(case, d, e_k, parallel)
+    force, block, slip = to.friction_force(cases)
+    if OWN:  # Newton's friction has no block where nothing slips
+        asked &= np.linalg.norm(slip, axis=1) > 0
+    force, block = force.astype(np.float32), block.astype(np.float32)
+    for sides in (to.POINT_TRIANGLE, to.EDGE_EDGE):
+        chosen = asked & (case["sides"] == sides)
+        if not chosen.any():
+            continue
+        some, part = cases[chosen], case[chosen]
+        if steps.ASKED:
+            x, start = to.singles(part["vertex"]), to.singles(some["start"])
+            f, h = steps.friction_force(x, start, sides == to.EDGE_EDGE, part["own"], part["contact_radius"],
+                                        part["stiffness"], some["friction"], some["slip_limit"])
+        else:
+            arguments = [vectors(part["vertex"]), vectors(some["start"]), integers(part["own"])]
+            arguments += [integers(part["sides"] == to.EDGE_EDGE), numbers(part["contact_radius"])]
+            arguments += [numbers(part["stiffness"]), numbers(some["friction"]), numbers(some["slip_limit"])]
+            f, h = launch(friction_kernel, len(some), [*arguments, PARALLEL_EPSILON], [wp.vec3, wp.mat33])
+        force[chosen], block[chosen] = f, to.packed(h)
+    to.log(stage="friction_force", cases=len(cases), asked=int(asked.sum()))
     return force, block

@@ -27,6 +27,8 @@ PAIRS = ["uniform", "bits", "dust", "lattice", "ladder.parallel", "ladder.thresh
 STABLE = ["neo_hookean", "neo_hookean_bits", "lattice.neo_hookean", "ladder.neo_hookean_rest",
           "ladder.neo_hookean_collapse"]
 
+CONTACTS = "evaluate_vertex_triangle_collision_force_hessian, evaluate_edge_edge_contact"
+
 
 @dataclass
 class Question:
@@ -52,6 +54,7 @@ QUESTIONS = [
     Question("ipctk", "truncate", "ogc.TrustRegion.filter_step"),
     Question("ipctk", "ccd", "TightInclusionCCD", generators=EASY, share=0.005),
     Question("ipctk", "ccd", "AdditiveCCD", generators=MOTIONS, environment={"OGC_PEERS_CCD": "additive"}, share=0.02),
+    Question("ipctk", "friction_force", "FrictionPotential.gradient", "ipctk's: forces alone"),
     Question("newton", "closest_face", "triangle_closest_point"),
     Question("newton", "closest_points", "warp.closest_point_edge_edge", generators=PAIRS),
     Question("newton", "activation", "evaluate_self_contact_force_norm"),
@@ -59,11 +62,18 @@ QUESTIONS = [
              environment={"OGC_PEERS_OWN": "1"}),
     Question("newton", "membrane", "evaluate_neo_hookean_membrane_force_hessian", generators=STABLE, settings="k=0",
              share=0.1),
-    Question("newton", "membrane", "evaluate_neo_hookean_membrane_force_hessian", "Newton's: forces alone",
-             generators=STABLE, settings="k=0", environment={"OGC_PEERS_OWN": "1"}, share=0.1),
+    Question("newton", "membrane", "evaluate_neo_hookean_membrane_force_hessian",
+             "Newton's: forces alone, J above 1e-10", generators=STABLE, settings="k=0",
+             environment={"OGC_PEERS_OWN": "1"}, share=0.1),
     Question("newton", "bending", "evaluate_dihedral_angle_based_bending_force_hessian", generators=HINGES),
     Question("newton", "bending", "evaluate_dihedral_angle_based_bending_force_hessian",
              "Newton's: none below 10⁻⁶ m, m²", generators=HINGES, environment={"OGC_PEERS_OWN": "1"}),
+    Question("newton", "contact_force", CONTACTS),
+    Question("newton", "contact_force", CONTACTS, "Newton's: within r, above the parabola, edges above 3.2 mm",
+             environment={"OGC_PEERS_OWN": "1"}),
+    Question("newton", "friction_force", "compute_friction"),
+    Question("newton", "friction_force", "compute_friction", "Newton's: as of contact_force, and where something slips",
+             environment={"OGC_PEERS_OWN": "1"}),
 ]
 COLUMNS = ["peer", "version", "stage", "function", "definition", "cases", "asked_share", "mismatches", "groups_failing",
            "first_failing", "message", "mistake", "adapter_ns_a_case", "ours_ns_a_case", "prepare_s", "seed"]
@@ -82,7 +92,8 @@ def judged(question, options, folder):
     log = Path(folder) / "log"
     log.unlink(missing_ok=True)
     command = [program(), "compare", *options, "--plugin", HERE / f"{question.peer}_adapter.py", "--time-limit", 3600]
-    environment = {**os.environ, **question.environment, "OGC_PYTHON": sys.executable, "OGC_PEERS_LOG": str(log)}
+    environment = {**os.environ, **question.environment, "OGC_PYTHON": sys.executable, "OGC_PEERS_LOG": str(log),
+                   "OGC_PEERS_STAGE": question.stage}
     command += ["--json", "--report", Path(folder) / "report"]
     done = subprocess.run(list(map(str, command)), env=environment, capture_output=True, text=True, check=False)
     if not done.stdout.strip():

@@ -15,6 +15,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -43,6 +44,17 @@ void end_if_copy() {
 void keep_from_children() {
   fcntl(worker_descriptor, F_SETFD, FD_CLOEXEC);
   pthread_atfork(nullptr, nullptr, [] { close(worker_descriptor); });
+}
+
+/// Makes this process, and all that the plug-in has started, end soon after `ogc` was killed. The end of the socket
+/// would tell, but only between two questions; this also ends a plug-in that never returns. A signal at the parent's
+/// end is no choice: it comes when the thread ends that started this process.
+void end_with_parent() {
+  std::thread([parent = getppid()] {
+    while (getppid() == parent) std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    if (getpgrp() == getpid()) kill(0, SIGKILL);
+    _exit(exit_check_failed);
+  }).detach();
 }
 
 /// Holds the library, its stages, and the kind of memory that it requires.
@@ -247,6 +259,7 @@ int work(const std::string& file) {
   dup2(STDERR_FILENO, STDOUT_FILENO);  // the plug-in's output must not appear in a result
   std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
   keep_from_children();
+  end_with_parent();
   Channel channel(worker_descriptor);
   std::unique_ptr<Library> library;
   try {

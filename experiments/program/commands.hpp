@@ -27,6 +27,7 @@ void add_laws_command(CLI::App& app, CommandContext& context);
 void add_compare_command(CLI::App& app, CommandContext& context);
 void add_bench_command(CLI::App& app, CommandContext& context);
 void add_export_command(CLI::App& app, CommandContext& context);
+void add_view_command(CLI::App& app, CommandContext& context);
 void add_illustrate_command(CLI::App& app, CommandContext& context);
 
 }  // namespace ogc::experiments

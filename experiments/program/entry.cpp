@@ -33,7 +33,7 @@ void add_json_flags(CLI::App& app, CommandContext& context) {
 /// use it to check the commands in documents. The program ends before the callbacks of commands run. It ends inside the
 /// parser, because these callbacks own the variables for the options.
 void run_nothing(CLI::App& app) {
-  log_line("ogc: OGC_PARSE_ONLY is set: the command line is parsed, and nothing is run");
+  log_line(app.get_name() + ": OGC_PARSE_ONLY is set: the command line is parsed, and nothing is run");
   app.parse_complete_callback([] { throw CLI::Success(); });
 }
 
@@ -41,7 +41,8 @@ int usage_error(const CLI::App& app, const CLI::ParseError& error) {
   std::string command;
   for (const CLI::App* used : app.get_subcommands()) command = " " + used->get_name();
   constexpr std::size_t most_shown = 400;  // the message may repeat a word of any length
-  log_line("ogc: " + compare::shown(error.what(), most_shown) + "; see ogc" + command + " --help");
+  log_line(app.get_name() + ": " + compare::shown(error.what(), most_shown) + "; see " + app.get_name() + command +
+           " --help");
   return exit_bad_input;
 }
 
@@ -65,19 +66,19 @@ int parse_and_run(int count, char** words, const Program& program) {
   return context.status;
 }
 
-int failure(const std::string& what, int status) {
-  log_line("ogc: " + what);
+int failure(const std::string& program, const std::string& what, int status) {
+  log_line(program + ": " + what);
   return status;
 }
 
 /// Reports a path that the system refuses.
-int path_failure(const std::filesystem::filesystem_error& error) {
+int path_failure(const std::string& program, const std::filesystem::filesystem_error& error) {
   try {
     compare::refuse_path(error.path1(), "use the path", error.code());
   } catch (const compare::InputError& refused) {
-    return failure(refused.what(), exit_bad_input);
+    return failure(program, refused.what(), exit_bad_input);
   } catch (const compare::ResourceError& refused) {
-    return failure(refused.what(), exit_out_of_resource);
+    return failure(program, refused.what(), exit_out_of_resource);
   }
 }
 
@@ -89,17 +90,17 @@ int run_program(int count, char** words, const Program& program) {
   try {
     return parse_and_run(count, words, program);
   } catch (const compare::InputError& error) {
-    return failure(error.what(), exit_bad_input);
+    return failure(program.name, error.what(), exit_bad_input);
   } catch (const compare::ResourceError& error) {
-    return failure(error.what(), exit_out_of_resource);
+    return failure(program.name, error.what(), exit_out_of_resource);
   } catch (const compare::ContestantFailure& failed) {
-    return failure("the plug-in can't be judged: " + std::string(failed.what()), exit_check_failed);
+    return failure(program.name, "the plug-in can't be judged: " + std::string(failed.what()), exit_check_failed);
   } catch (const std::filesystem::filesystem_error& error) {
-    return path_failure(error);
+    return path_failure(program.name, error);
   } catch (const std::bad_alloc&) {
-    return failure("out of memory; take a smaller scale or mesh", exit_out_of_resource);
+    return failure(program.name, "out of memory; take a smaller scale or mesh", exit_out_of_resource);
   } catch (const std::exception& error) {
-    return failure("internal error, please report it: " + std::string(error.what()), exit_check_failed);
+    return failure(program.name, "internal error, please report it: " + std::string(error.what()), exit_check_failed);
   }
 }
 

@@ -18,6 +18,7 @@ void add_commands(CLI::App& app, CommandContext& context) {
   experiments::add_compare_command(app, context);
   experiments::add_bench_command(app, context);
   experiments::add_export_command(app, context);
+  experiments::add_view_command(app, context);
   experiments::add_illustrate_command(app, context);
   experiments::add_plugin_worker_command(app, context);
 }

@@ -14,6 +14,7 @@
 
 #include "experiments/program/interrupt.hpp"
 #include "experiments/program/output.hpp"
+#include "experiments/program/progress.hpp"
 
 namespace ogc::experiments {
 
@@ -56,10 +57,13 @@ int status_of(pid_t child) {
 void run_side_by_side(const std::vector<OwnCommand>& commands, int jobs) {
   std::map<pid_t, const OwnCommand*> running;
   std::size_t next = 0;
+  std::int64_t done = 0;
+  Progress progress(0, static_cast<std::int64_t>(commands.size()), "run");
   bool were_told = false;
   while (!running.empty() || (next < commands.size() && !interrupted())) {
     while (next < commands.size() && running.size() < static_cast<std::size_t>(jobs) && !interrupted()) {
       const OwnCommand& command = commands[next++];
+      progress.end();
       log_line(command.name);
       running.emplace(start_self(command.words, command.log), &command);
     }
@@ -76,6 +80,7 @@ void run_side_by_side(const std::vector<OwnCommand>& commands, int jobs) {
     }
     if (exit_status(status) == 0) std::filesystem::remove(of->second->log);
     running.erase(of);
+    progress.show(++done, "");
   }
 }
 

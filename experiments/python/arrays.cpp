@@ -273,7 +273,10 @@ nb::object owned(std::vector<std::array<float, 6>>&& rows) { return owned_rows(s
 
 nb::object output_like(nb::handle x, bool is_there, std::size_t count) {
   if (!is_there) return owned(std::vector<compare::Vec3f>(count));
-  return x.attr(nb::hasattr(x, "clone") ? "clone" : "copy")();
+  if (text_of(x.type().attr("__module__")).starts_with("warp")) return nb::module_::import_("warp").attr("clone")(x);
+  for (const char* method : {"clone", "copy"})
+    if (nb::hasattr(x, method)) return x.attr(method)();
+  throw nb::type_error(("out: a " + type_of(x) + " can't be copied here; give an array to write to").c_str());
 }
 
 void translate_errors() {

@@ -92,6 +92,18 @@ nb::object lent(const void* rows, std::size_t count, nb::handle owner) {
   }
 }
 
+/// Returns an array with DLPack of `count` rows that lie in `owner` on a CUDA device. The array keeps `owner` alive.
+/// DLPack's flag for read-only memory is not set, since not all libraries accept it.
+template <class Number, std::size_t Columns>
+nb::object lent_on_device(const void* rows, std::size_t count, nb::handle owner, int device) {
+  auto* numbers = static_cast<Number*>(const_cast<void*>(rows));
+  using Lent = nb::ndarray<nb::array_api, Number, nb::device::cuda>;
+  constexpr nb::dlpack::dtype dtype = nb::dtype<Number>();
+  const Lent lent = Columns == 1 ? Lent(numbers, {count}, owner, {}, dtype, nb::device::cuda::value, device)
+                                 : Lent(numbers, {count, Columns}, owner, {}, dtype, nb::device::cuda::value, device);
+  return nb::cast(lent, nb::rv_policy::reference);
+}
+
 /// Return a NumPy array that owns these rows.
 nb::object owned(std::vector<compare::Vec3f>&& rows);
 nb::object owned(std::vector<std::array<float, 6>>&& rows);

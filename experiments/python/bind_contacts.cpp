@@ -19,7 +19,7 @@ fast::ContactQuery query_of(double radius, double query_radius, double relaxatio
   return {static_cast<float>(radius), static_cast<float>(query_radius), static_cast<float>(relaxation)};
 }
 
-ContactSets find_in(ContactFinder& finder, nb::handle x, const fast::ContactQuery& query) {
+fast::ContactColumns find_in(ContactFinder& finder, nb::handle x, const fast::ContactQuery& query) {
   const bool has_device = finder.backend() == fast::Backend::cuda;
   const Given<compare::Vec3f> positions = given_positions(x, "x", has_device ? Place::either : Place::host);
   const nb::gil_scoped_release release;
@@ -89,56 +89,83 @@ void bind_mesh(nb::module_& module) {
       });
 }
 
+using Sets = fast::ContactColumns;
+
 /// Binds rows of `columns` numbers.
 template <auto field, class Number, std::size_t columns, class Class, class Signature>
 void bind_rows(Class& bound, const char* name, const Signature& signature, const char* doc) {
   bound.def_prop_ro(
       name,
       [](nb::handle self) {
-        const auto& rows = nb::cast<ContactSets&>(self).*field;
-        return lent<Number, columns>(rows.data(), rows.size(), self);
+        const auto& sets = nb::cast<Sets&>(self);
+        const auto& rows = sets.*field;
+        return sets.device == Sets::on_host
+                   ? lent<Number, columns>(rows.data(), rows.size(), self)
+                   : lent_on_device<Number, columns>(rows.data(), rows.size(), self, sets.device);
       },
       signature, doc);
 }
 
 void bind_sets(nb::module_& module) {
-  nb::class_<ContactSets> sets(module, "ContactSets",
-                               "Contact sets, smallest distances and bounds at one state. Arrays are read-only and lie "
-                               "in this object. Distances and bounds are never above the exact ones.");
-  bind_rows<&ContactSets::vertex_facet, compare::Index, 3>(
+  nb::class_<Sets> sets(
+      module, "ContactSets",
+      "Contact sets, smallest distances and bounds at one state, in memory that no later call writes to. Distances and "
+      "bounds are never above the exact ones.\n\n"
+      "Arrays lie where the positions did, and keep this object alive. On the host they are read-only NumPy arrays.\n"
+      "On a device each has __dlpack__ and __dlpack_device__, for torch.from_dlpack, cupy.from_dlpack and others. Its\n"
+      "numbers are complete, so any stream may read them without waiting. Who writes to them changes them for all.");
+  bind_rows<&Sets::vertex_facet, compare::Index, 3>(
       sets, "vertex_facet", nb::sig("def vertex_facet(self) -> " OGC_LENT("int32", "(None, 3)")),
       "int32 (n, 3): vertex v, face a, owner, for each contact of F_OGC(v) (Eq. 12), by vertex, then face. a numbers a "
       "vertex, an edge of mesh.edges or a triangle, as vertex_facet_kind says; owner is the first triangle with a.");
-  bind_rows<&ContactSets::vertex_facet_kind, std::uint8_t, 1>(
+  bind_rows<&Sets::vertex_facet_kind, std::uint8_t, 1>(
       sets, "vertex_facet_kind", nb::sig("def vertex_facet_kind(self) -> " OGC_LENT("uint8", "(None,)")),
       "uint8 (n,): kind of the face: 0 a vertex, 1 an edge, 2 a triangle");
-  bind_rows<&ContactSets::edge_edge, compare::Index, 4>(
+  bind_rows<&Sets::edge_edge, compare::Index, 4>(
       sets, "edge_edge", nb::sig("def edge_edge(self) -> " OGC_LENT("int32", "(None, 4)")),
       "int32 (m, 4): faces p and q, and the edges that contain them, for each contact of E_OGC (Eq. 17). p and q "
       "number "
       "a vertex or an edge, as edge_edge_kind says.");
-  bind_rows<&ContactSets::edge_edge_kind, std::uint8_t, 2>(
+  bind_rows<&Sets::edge_edge_kind, std::uint8_t, 2>(
       sets, "edge_edge_kind", nb::sig("def edge_edge_kind(self) -> " OGC_LENT("uint8", "(None, 2)")),
       "uint8 (m, 2): kinds of p and q: 0 a vertex, 1 an edge");
-  bind_rows<&ContactSets::bound, float, 1>(sets, "bound", nb::sig("def bound(self) -> " OGC_LENT("float32", "(None,)")),
-                                           "float32 (V,): b_v, how far each vertex may move (Eq. 21) [m]");
-  bind_rows<&ContactSets::d_min_vertex, float, 1>(
-      sets, "distance_vertex", nb::sig("def distance_vertex(self) -> " OGC_LENT("float32", "(None,)")),
-      "float32 (V,): smallest distance to a triangle without the vertex, at most "
-      "r_q (Eq. 22) [m]");
-  bind_rows<&ContactSets::d_min_edge, float, 1>(
-      sets, "distance_edge", nb::sig("def distance_edge(self) -> " OGC_LENT("float32", "(None,)")),
-      "float32 (E,): smallest distance to an edge without a common vertex, at most "
-      "r_q (Eq. 24) [m]");
-  bind_rows<&ContactSets::d_min_triangle, float, 1>(
-      sets, "distance_triangle", nb::sig("def distance_triangle(self) -> " OGC_LENT("float32", "(None,)")),
-      "float32 (T,): smallest distance to a vertex that is no corner, at most "
-      "r_q (Eq. 26) [m]");
-  sets.def_ro("smallest_distance", &ContactSets::smallest_distance,
-              "smallest of all distances [m]; r_q if no pair is nearer");
-  sets.def("__repr__", [](const ContactSets& found) {
+  bind_rows<&Sets::bound, float, 1>(sets, "bound", nb::sig("def bound(self) -> " OGC_LENT("float32", "(None,)")),
+                                    "float32 (V,): b_v, how far each vertex may move (Eq. 21) [m]");
+  bind_rows<&Sets::d_min_vertex, float, 1>(sets, "distance_vertex",
+                                           nb::sig("def distance_vertex(self) -> " OGC_LENT("float32", "(None,)")),
+                                           "float32 (V,): smallest distance to a triangle without the vertex, at most "
+                                           "r_q (Eq. 22) [m]");
+  bind_rows<&Sets::d_min_edge, float, 1>(sets, "distance_edge",
+                                         nb::sig("def distance_edge(self) -> " OGC_LENT("float32", "(None,)")),
+                                         "float32 (E,): smallest distance to an edge without a common vertex, at most "
+                                         "r_q (Eq. 24) [m]");
+  bind_rows<&Sets::d_min_triangle, float, 1>(sets, "distance_triangle",
+                                             nb::sig("def distance_triangle(self) -> " OGC_LENT("float32", "(None,)")),
+                                             "float32 (T,): smallest distance to a vertex that is no corner, at most "
+                                             "r_q (Eq. 26) [m]");
+  sets.def_ro("smallest_distance", &Sets::smallest_distance, "smallest of all distances [m]; r_q if no pair is nearer");
+  sets.def_prop_ro(
+      "device",
+      [](const Sets& found) { return found.device == Sets::on_host ? nb::none() : nb::object(nb::int_(found.device)); },
+      nb::sig("def device(self) -> int | None"),
+      "number of the CUDA device with the arrays; None: they are on the host");
+  sets.def(
+      "cpu",
+      [](nb::handle self) -> nb::object {
+        const auto& found = nb::cast<Sets&>(self);
+        if (found.device == Sets::on_host) return nb::borrow(self);
+        std::optional<Sets> copy;
+        {
+          const nb::gil_scoped_release release;
+          copy = found.copied_to_host();
+        }
+        return nb::cast(std::move(*copy));
+      },
+      nb::sig("def cpu(self) -> ContactSets"), "Returns the same on the host: a copy, or this object if it is there.");
+  sets.def("__repr__", [](const Sets& found) {
     return "ContactSets with " + std::to_string(found.vertex_facet.size()) + " vertex-facet and " +
-           std::to_string(found.edge_edge.size()) + " edge-edge contacts";
+           std::to_string(found.edge_edge.size()) + " edge-edge contacts" +
+           (found.device == Sets::on_host ? "" : ", on device " + std::to_string(found.device));
   });
 }
 
@@ -147,13 +174,14 @@ void bind_sets(nb::module_& module) {
 
 constexpr const char* find_doc =
     "Finds the contact sets of a state.\n\n"
-    "x: float32 (V, 3), positions [m], on the host or, for \"cuda\", also on a device: written on the default stream,\n"
-    "or on one that was synchronised; coordinates on a device are not checked. Results are on the host.\n"
-    "radius: r > 0 [m]. query_radius: r_q ≥ r, range of the search [m].\n"
+    "x: float32 (V, 3), positions [m], |x| ≤ 2^30, on the host or, for \"cuda\", also on a device. Results lie\n"
+    "where x does. What its library has enqueued on its current stream is waited for (DLPack's stream); x may be\n"
+    "overwritten on return. Coordinates on a device are not checked.\n"
+    "radius: r ≥ 2^-40 [m]. query_radius: r_q from r to 2^20, range of the search [m].\n"
     "relaxation: γ_p of Eq. 21, in (0, 0.5). The same positions give the same bits. Other Python threads run "
     "meanwhile.\n\n"
     "TypeError: x has another dtype, shape, order or device; the message has the call that converts it.\n"
-    "ValueError: x has not V rows, a coordinate is not finite, or a radius is out of range.";
+    "ValueError: x has not V rows, a coordinate is not finite or too large, or a radius is out of range.";
 
 void bind_finder(nb::module_& module) {
   nb::class_<ContactFinder>(module, "ContactFinder",

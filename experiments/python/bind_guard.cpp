@@ -87,31 +87,34 @@ void bind_report(nb::module_& module) {
 
 void bind_guard(nb::module_& module) {
   bind_report(module);
-  nb::class_<Guard>(module, "Guard",
-                    "Keeps the moves of any solver free of intersections: the solver proposes x + dx, the guard "
-                    "returns how far vertices may go.\n\n"
-                    "x: float32 (V, 3), on the host, free of intersections [m] (ogc_testbed.audit tells).\n"
-                    "query_radius: r_q > 0, range of the search; no vertex moves farther than γ_p r_q between two "
-                    "detections [m].\n"
-                    "bounds: \"planes\" or \"ball\" (method.md §5.6). radius: r of contacts [m]. relaxation: γ_p in "
-                    "(0, 0.5).\n"
-                    "detection_fraction: γ_e in [0, 1]; a step detects once so large a share of vertices was cut.\n\n"
-                    "Every returned state and the straight way to it from the state before are proved free of\n"
-                    "intersections, whatever moves come. A vertex moves only if its proposal does.\n"
-                    "TypeError: another dtype, shape, order or device. ValueError: a number out of range.")
+  nb::class_<Guard>(
+      module, "Guard",
+      "Keeps the moves of any solver free of intersections: the solver proposes x + dx, the guard "
+      "returns how far vertices may go.\n\n"
+      "x: float32 (V, 3), on the host, |x| ≤ 2^30, free of intersections [m] (ogc_testbed.audit tells).\n"
+      "query_radius: r_q from 2^-40 to 2^20, range of the search; no vertex moves farther than γ_p r_q\n"
+      "between two detections [m].\n"
+      "bounds: \"planes\" or \"ball\" (method.md §5.6). radius: r of contacts, 0 or from 2^-40 to r_q [m].\n"
+      "relaxation: γ_p in (0, 0.5).\n"
+      "detection_fraction: γ_e in [0, 1]; a step detects once so large a share of vertices was cut.\n\n"
+      "Every returned state and the straight way to it from the state before are proved free of\n"
+      "intersections, whatever moves come. A vertex moves only if its proposal does.\n"
+      "TypeError: another dtype, shape, order or device. ValueError: a number out of range.")
       .def("__init__", &init_guard, nb::arg("mesh"), nb::arg("x").none(), nb::arg("query_radius"),
            nb::arg("bounds") = "planes", nb::arg("radius") = 0.0, nb::arg("relaxation") = 0.45,
            nb::arg("detection_fraction") = 0.01, nb::arg("backend") = "cpu",
            nb::sig("def __init__(self, mesh: Mesh, x: " OGC_VECTORS ", query_radius: float, bounds: str = 'planes', "
                    "radius: float = 0.0, relaxation: float = 0.45, detection_fraction: float = 0.01, backend: str = "
                    "'cpu') -> None"))
-      .def("step", &step, nb::arg("x").none(), nb::arg("dx").none(), nb::arg("out") = nb::none(),
-           nb::sig("def step(self, x: " OGC_VECTORS ", dx: " OGC_VECTORS ", out: " OGC_VECTORS
-                   " | None = None) -> typing.Any"),
-           "Moves each vertex to x + dx, or as near to it as its region allows, and returns the new state.\n\n"
-           "x, dx: float32 (V, 3), both on the host or, for \"cuda\", both on a device [m]. out: where the result is\n"
-           "written, also x or dx; without it a new array. On the default stream or after a synchronisation.\n\n"
-           "ValueError: a coordinate on the host is not finite; the state is as before.")
+      .def(
+          "step", &step, nb::arg("x").none(), nb::arg("dx").none(), nb::arg("out") = nb::none(),
+          nb::sig("def step(self, x: " OGC_VECTORS ", dx: " OGC_VECTORS ", out: " OGC_VECTORS
+                  " | None = None) -> typing.Any"),
+          "Moves each vertex to x + dx, or as near to it as its region allows, and returns the new state.\n\n"
+          "x, dx: float32 (V, 3), both on the host or, for \"cuda\", both on a device [m]. out: where the result is\n"
+          "written, also x or dx; without it a new array. What the arrays' library has enqueued on its current stream\n"
+          "is waited for (DLPack's stream), and the result is complete on return, so any stream may go on with it.\n\n"
+          "ValueError: a coordinate on the host is not finite; the state is as before.")
       .def(
           "reset",
           [](Guard& guard, nb::handle x) {

@@ -20,32 +20,6 @@ compare::Index after_last(compare::Index count, std::span<const Primitive> primi
   return count;
 }
 
-std::uint8_t kind_of(const compare::Face& face) { return static_cast<std::uint8_t>(face.kind); }
-
-ContactSets in_columns(fast::ContactSets&& sets, float query_radius) {
-  ContactSets columns;
-  columns.vertex_facet.reserve(sets.vertex_facet.size());
-  columns.vertex_facet_kind.reserve(sets.vertex_facet.size());
-  for (const compare::VertexFacetContact& contact : sets.vertex_facet) {
-    columns.vertex_facet.push_back({contact.vertex, contact.face.index, contact.owner});
-    columns.vertex_facet_kind.push_back(kind_of(contact.face));
-  }
-  columns.edge_edge.reserve(sets.edge_edge.size());
-  columns.edge_edge_kind.reserve(sets.edge_edge.size());
-  for (const compare::EdgeEdgeContact& contact : sets.edge_edge) {
-    columns.edge_edge.push_back({contact.first.index, contact.second.index, contact.first_edge, contact.second_edge});
-    columns.edge_edge_kind.push_back({kind_of(contact.first), kind_of(contact.second)});
-  }
-  columns.smallest_distance = query_radius;
-  for (const std::vector<float>* distances : {&sets.d_min_vertex, &sets.d_min_edge})
-    for (const float distance : *distances) columns.smallest_distance = std::min(columns.smallest_distance, distance);
-  columns.d_min_vertex = std::move(sets.d_min_vertex);
-  columns.d_min_edge = std::move(sets.d_min_edge);
-  columns.d_min_triangle = std::move(sets.d_min_triangle);
-  columns.bound = std::move(sets.bound);
-  return columns;
-}
-
 }  // namespace
 
 fast::Backend parse_backend(std::string_view name) {
@@ -54,15 +28,16 @@ fast::Backend parse_backend(std::string_view name) {
   throw compare::InputError("backend: there is no '" + std::string(name) + "'; give \"cpu\" or \"cuda\"");
 }
 
-ContactSets ContactFinder::find(std::span<const compare::Vec3f> positions, const fast::ContactQuery& query) {
+fast::ContactColumns ContactFinder::find(std::span<const compare::Vec3f> positions, const fast::ContactQuery& query) {
   const std::lock_guard lock(busy_);
-  return in_columns(finder_.find(positions, query), query.query_radius);
+  return finder_.find_columns(positions, query).copied_to_host();
 }
 
-ContactSets ContactFinder::find_on_device(std::span<const compare::Vec3f> positions, const fast::ContactQuery& query) {
+fast::ContactColumns ContactFinder::find_on_device(std::span<const compare::Vec3f> positions,
+                                                   const fast::ContactQuery& query) {
   const std::lock_guard lock(busy_);
   expect_vertices("x", positions.size(), finder_.mesh());
-  return in_columns(finder_.find_at_resident(positions.data(), query), query.query_radius);
+  return finder_.find_columns_resident(positions.data(), query);
 }
 
 void expect_vertices(const char* argument, std::size_t count, const fast::Mesh& mesh) {

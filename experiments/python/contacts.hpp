@@ -20,29 +20,21 @@ namespace ogc::python {
 /// Returns the backend that a user names. Throws compare::InputError that lists them.
 fast::Backend parse_backend(std::string_view name);
 
-/// Contact sets whose columns NumPy reads where they lie.
-struct ContactSets {
-  std::vector<std::array<compare::Index, 3>> vertex_facet;             ///< vertex, face, owner
-  std::vector<std::uint8_t> vertex_facet_kind;                         ///< compare::FaceKind of the face
-  std::vector<std::array<compare::Index, 4>> edge_edge;                ///< first and second face, first and second edge
-  std::vector<std::array<std::uint8_t, 2>> edge_edge_kind;             ///< compare::FaceKind of the faces
-  std::vector<float> d_min_vertex, d_min_edge, d_min_triangle, bound;  ///< as in fast::ContactSets
-  /// Smallest distance of all pairs [m]; r_q if no pair is near, or if there is no pair.
-  float smallest_distance = 0;
-};
-
 /// Throws compare::InputError unless an array has one row for each vertex.
 void expect_vertices(const char* argument, std::size_t count, const fast::Mesh& mesh);
 
-/// Calls `work`; messages of compare::InputError about `positions`, `moves` and `time_step` name x, dx and dt instead.
+/// Calls `work`; messages of compare::InputError that begin with a name of C++ begin with Python's name instead.
 template <class Work>
 auto in_terms_of_python(Work work) {
   try {
     return work();
   } catch (const compare::InputError& error) {
     const std::string_view text = error.what();
-    for (const auto& [name, ours] :
-         {std::pair<std::string_view, const char*>{"positions: ", "x: "}, {"moves: ", "dx: "}, {"time_step ", "dt "}})
+    for (const auto& [name, ours] : {std::pair<std::string_view, const char*>{"positions: ", "x: "},
+                                     {"moves: ", "dx: "},
+                                     {"time_step ", "dt "},
+                                     {"contact_radius ", "radius "},
+                                     {"bounds_relaxation ", "relaxation "}})
       if (text.starts_with(name)) throw compare::InputError(ours + std::string(text.substr(name.size())));
     throw;
   }
@@ -53,11 +45,11 @@ class ContactFinder {
  public:
   ContactFinder(const fast::Mesh& mesh, fast::Backend backend) : backend_(backend), finder_(mesh, backend) {}
   fast::Backend backend() const { return backend_; }
-  /// fast::ContactFinder::find
-  ContactSets find(std::span<const compare::Vec3f> positions, const fast::ContactQuery& query);
-  /// The same with positions in the memory of a device. Throws compare::InputError if there are not as many as
-  /// vertices.
-  ContactSets find_on_device(std::span<const compare::Vec3f> positions, const fast::ContactQuery& query);
+  /// fast::ContactFinder::find_columns, with results on the host
+  fast::ContactColumns find(std::span<const compare::Vec3f> positions, const fast::ContactQuery& query);
+  /// The same with positions and results in the memory of a device. Throws compare::InputError if there are not as many
+  /// positions as vertices.
+  fast::ContactColumns find_on_device(std::span<const compare::Vec3f> positions, const fast::ContactQuery& query);
 
  private:
   fast::Backend backend_;

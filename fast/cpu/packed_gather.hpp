@@ -72,12 +72,11 @@ struct TeamLanes {
 template <int W, class P>
 void add_contact_parts(const SweepView& view, int slot, TeamLanes<W, P>& lanes) {
   const ContactRow row = view.contact_rows[slot];
-  const ContactIncidence* contacts = view.contacts + row.begin;
   const auto add = [&](const Items<ContactIncidence, P>& items, ForceAndBlockOf<P>& sum) {
     sum += contact_term<PairKind::any>(view, OgcActivation{}, items);
   };
-  lanes.add_part(contacts, row.vertex_facet, add);
-  lanes.add_part(contacts + row.vertex_facet, row.count - row.vertex_facet, add);
+  lanes.add_part(view.contacts + row.vertex_facet.begin, row.vertex_facet.count, add);
+  lanes.add_part(view.contacts + row.edge_edge.begin, row.edge_edge.count, add);
 }
 
 /// Returns the sum over a vertex's stencils. Adds the sums of a part if `alone` has them; otherwise computes the part

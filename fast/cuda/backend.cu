@@ -18,11 +18,9 @@ CudaBackend::CudaBackend(const LaunchShape& shape)
   if (block_threads_ % 32 != 0 || block_threads_ <= 0 || block_threads_ > cuda_block_size)
     throw compare::InputError("LaunchShape: " + std::to_string(block_threads_) +
                               " threads a block; give a multiple of 32, at most " + std::to_string(cuda_block_size));
-  if (multiprocessors_ <= 0) {
-    int device = 0;
-    OGC_CUDA_CHECK(cudaGetDevice(&device));
-    OGC_CUDA_CHECK(cudaDeviceGetAttribute(&multiprocessors_, cudaDevAttrMultiProcessorCount, device));
-  }
+  OGC_CUDA_CHECK(cudaGetDevice(&device_));
+  if (multiprocessors_ <= 0)
+    OGC_CUDA_CHECK(cudaDeviceGetAttribute(&multiprocessors_, cudaDevAttrMultiProcessorCount, device_));
   OGC_CUDA_CHECK(cudaStreamCreate(&stream_));
   current_ = stream_;
 }
@@ -30,6 +28,7 @@ CudaBackend::CudaBackend(const LaunchShape& shape)
 CudaBackend::CudaBackend(CudaBackend&& other) noexcept
     : stream_(std::exchange(other.stream_, nullptr)),
       current_(std::exchange(other.current_, nullptr)),
+      device_(other.device_),
       block_threads_(other.block_threads_),
       multiprocessors_(other.multiprocessors_),
       scratch_(std::move(other.scratch_)),

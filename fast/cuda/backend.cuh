@@ -77,6 +77,13 @@ concept ReadsAhead = requires(const F& f) {
   f.ahead(0);
 };
 
+/// Requires load(i): it reads data of f(i) that this launch does not write. So a thread reads data of its next item
+/// before it works on an item, and the two reads overlap.
+template <class F>
+concept LoadsNext = requires(const F& f) {
+  f.load(0);
+};
+
 /// Runs f(i) for i < n. A thread reads ahead for its first item while the previous launch may still run.
 template <ReadsAhead F>
 __global__ void __launch_bounds__(cuda_block_size) run_each_ahead(int n, F f) {
@@ -110,7 +117,20 @@ __global__ void __launch_bounds__(cuda_block_size, resident_blocks<G>())
   const int count = min(*n, capacity);
   int i = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
   for (; i < m; i += stride) f(i);
-  for (i -= m; i < count; i += stride) g(i);
+  i -= m;
+  if constexpr (LoadsNext<G>) {
+    decltype(g.load(0)) loaded{};
+    if (i < count) loaded = g.load(i);
+    while (i < count) {
+      const auto own = loaded;
+      const int next = i + stride;
+      if (next < count) loaded = g.load(next);
+      g(i, own);
+      i = next;
+    }
+  } else {
+    for (; i < count; i += stride) g(i);
+  }
 }
 
 /// Runs f(i, lanes) for i < n, with W neighbouring threads for each i.
@@ -209,6 +229,8 @@ class CudaBackend {
   CudaBackend(CudaBackend&& other) noexcept;
   CudaBackend& operator=(CudaBackend&&) = delete;
   ~CudaBackend();
+
+  int device() const { return device_; }
 
   /// Launches one thread per item. If the device cannot hold so many threads, a thread takes several items.
   template <class F>
@@ -431,7 +453,7 @@ class CudaBackend {
 
   cudaStream_t stream_ = nullptr, current_ = nullptr;
   bool recording_ = false, follows_ = false, in_branch_ = false;
-  int block_threads_ = cuda_block_size, multiprocessors_ = 1;
+  int device_ = 0, block_threads_ = cuda_block_size, multiprocessors_ = 1;
   Scratch scratch_, branch_scratch_;
   std::vector<cudaStream_t> branches_;  // of the current recording
   std::vector<cudaEvent_t> crossings_;  // of the current recording: events where branches begin and end

@@ -12,6 +12,10 @@ namespace ogc::fast {
 /// the kernel.
 [[noreturn]] void throw_cuda_error(cudaError_t error, const char* what, const char* file, int line);
 
+/// Throws compare::InputError, which begins with `argument`, unless the device can read memory at this address. Null is
+/// accepted. A kernel that read what the device cannot would end all work of the process on it.
+void require_readable(int device, const char* argument, const void* memory);
+
 /// Returns the readable name of a type. The error of a failed launch contains the name of its functor, which identifies
 /// the stage.
 std::string readable_type(const char* mangled);

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "fast/cuda/backend.cuh"
+#include "fast/cuda/check.cuh"
 #include "fast/cuda/cuda.hpp"
 #include "fast/probes/contact_engine.hpp"
 #include "fast/probes/contact_force_engine.hpp"
@@ -40,10 +41,15 @@ class CudaContactEngine : public ContactEngine {
     return engine_.find(positions, query);
   }
   ContactView find_resident(const compare::Vec3f* positions, const ContactQuery& query) override {
+    require_readable(backend_.device(), "positions", positions);
     return engine_.find_resident(positions, query);
   }
-  ContactSets find_at_resident(const compare::Vec3f* positions, const ContactQuery& query) override {
-    return engine_.find_at_resident(positions, query);
+  ContactColumns find_columns(std::span<const compare::Vec3f> positions, const ContactQuery& query) override {
+    return engine_.find_columns(positions, query);
+  }
+  ContactColumns find_columns_resident(const compare::Vec3f* positions, const ContactQuery& query) override {
+    require_readable(backend_.device(), "positions", positions);
+    return engine_.find_columns_resident(positions, query);
   }
 
  private:
@@ -60,6 +66,18 @@ struct OwnBackend {
 class CudaGuardEngine : OwnBackend, public BackendGuardEngine<CudaBackend> {
  public:
   CudaGuardEngine(const Mesh& mesh, const GuardOptions& options) : BackendGuardEngine(backend, mesh, options) {}
+
+  void reset_resident(const compare::Vec3f* positions) override {
+    require_readable(backend.device(), "positions", positions);
+    BackendGuardEngine::reset_resident(positions);
+  }
+  GuardReport step_resident(const compare::Vec3f* positions, const compare::Vec3f* moves,
+                            compare::Vec3f* out) override {
+    require_readable(backend.device(), "positions", positions);
+    require_readable(backend.device(), "moves", moves);
+    require_readable(backend.device(), "out", out);
+    return BackendGuardEngine::step_resident(positions, moves, out);
+  }
 };
 
 /// An engine for forces of contacts with its own backend.
@@ -68,6 +86,17 @@ class CudaContactForceEngine : OwnBackend, public BackendContactForceEngine<Cuda
   CudaContactForceEngine(const Mesh& mesh, std::span<const compare::Vec3f> rest, const ContactForceOptions& options,
                          std::span<const compare::Index> colours)
       : BackendContactForceEngine(backend, mesh, rest, options, colours) {}
+
+  ContactEnergy evaluate_resident(const FoundContacts& contacts, const compare::Vec3f* positions,
+                                  const SlidingResident& sliding, const ContactForceArrays& out) override {
+    require_readable(backend.device(), "detected_at", contacts.detected_at);
+    require_readable(backend.device(), "positions", positions);
+    require_readable(backend.device(), "start", sliding.start);
+    require_readable(backend.device(), "force", out.force);
+    require_readable(backend.device(), "friction", out.friction);
+    require_readable(backend.device(), "block", out.block);
+    return BackendContactForceEngine::evaluate_resident(contacts, positions, sliding, out);
+  }
 };
 
 }  // namespace

@@ -36,6 +36,17 @@ void throw_cuda_error(cudaError_t error, const char* what, const char* file, int
       text + "; the fault may lie in an earlier kernel: run the same command under compute-sanitizer to find it");
 }
 
+void require_readable(int device, const char* argument, const void* memory) {
+  if (memory == nullptr) return;
+  cudaPointerAttributes attributes{};
+  OGC_CUDA_CHECK(cudaPointerGetAttributes(&attributes, memory));
+  if (attributes.devicePointer == nullptr)
+    throw compare::InputError(std::string(argument) + ": it is not in the memory of a CUDA device");
+  if (attributes.type == cudaMemoryTypeDevice && attributes.device != device)
+    throw compare::InputError(std::string(argument) + ": it is on device " + std::to_string(attributes.device) +
+                              ", but this works on device " + std::to_string(device) + "; copy it there");
+}
+
 std::string readable_type(const char* mangled) {
   int status = 0;
   const std::unique_ptr<char, void (*)(void*)> name(abi::__cxa_demangle(mangled, nullptr, nullptr, &status), std::free);

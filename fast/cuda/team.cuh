@@ -12,7 +12,8 @@
 // from shared memory, in their order. So a team with fifty contacts does not delay the others, and the chain of
 // dependent reads has the block's average length.
 //
-// CompactTeam: SerialLaneTeams whose totals move to the first threads of the block before the solve.
+// CompactTeam: SerialLaneTeams of consecutive items, whose totals move to the first threads of the block before the
+// solve. The rows of a pooled part follow each other there, so that no thread seeks the team of a term.
 //
 // The sum of the team lanes is a butterfly: at distance s every team lane adds the number of its partner l xor s. After
 // that round all team lanes with the same l mod s have the same bits: both partners add the same two numbers, in
@@ -86,22 +87,34 @@ __device__ void add_part(const AnyPart& part, int lane, Accumulator& own) {
   }
 }
 
-/// The shared memory of a block for a pooled part.
-template <int W, class Accumulator>
+/// The terms of a pooled part in shared memory. There are two buffers, used alternately, because threads write the next
+/// terms while others still read.
+template <class Accumulator>
+struct Terms {
+  unsigned memory[2][serial_block_size][words<Accumulator>()];
+};
+
+/// Returns the terms that all parts of a sum share.
+template <class Accumulator>
+__device__ Terms<Accumulator>& terms_of_block() {
+  __shared__ Terms<Accumulator> terms;
+  return terms;
+}
+
+/// The shared memory of a block that finds the team of a term.
+template <int W>
 struct Pool {
   static constexpr int teams = serial_block_size / W;  ///< teams in a block
   using Scan = cub::BlockScan<int, serial_block_size>;
   typename Scan::TempStorage scan;
   /// by team: begin of its items in their array; offset of its items in the block
   int begins[teams], offsets[teams + 1];
-  /// two buffers, used alternately, because threads write the next terms while others still read
-  unsigned memory[2][serial_block_size][words<Accumulator>()];
 };
 
 /// Returns the pool that all parts of a sum share.
-template <int W, class Accumulator>
-__device__ Pool<W, Accumulator>& pool_of_block() {
-  __shared__ Pool<W, Accumulator> pool;
+template <int W>
+__device__ Pool<W>& pool_of_block() {
+  __shared__ Pool<W> pool;
   return pool;
 }
 
@@ -109,13 +122,14 @@ __device__ Pool<W, Accumulator>& pool_of_block() {
 /// that is not `present` has no items.
 template <int W, class Load, class Term, class Accumulator>
 __device__ void add_pooled(const PooledPart<Load, Term>& part, bool present, Accumulator& own) {
-  auto& [scan, begins, offsets, memory] = pool_of_block<W, Accumulator>();
-  constexpr int teams = Pool<W, Accumulator>::teams;
+  auto& [scan, begins, offsets] = pool_of_block<W>();
+  auto& memory = terms_of_block<Accumulator>().memory;
+  constexpr int teams = Pool<W>::teams;
   const int thread = static_cast<int>(threadIdx.x), team = thread / W, lane = thread % W;
   int offset = 0, total = 0;
   // The barrier also waits for threads that still read the previous part's terms.
   if (__syncthreads_or(present && part.count > 0 ? 1 : 0) == 0) return;
-  typename Pool<W, Accumulator>::Scan(scan).ExclusiveSum(lane == 0 && present ? part.count : 0, offset, total);
+  typename Pool<W>::Scan(scan).ExclusiveSum(lane == 0 && present ? part.count : 0, offset, total);
   if (lane == 0) begins[team] = part.begin, offsets[team] = offset;
   if (thread == 0) offsets[teams] = total;
   __syncthreads();
@@ -129,6 +143,28 @@ __device__ void add_pooled(const PooledPart<Load, Term>& part, bool present, Acc
       *reinterpret_cast<Accumulator*>(memory[turn][thread]) = part.term(
           part.load(begins[owner] + item - offsets[owner]));
     }
+    __syncthreads();
+    for (const int here = min(end, base + serial_block_size); next < here; next += W)
+      own += *reinterpret_cast<const Accumulator*>(memory[turn][next - base]);
+  }
+}
+
+/// Adds this team lane's items of a pooled part, as add_pooled does, where the rows of the block's teams follow each
+/// other.
+template <int W, class Load, class Term, class Accumulator>
+__device__ void add_pooled_rows(const PooledPart<Load, Term>& part, bool present, Accumulator& own) {
+  auto& memory = terms_of_block<Accumulator>().memory;
+  __shared__ int rows[2];  // begin of the first row, end of the last one; other parts have other variables
+  const int thread = static_cast<int>(threadIdx.x);
+  if (thread == 0) rows[0] = part.begin;
+  // A team that is not present has the last item, whose row it does not add.
+  if (thread == serial_block_size - 1) rows[1] = part.begin + part.count;
+  __syncthreads();  // also waits for threads that still read the previous part's terms
+  const int last = rows[1], end = present ? part.begin + part.count : 0;
+  int next = part.begin + thread % W;
+  for (int base = rows[0], turn = 0; base < last; base += serial_block_size, turn ^= 1) {
+    const int item = base + thread;
+    if (item < last) *reinterpret_cast<Accumulator*>(memory[turn][thread]) = part.term(part.load(item));
     __syncthreads();
     for (const int here = min(end, base + serial_block_size); next < here; next += W)
       own += *reinterpret_cast<const Accumulator*>(memory[turn][next - base]);
@@ -223,8 +259,9 @@ class SpreadTeam : public NeighbourLanes<W> {
   bool present_;
 };
 
-/// A team whose team lanes compute the parts of a sum one after the other (head of this file).
-template <int W>
+/// A team whose team lanes compute the parts of a sum one after the other (head of this file). `has_rows`: the block's
+/// teams have consecutive items.
+template <int W, bool has_rows = false>
 class SerialLaneTeam : public NeighbourLanes<W> {
   using NeighbourLanes<W>::lane;
 
@@ -274,7 +311,10 @@ class SerialLaneTeam : public NeighbourLanes<W> {
   __device__ void add(const PooledPart<Load, Term>& part, Accumulator& total) const {
     static_assert(!begins, "the first part is not pooled");
     Accumulator own{};
-    detail::add_pooled<W>(part, present_, own);
+    if constexpr (has_rows)
+      detail::add_pooled_rows<W>(part, present_, own);
+    else
+      detail::add_pooled<W>(part, present_, own);
     total += own;
   }
 };
@@ -292,13 +332,13 @@ struct EndThread : OneLane {
 /// then done by neighbouring threads, while most warps of the block have ended. In a SerialLaneTeam each warp does it
 /// with one lane in W.
 template <int W>
-class CompactTeam : public SerialLaneTeam<W> {
-  using SerialLaneTeam<W>::present_;
+class CompactTeam : public SerialLaneTeam<W, true> {
+  using SerialLaneTeam<W, true>::present_;
 
  public:
   static constexpr bool moves_totals = true;
 
-  using SerialLaneTeam<W>::SerialLaneTeam;
+  using SerialLaneTeam<W, true>::SerialLaneTeam;
 
   /// Moves the total of each team to a thread, and replaces `slot` by the slot of the total's item. All threads of the
   /// block call it together.

@@ -51,8 +51,11 @@ OGC_HD inline float squared_gap(const Box& a, const Box& b) {
 }
 
 /// Returns a lower bound of the exact distance between two boxes whose squared_gap is `squared`. The factor 1 − 8 u
-/// covers the rounding errors of the gap (2.5 u), the root (u) and this product (u), u = 2⁻²⁴.
-OGC_HD inline float gap_below(float squared) { return mul(square_root(squared), 1 - 0x1p-21F); }
+/// covers the rounding errors of the gap (2.5 u), the root (u) and this product (u), u = 2⁻²⁴. Products that underflow
+/// err by 2⁻¹⁵⁰ each; from 2⁻¹⁰⁰ on that is far less than u. Below, the bound is 0.
+OGC_HD inline float gap_below(float squared) {
+  return squared > 0x1p-100F ? mul(square_root(squared), 1 - 0x1p-21F) : 0.0F;
+}
 
 /// Returns the limit of squared gaps for a reach: boxes with a larger squared gap have gap_below ≥ reach. With u = 2⁻²⁴
 /// the factor is 1 + 64 u; 20 u for gap_below and 2 u for the two products here would suffice.

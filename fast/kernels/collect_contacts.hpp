@@ -18,21 +18,23 @@ struct CollectContacts {
   /// distance of each noted pair, rounded down [m]; null unless the search also notes pairs beyond r, for their planes
   const float* distances = nullptr;
 
-  OGC_HD void operator()(int i) const {
+  /// A noted pair with its distance; without `distances` the distance is 0.
+  struct Loaded {
+    NotedPair pair;
+    float distance;
+  };
+
+  OGC_HD Loaded load(int i) const { return {lists.noted[i], distances != nullptr ? distances[i] : 0.0f}; }
+  OGC_HD void operator()(int i) const { (*this)(i, load(i)); }
+  OGC_HD void operator()(int, const Loaded& noted) const {
     if (*lists.overflow != 0) return;
-    const RawContact found = contact(i);
+    const RawContact found = contact(noted);
     // one call for both kinds of pairs, so that threads of a warp execute it together
     if (found.bucket >= 0) lists.enter(found, {edge_edge.surface});
   }
 
   /// Returns the contact of the i-th pair; its bucket is −1 if there is none.
-  OGC_HD RawContact contact(int i) const {
-    if (distances != nullptr && !(distances[i] < edge_edge.contact_radius)) return {-1, -1, -1, -1};
-    const NotedPair pair = lists.noted[i];
-    const bool certain = pair.second < 0;
-    const int second = certain ? ~pair.second : pair.second;
-    return pair.first < 0 ? vertex_facet(~pair.first, second, certain) : edge_edge(pair.first, second, certain);
-  }
+  OGC_HD RawContact contact(int i) const { return contact(load(i)); }
 
   /// Returns the vertices of both sides of the i-th pair.
   OGC_HD RoleVertices vertices(int i) const {
@@ -45,6 +47,15 @@ struct CollectContacts {
     }
     const EdgeEnds p = surface.edges[pair.first], q = surface.edges[second];
     return {{p.a, p.b, q.a, q.b}};
+  }
+
+ private:
+  OGC_HD RawContact contact(const Loaded& noted) const {
+    if (!(noted.distance < edge_edge.contact_radius)) return {-1, -1, -1, -1};
+    const NotedPair pair = noted.pair;
+    const bool certain = pair.second < 0;
+    const int second = certain ? ~pair.second : pair.second;
+    return pair.first < 0 ? vertex_facet(~pair.first, second, certain) : edge_edge(pair.first, second, certain);
   }
 };
 

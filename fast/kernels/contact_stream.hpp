@@ -107,41 +107,59 @@ OGC_HD inline std::uint8_t slot_of_role(bool edge_edge, ContactKind kind, int ro
   return static_cast<std::uint8_t>(shifted ? role + 1 : role);
 }
 
-/// Writes each free vertex's row of the contact stream: its begin and its numbers of contacts. Runs once for each slot.
-/// `Item` is a type of incidence; the incidences of a row may be in any order.
-template <class Item>
+/// Writes each free vertex's rows of the contact stream. Runs once for each slot.
 struct CopyContactRows {
-  const int* incidence_offsets;  ///< by vertex, vertices + 1
-  const Item* incidences;        ///< row of vertex v: from incidence_offsets[v]
+  RowNumbers numbers;            ///< of the detection
+  const int* incidence_offsets;  ///< by row, numbers.count() + 1
   const int* overflow;           ///< not 0: nothing is written; null: rows are always written
   const SweepVertex* vertices;   ///< by slot
-  ContactRow* rows;              ///< by slot, written; a row begins where the vertex's row of incidences begins
+  ContactRow* rows;              ///< by slot, written; a row is where the vertex's row of incidences is
 
   OGC_HD void operator()(int slot) const {
     if (overflow != nullptr && *overflow != 0) return;
-    const int v = vertices[slot].vertex, begin = incidence_offsets[v], end = incidence_offsets[v + 1];
-    int vertex_facet = 0;
-    for (int k = begin; k < end; ++k) vertex_facet += incidences[k].code >> 31 == 0 ? 1 : 0;
-    rows[slot] = {begin, vertex_facet, end - begin};
+    const int v = vertices[slot].vertex;
+    rows[slot] = {row(numbers(v, false)), row(numbers(v, true))};
+  }
+
+ private:
+  OGC_HD Row row(int number) const {
+    const int begin = incidence_offsets[number];
+    return {begin, incidence_offsets[number + 1] - begin};
   }
 };
 
 /// Converts one incidence: writes the contact, as its vertex sees it, to the stream. The argument `place` is the index
-/// of both the incidence and the contact. A caller may pass the incidence; otherwise it is read from view.incidences.
+/// of both the incidence and the contact. A caller may pass the incidence and its record; otherwise they are read.
 struct ResolveContact {
   ContactView view;  ///< records of the detection
   ContactTables tables;
   const int* colour;         ///< by vertex; −1: not free
   ContactIncidence* stream;  ///< by index of the incidence in view.incidences, written
 
-  OGC_HD void operator()(int place) const { (*this)(place, view.incidences[place]); }
-  OGC_HD void operator()(int place, Incidence incidence) const {
-    const std::uint32_t code = incidence.code;
-    const bool edge_edge = (code >> 31) != 0;
-    const std::uint32_t number = (code & 0x7fffffffu) >> 2;
-    ContactIncidence contact = edge_edge ? contact_of(tables, view.edge_edge[number])
-                                         : contact_of(tables, view.vertex_facet[number]);
-    contact.own = slot_of_role(edge_edge, contact.kind, static_cast<int>(code & 3u));
+  /// The record of an incidence: of a vertex–facet or an edge–edge contact.
+  union Record {
+    VertexFacetRecord vertex_facet;
+    EdgeEdgeRecord edge_edge;
+  };
+
+  /// Reads the record of an incidence.
+  OGC_HD Record record(Incidence incidence) const {
+    Record record;
+    if (is_edge_edge(incidence))
+      record.edge_edge = view.edge_edge[number(incidence)];
+    else
+      record.vertex_facet = view.vertex_facet[number(incidence)];
+    return record;
+  }
+  OGC_HD void operator()(int place) const {
+    const Incidence incidence = view.incidences[place];
+    (*this)(place, incidence, record(incidence));
+  }
+  OGC_HD void operator()(int place, Incidence incidence, const Record& record) const {
+    const bool edge_edge = is_edge_edge(incidence);
+    ContactIncidence contact = edge_edge ? contact_of(tables, record.edge_edge)
+                                         : contact_of(tables, record.vertex_facet);
+    contact.own = slot_of_role(edge_edge, contact.kind, static_cast<int>(incidence.code & 3u));
     const int own = colour[contact.index[contact.own]];
     for (int k = 0; k < 4; ++k) {
       int& index = contact.index[k];
@@ -151,6 +169,10 @@ struct ResolveContact {
     }
     stream[place] = contact;
   }
+
+ private:
+  OGC_HD static bool is_edge_edge(Incidence incidence) { return incidence.code >> 31 != 0; }
+  OGC_HD static std::uint32_t number(Incidence incidence) { return (incidence.code & 0x7fffffffu) >> 2; }
 };
 
 /// Returns the energy [J] of a contact. Its vertex indices are not encoded, and its stiffness includes e_k.

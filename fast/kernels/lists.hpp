@@ -49,7 +49,7 @@ struct alignas(16) EnteredContact {
 /// An incidence (a contact as one of its vertices sees it) before its row is sorted.
 struct alignas(8) LooseIncidence {
   std::uint32_t code;  ///< as in Incidence
-  int vertex;
+  int row;             ///< number of its row (RowNumbers)
 };
 
 /// Holds the vertices of a contact by role: a vertex and facet corners, or the ends of both edges. −1 marks a missing
@@ -139,9 +139,10 @@ struct ListsView {
   VertexFacetRecord* vertex_facet = nullptr;
   int* vertex_facet_face = nullptr;  ///< the second face of each record
   EdgeEdgeRecord* edge_edge = nullptr;
-  int* incidence_counts = nullptr;   ///< by vertex: number of incidences, without those that did not fit
-  int* incidence_offsets = nullptr;  ///< vertices + 1 entries
-  int* incidence_filled = nullptr;   ///< by vertex: incidences written so far
+  RowNumbers rows;                   ///< numbers of the rows of incidences
+  int* incidence_counts = nullptr;   ///< by row: number of incidences, without those that did not fit
+  int* incidence_offsets = nullptr;  ///< rows.count() + 1 entries
+  int* incidence_filled = nullptr;   ///< by row: incidences written so far
   LooseIncidence* loose = nullptr;   ///< row by row, in any order within a row
   Incidence* incidences = nullptr;   ///< row by row, ascending
 
@@ -176,7 +177,7 @@ struct ListsView {
   OGC_HD void count(int bucket, const RoleVertices& vertices, int amount) const {
     atomic_add(&record_counts[bucket], amount);
     for (const int v : vertices.role) {
-      if (v >= 0) atomic_add(&incidence_counts[v], amount);
+      if (v >= 0) atomic_add(&incidence_counts[rows(v, bucket >= rows.vertex_count)], amount);
     }
   }
 
@@ -204,16 +205,15 @@ struct ListsView {
   }
 };
 
-/// Clears the contacts, but not the noted pairs. Runs once for each i that is an index of a bucket or of a vertex.
+/// Clears the contacts, but not the noted pairs. Runs once for each i that is an index of a bucket or of a row.
 struct ForgetContacts {
   ListsView lists;
-  int vertices;
 
   OGC_HD void operator()(int i) const {
     if (*lists.overflow != 0) return;
     if (i == 0) *lists.contact_count = *lists.without_slot = *lists.edge_edge_count = 0;
     if (i < lists.buckets) lists.record_counts[i] = lists.record_filled[i] = 0;
-    if (i < vertices) lists.incidence_counts[i] = lists.incidence_filled[i] = 0;
+    if (i < lists.rows.count()) lists.incidence_counts[i] = lists.incidence_filled[i] = 0;
   }
 };
 
@@ -226,14 +226,13 @@ struct ForgetNoted {
   }
 };
 
-/// Clears all lists at the start of a detection. Runs once for each i that is an index of a bucket or of a vertex.
+/// Clears all lists at the start of a detection. Runs once for each i that is an index of a bucket or of a row.
 struct PrepareLists {
   ListsView lists;
-  int vertices;
 
   OGC_HD void operator()(int i) const {
     if (i == 0) ForgetNoted{lists}(i);
-    ForgetContacts{lists, vertices}(i);
+    ForgetContacts{lists}(i);
   }
 };
 
@@ -276,14 +275,17 @@ struct FillBuckets {
 /// records or among the edge–edge records.
 OGC_HD inline void add_incidences(const ListsView& lists, const RoleVertices& vertices, bool edge_edge, int number) {
   const std::uint32_t code = (edge_edge ? 0x80000000U : 0U) | static_cast<std::uint32_t>(number) << 2;
-  int place[4] = {0, 0, 0, 0};
+  int place[4] = {0, 0, 0, 0}, row[4] = {0, 0, 0, 0};
   for (int k = 0; k < 4; ++k) {
     const int v = vertices.role[k];
-    if (v >= 0) place[k] = lists.incidence_offsets[v] + atomic_add(&lists.incidence_filled[v], 1);
+    if (v >= 0) row[k] = lists.rows(v, edge_edge);
   }
-  for (int k = 0; k < 4; ++k) {  // a second loop, so that the latencies of the four atomics overlap
-    const int v = vertices.role[k];
-    if (v >= 0) lists.loose[place[k]] = {code | static_cast<std::uint32_t>(k), v};
+  for (int k = 0; k < 4; ++k) {  // separate loops, so that the latencies of the four atomics overlap
+    if (vertices.role[k] >= 0)
+      place[k] = lists.incidence_offsets[row[k]] + atomic_add(&lists.incidence_filled[row[k]], 1);
+  }
+  for (int k = 0; k < 4; ++k) {
+    if (vertices.role[k] >= 0) lists.loose[place[k]] = {code | static_cast<std::uint32_t>(k), row[k]};
   }
 }
 
@@ -360,7 +362,7 @@ struct RankIncidences {
 
   /// Writes an incidence at its place, and returns the place.
   OGC_HD int put(const LooseIncidence& own) const {
-    const int begin = lists.incidence_offsets[own.vertex], end = lists.incidence_offsets[own.vertex + 1];
+    const int begin = lists.incidence_offsets[own.row], end = lists.incidence_offsets[own.row + 1];
     int place = begin;
     for (int k = begin; k < end; ++k) place += lists.loose[k].code < own.code ? 1 : 0;
     lists.incidences[place] = {own.code};

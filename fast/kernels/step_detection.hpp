@@ -25,7 +25,7 @@ struct BeginStepDetection {
 /// stream. Runs once for each slot, and at least once.
 struct EndStepDetection {
   EndDetection end;
-  CopyContactRows<LooseIncidence> rows;
+  CopyContactRows rows;
   int slots;  ///< free vertices
 
   OGC_HD void operator()(int i) const {
@@ -37,13 +37,19 @@ struct EndStepDetection {
 /// Does the second part of a detection's last launch: sorts the incidences, and writes the contact of each incidence
 /// into the stream. Runs once for each incidence.
 struct RankAndResolve {
+  /// 5 blocks limit a thread to 96 registers. Most of the time threads wait for scattered loads, which more warps hide.
+  static constexpr int resident_blocks = 5;
   RankIncidences rank;
   ResolveContact resolve;
 
-  OGC_HD void operator()(int i) const {
+  OGC_HD LooseIncidence load(int i) const { return rank.lists.loose[i]; }
+  OGC_HD void operator()(int i) const { (*this)(i, load(i)); }
+  OGC_HD void operator()(int, const LooseIncidence& own) const {
     if (*rank.lists.overflow != 0) return;
-    const LooseIncidence own = rank.lists.loose[i];
-    resolve(rank.put(own), Incidence{own.code});
+    const Incidence incidence{own.code};
+    // loaded before the row is read, so that latencies overlap
+    const ResolveContact::Record record = resolve.record(incidence);
+    resolve(rank.put(own), incidence, record);
   }
 };
 

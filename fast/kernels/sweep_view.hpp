@@ -94,10 +94,9 @@ struct alignas(16) ContactIncidence {
   std::uint8_t together = 0;                    ///< bit k: vertex k is not `own`, but has the same colour
 };
 
-/// The contacts of a vertex in the stream: first the vertex–facet contacts, then the edge–edge contacts.
+/// The contacts of a vertex in SweepShared::contacts. For each kind, the rows of consecutive slots follow each other.
 struct alignas(16) ContactRow {
-  /// index of the first contact in SweepShared::contacts; number of vertex–facet contacts; number of all contacts
-  int begin = 0, vertex_facet = 0, count = 0;
+  Row vertex_facet, edge_edge;
 };
 
 struct VolumeIncidence;
@@ -131,9 +130,9 @@ OGC_HD inline bool moves_beyond(const Vec& from, const Vec& to, float most) {
 
 /// Holds the data that updates read and write in every scene. The pointers are valid for one sequence of launches.
 struct SweepShared {
-  const SweepVertex* vertices = nullptr;       ///< by slot
-  const ContactRow* contact_rows = nullptr;    ///< by slot
-  const ContactIncidence* contacts = nullptr;  ///< row by row
+  const SweepVertex* vertices = nullptr;     ///< by slot
+  const ContactRow* contact_rows = nullptr;  ///< by slot
+  const ContactIncidence* contacts = nullptr;  ///< all rows of vertex–facet contacts, then those of edge–edge contacts
   const SurfaceMaterial* materials = nullptr;  ///< by body
   const SurfaceModels* models = nullptr;       ///< by body
   PaddedVecs start;                            ///< xᵗ by vertex [m]

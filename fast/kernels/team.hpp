@@ -33,7 +33,8 @@ struct LoadFrom {
 };
 
 /// A part whose terms do not depend on the team's own data. So all threads of a block may compute the terms of all its
-/// teams together. The items are begin + k for 0 ≤ k < count. term(load(item)) returns an Accumulator.
+/// teams together. The items are begin + k for 0 ≤ k < count, and those of the next team's item begin where these end.
+/// term(load(item)) returns an Accumulator.
 template <class Load, class Term>
 struct PooledPart {
   int begin, count;  ///< first item; number of items

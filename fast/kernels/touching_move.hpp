@@ -2,6 +2,7 @@
 // into its partner, and friction slows it. So a sweep begins with nearly the forces with which it ends.
 #pragma once
 
+#include "fast/contact_view.hpp"
 #include "fast/kernels/sweep_view.hpp"
 
 namespace ogc::fast {
@@ -9,7 +10,8 @@ namespace ogc::fast {
 /// Holds the contacts that are known in a round of the guess loop, and the moves that vertices would make without
 /// contacts.
 struct GuessContacts {
-  const int* offsets = nullptr;  ///< by vertex, vertices + 1: its row in `contacts`; null: contacts are ignored
+  RowNumbers rows;               ///< numbers of the rows of `contacts`
+  const int* offsets = nullptr;  ///< by row, rows.count() + 1: where it begins; null: contacts are ignored
   const ContactIncidence* contacts = nullptr;  ///< contact stream of the detection
   const Vec* position = nullptr;               ///< X_prev by vertex [m]
   const Vec* target = nullptr;                 ///< y by vertex [m]
@@ -19,6 +21,18 @@ struct GuessContacts {
   /// Returns the move that this round assumes for another vertex of a contact [m]: y − X_prev plus the change by
   /// contacts in the last round.
   OGC_HD Vec expected(int v) const { return target[v] - position[v] + taken[v]; }
+
+  /// Calls use(contact) for each contact of a vertex, vertex–facet contacts first, until it returns true. Returns
+  /// whether it did.
+  template <class Use>
+  OGC_HD bool any(int v, const Use& use) const {
+    for (int kind = 0; kind < 2; ++kind) {
+      const int row = rows(v, kind == 1);
+      for (int i = offsets[row]; i < offsets[row + 1]; ++i)
+        if (use(contacts[i])) return true;
+    }
+    return false;
+  }
 };
 
 /// Returns the move of a vertex [m] after one contact has shortened it. The contact removes the vertex's approach,
@@ -48,19 +62,20 @@ OGC_HD inline Vec held_by(const GuessContacts& here, const ContactIncidence& con
 
 /// Returns whether a vertex takes part in a contact that exerts a force.
 OGC_HD inline bool touches(const GuessContacts& here, int v) {
-  for (int i = here.offsets[v]; i < here.offsets[v + 1]; ++i) {
-    const ContactIncidence& contact = here.contacts[i];
+  return here.any(v, [&here](const ContactIncidence& contact) {
     Vec x[4];
     for (int k = 0; k < 4; ++k) x[k] = here.position[decoded(contact.index[k])];
-    if (contact_shape(weighted_sum(contact_weights(contact.kind, x), x), here.radius).acts) return true;
-  }
-  return false;
+    return contact_shape(weighted_sum(contact_weights(contact.kind, x), x), here.radius).acts;
+  });
 }
 
 /// Returns the move of a vertex after all its contacts have shortened it, one after the other [m].
 OGC_HD inline Vec held_move(const GuessContacts& here, int v, const Vec& move) {
   Vec held = move;
-  for (int i = here.offsets[v]; i < here.offsets[v + 1]; ++i) held = held_by(here, here.contacts[i], held);
+  here.any(v, [&here, &held](const ContactIncidence& contact) {
+    held = held_by(here, contact, held);
+    return false;
+  });
   return held;
 }
 

@@ -2,9 +2,11 @@
 // have room. The simulation repeats whole steps instead.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "fast/contact_sets.hpp"
+#include "fast/probes/contact_columns.hpp"
 #include "fast/probes/download.hpp"
 
 namespace ogc::fast {
@@ -25,9 +27,15 @@ class BackendContactEngine : public ContactEngine {
     return download_contacts(backend_, detection_, topology_);
   }
 
-  ContactSets find_at_resident(const compare::Vec3f* positions, const ContactQuery& query) override {
+  ContactColumns find_columns(std::span<const compare::Vec3f> positions, const ContactQuery& query) override {
+    positions_.upload(reinterpret_cast<const Vec*>(positions.data()), positions.size());
+    run(positions_.data(), query);
+    return columns();
+  }
+
+  ContactColumns find_columns_resident(const compare::Vec3f* positions, const ContactQuery& query) override {
     run(reinterpret_cast<const Vec*>(positions), query);
-    return download_contacts(backend_, detection_, topology_);
+    return columns();
   }
 
   ContactView find_resident(const compare::Vec3f* positions, const ContactQuery& query) override {
@@ -47,11 +55,17 @@ class BackendContactEngine : public ContactEngine {
     } while (detection_.grow());
   }
 
+  ContactColumns columns() {
+    if (!writer_) writer_.emplace(backend_, topology_);
+    return writer_->columns_of(detection_, query_radius_.data());
+  }
+
   Backend& backend_;
   const compare::Topology& topology_;
   Detection<Backend> detection_;
   typename Backend::template Buffer<Vec> positions_;
   typename Backend::template Buffer<float> query_radius_;
+  std::optional<ColumnWriter<Backend>> writer_;  // made at the first use
 };
 
 }  // namespace ogc::fast

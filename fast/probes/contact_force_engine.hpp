@@ -109,8 +109,8 @@ class BackendContactForceEngine : public ContactForceEngine {
     const AnyActivation activation{options_.contact_activation};
     backend_.for_each(vertices_, PadPositions{positions, start, padded_.data(), padded_start_.data()});
     if (out.force != nullptr || out.friction != nullptr || out.block != nullptr) {
-      backend_.for_each(vertices_, CopyContactRows<Incidence>{view.incidence_offsets, view.incidences, nullptr,
-                                                              slots_.data(), rows_.data()});
+      backend_.for_each(vertices_, CopyContactRows{view.rows, view.incidence_offsets, nullptr, slots_.data(),
+                                                    rows_.data()});
       SweepShared at;
       at.old = padded_.data();
       at.start = {padded_start_.data()};

@@ -10,6 +10,7 @@
 // `positions` and `moves` are read by Propose alone, and `out` is written later, so that `out` may be either of them.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -58,7 +59,9 @@ class BackendGuardEngine : public GuardEngine {
     copy(state_.data(), previous_.data());
     detection_.rebuild(previous_.data());
     do {
-      detection_.detect(previous_.data(), options_.contact_radius, query_radius_.data(), options_.bounds_relaxation);
+      // Limits of searches never fall below the square of the contact radius, so it must not underflow.
+      detection_.detect(previous_.data(), std::max(options_.contact_radius, least_radius), query_radius_.data(),
+                        options_.bounds_relaxation);
       backend_.synchronize();
     } while (detection_.grow());
     cut_ = 0;

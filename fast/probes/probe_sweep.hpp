@@ -21,8 +21,9 @@ namespace ogc::fast {
 template <class Backend>
 class ProbeContacts {
  public:
-  ProbeContacts(Backend& backend, const ContactRecords& records, int vertex_count)
-      : backend_(backend), count_(records.offsets.back()) {
+  /// `places`: RowNumbers::place, on the backend.
+  ProbeContacts(Backend& backend, const ContactRecords& records, const int* places, int vertex_count)
+      : backend_(backend), count_(records.offsets.back()), rows_{places, vertex_count} {
     const auto facets = static_cast<int>(records.vertex_facet.size()),
                edges = static_cast<int>(records.edge_edge.size());
     const int counts[2] = {facets, facets + edges};
@@ -32,7 +33,7 @@ class ProbeContacts {
     vertex_facet_.upload(records.vertex_facet.data(), records.vertex_facet.size());
     edge_edge_.upload(records.edge_edge.data(), records.edge_edge.size());
     offsets_.upload(records.offsets.data(), records.offsets.size());
-    filled_.resize(static_cast<std::size_t>(vertex_count));
+    filled_.resize(static_cast<std::size_t>(rows_.count()));
     filled_.fill_zero();
     loose_.resize(static_cast<std::size_t>(count_)), incidences_.resize(static_cast<std::size_t>(count_));
     fill(facets, edges);
@@ -50,6 +51,7 @@ class ProbeContacts {
     view.vertex_facet = vertex_facet_.data();
     view.edge_edge = edge_edge_.data();
     view.vertex_facet_count = counts_.data();
+    view.rows = rows_;
     view.incidence_offsets = offsets_.data();
     view.incidences = incidences_.data();
     return view;
@@ -65,6 +67,7 @@ class ProbeContacts {
     lists.overflow = overflow_.data();
     lists.vertex_facet = vertex_facet_.data();
     lists.edge_edge = edge_edge_.data();
+    lists.rows = rows_;
     lists.incidence_offsets = offsets_.data();
     lists.incidence_filled = filled_.data();
     lists.loose = loose_.data();
@@ -75,6 +78,7 @@ class ProbeContacts {
 
   Backend& backend_;
   int count_;
+  RowNumbers rows_;
   Buffer<int> counts_, overflow_, offsets_, filled_;  ///< `overflow_`: one flag, which is 0
   Buffer<VertexFacetRecord> vertex_facet_;
   Buffer<EdgeEdgeRecord> edge_edge_;
@@ -153,7 +157,8 @@ compare::SweepOut probe_sweep(Backend& backend, const compare::SweepIn& in) {
   view.contact_radius = settings.contact_radius;
   view.friction_limit = settings.friction_limit;
   sweep.begin(vectors(in.start));
-  const ProbeContacts<Backend> contacts(backend, contact_records(in), static_cast<int>(in.old.size()));
+  const ProbeContacts<Backend> contacts(backend, contact_records(in, row_places_of(colouring)), sweep.row_places(),
+                                        static_cast<int>(in.old.size()));
   sweep.reserve_contacts(contacts.capacity());
   sweep.resolve_contacts(contacts.view(), previous);
   sweep.complete(view);

@@ -20,9 +20,10 @@ std::array<int, 3> corners_of(const compare::Face& face, const compare::Topology
 
 class IncidenceCounts {
  public:
-  explicit IncidenceCounts(std::size_t vertices) : counts_(vertices, 0) {}
-  void add(int vertex) {
-    if (vertex >= 0) ++counts_[static_cast<std::size_t>(vertex)];
+  explicit IncidenceCounts(const std::vector<int>& places)
+      : rows_{places.data(), static_cast<int>(places.size())}, counts_(static_cast<std::size_t>(rows_.count()), 0) {}
+  void add(int vertex, bool edge_edge) {
+    if (vertex >= 0) ++counts_[static_cast<std::size_t>(rows_(vertex, edge_edge))];
   }
   std::vector<int> offsets() const {
     std::vector<int> offsets{0};
@@ -31,24 +32,25 @@ class IncidenceCounts {
   }
 
  private:
+  RowNumbers rows_;
   std::vector<int> counts_;
 };
 
 }  // namespace
 
-ContactRecords contact_records(const compare::SweepIn& in) {
+ContactRecords contact_records(const compare::SweepIn& in, const std::vector<int>& places) {
   ContactRecords records;
-  IncidenceCounts counts(in.old.size());
+  IncidenceCounts counts(places);
   for (const compare::VertexFacetContact& contact : in.vertex_facet) {
     const auto corner = corners_of(contact.face, *in.topology);
     records.vertex_facet.push_back({contact.vertex, {corner[0], corner[1], corner[2]}});
-    counts.add(contact.vertex);
-    for (const int v : corner) counts.add(v);
+    counts.add(contact.vertex, false);
+    for (const int v : corner) counts.add(v, false);
   }
   for (const compare::EdgeEdgeContact& contact : in.edge_edge) {
     const auto p = corners_of(contact.first, *in.topology), q = corners_of(contact.second, *in.topology);
     records.edge_edge.push_back({{p[0], p[1]}, {q[0], q[1]}, contact.first_edge, contact.second_edge});
-    for (std::size_t k = 0; k < 2; ++k) counts.add(p[k]), counts.add(q[k]);
+    for (std::size_t k = 0; k < 2; ++k) counts.add(p[k], true), counts.add(q[k], true);
   }
   records.offsets = counts.offsets();
   return records;

@@ -17,11 +17,11 @@ namespace ogc::fast {
 struct ContactRecords {
   std::vector<VertexFacetRecord> vertex_facet;  ///< by record
   std::vector<EdgeEdgeRecord> edge_edge;        ///< by record
-  std::vector<int> offsets;                     ///< by vertex: where its incidences begin; vertex_count + 1 numbers
+  std::vector<int> offsets;                     ///< by row (RowNumbers): where it begins; one more number follows
 };
 
-/// Returns the contacts of a case.
-ContactRecords contact_records(const compare::SweepIn& in);
+/// Returns the contacts of a case. `places`: RowNumbers::place on the host.
+ContactRecords contact_records(const compare::SweepIn& in, const std::vector<int>& places);
 
 /// Returns, by row, the contacts between vertices of the case and volumes. `rest` has the materials.
 std::vector<std::vector<VolumeIncidence>> volume_rows(const compare::SweepIn& in, const RestState& rest,

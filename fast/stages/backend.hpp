@@ -11,6 +11,7 @@
 //
 //   template <class T> using Shared;     a Buffer that the host fills before a frame, or reads after it
 //   bool has_free_branches               whether `when` and `repeat` cost no more than a launch
+//   int device() const                   number of the CUDA device with the memory; −1: it is the host's
 //
 //   for_each(int n, F f)
 //         calls f(i) for 0 ≤ i < n in any order; no result may depend on the order. If F has `ahead`: f(i, f.ahead(i));
@@ -22,7 +23,8 @@
 //         the same with a count on the device, *n ≤ capacity
 //   for_both(int m, F f, const int* n, int capacity, G g)
 //         for_each(m, f) and for_each_counted(n, capacity, g) in any order, in one launch on a device; neither reads
-//         what the other writes
+//         what the other writes. If G has `load`, a device may call g(i, g.load(i)); `load` must not read what this
+//         launch writes
 //   for_each_team<W>(int n, F f, Start start)
 //         calls f(i, team). f calls team.sum<Accumulator>(parts...) once, with F::parts parts, in the order of
 //         fast/kernels/team.hpp, so only W can change a bit. The thread for which team.leader() holds has the total and

@@ -298,4 +298,13 @@ Colouring colour_segments(const RodsAtRest& rods) {
   return coloured(sorted_rows(std::move(neighbours)), segments);
 }
 
+std::vector<int> row_places_of(const Colouring& colouring) {
+  std::vector<int> places(colouring.colour.size());
+  int next = 0;
+  for (const int v : colouring.order) places[static_cast<std::size_t>(v)] = next++;
+  for (std::size_t v = 0; v < places.size(); ++v)
+    if (colouring.colour[v] < 0) places[v] = next++;
+  return places;
+}
+
 }  // namespace ogc::fast

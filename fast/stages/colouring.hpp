@@ -20,6 +20,9 @@ struct Colouring {
   std::vector<int> begin{0};  ///< colour c is order[begin[c] .. begin[c + 1])
 };
 
+/// Returns, by vertex, its index in `order`; vertices that are not free follow by number.
+std::vector<int> row_places_of(const Colouring& colouring);
+
 /// Returns the conflicts: row v has, ascending, the free vertices that share a membrane or bending stencil, a spring, a
 /// tetrahedron or a segment with v. Rows of vertices that are not free are empty.
 compare::CompressedRows conflict_graph(const RestState& rest);

@@ -62,6 +62,9 @@ class Detection {
     d_min_triangle_.resize(static_cast<std::size_t>(surface.triangle_count));
   }
 
+  /// Forwards to Lists::number_rows.
+  void number_rows(const int* places) { lists_.number_rows(places); }
+
   /// Sorts the trees anew for `positions`. A sort every few steps saves more time than it takes, and it changes no
   /// result. It is enqueued like a detection.
   void rebuild(const Vec* positions) { bvh_.rebuild(backend_, positions); }
@@ -98,6 +101,7 @@ class Detection {
             .edge_edge = lists.edge_edge,
             .vertex_facet_count = lists_.vertex_facet_count(),
             .edge_edge_count = lists_.edge_edge_count(),
+            .rows = lists.rows,
             .incidence_offsets = lists.incidence_offsets,
             .incidences = lists.incidences,
             .bound = bound_.data(),
@@ -118,9 +122,6 @@ class Detection {
   compare::VertexPlanes download_planes() const { return planes_.download(); }
   /// Returns the regions of the last complete detection. `centre`: the positions of that detection, on the backend.
   FeasibleRegions regions(const Vec* centre) const { return planes_.regions(centre, bound_.data()); }
-
-  /// Returns the incidences in the rows of ContactView::incidence_offsets, in any order within a row.
-  const LooseIncidence* loose_incidences() { return lists_.view().loose; }
 
   /// Returns a flag on the backend that is not 0 if a list was too small. Work that needs complete sets reads the flag
   /// first. Only grow() clears it.
@@ -175,7 +176,7 @@ class Detection {
     launches.begin(backend_,
                    BeginDetection{positions,
                                   padded_.data(),
-                                  {lists, surface.vertex_count},
+                                  {lists},
                                   distances,
                                   planes_.prepare(surface, query_radius, lists),
                                   bvh_.refit(positions, query_radius, planes_.search_limits(), contact_radius)});

@@ -25,10 +25,14 @@ class Lists {
     status_.resize(1);
     status_.fill_zero();
     for (Buffer<int>* counts : {&record_counts_, &record_filled_}) counts->resize(buckets);
-    for (Buffer<int>* counts : {&incidence_counts_, &incidence_filled_}) counts->resize(vertices);
-    record_offsets_.resize(buckets + 1), incidence_offsets_.resize(vertices + 1);
+    for (Buffer<int>* counts : {&incidence_counts_, &incidence_filled_}) counts->resize(2 * vertices);
+    record_offsets_.resize(buckets + 1), incidence_offsets_.resize(2 * vertices + 1);
     resize(capacity, least_noted + 4 * capacity);
   }
+
+  /// Sets RowNumbers::place, on the backend; null: rows are in the order of vertices. Call it before the first
+  /// detection.
+  void number_rows(const int* places) { places_ = places; }
 
   /// Returns the lists as kernels see them.
   ListsView view() {
@@ -52,6 +56,7 @@ class Lists {
             .vertex_facet = vertex_facet_.data(),
             .vertex_facet_face = vertex_facet_face_.data(),
             .edge_edge = edge_edge_.data(),
+            .rows = {places_, surface_.vertex_count},
             .incidence_counts = incidence_counts_.data(),
             .incidence_offsets = incidence_offsets_.data(),
             .incidence_filled = incidence_filled_.data(),
@@ -80,11 +85,11 @@ class Lists {
     backend.for_both(bounded, bounds, lists.noted_count, noted_capacity_,
                      collect(positions, contact_radius, distances));
     backend.exclusive_scans({lists.record_counts, lists.record_offsets, buckets_},
-                            {lists.incidence_counts, lists.incidence_offsets, surface_.vertex_count});
+                            {lists.incidence_counts, lists.incidence_offsets, lists.rows.count()});
     backend.for_both(1, CheckCapacity{lists}, lists.contact_count, capacity_,
                      FillBuckets{lists, surface_.vertex_count});
     backend.for_each_counted(lists.contact_count, capacity_, WriteRecords{lists, {surface_}});
-    launches.rank(backend, lists, lists.incidence_offsets + surface_.vertex_count, 4 * capacity_);
+    launches.rank(backend, lists, lists.incidence_offsets + lists.rows.count(), 4 * capacity_);
   }
 
   /// Returns the functor that decides which noted pairs are contacts.
@@ -136,6 +141,7 @@ class Lists {
 
   SurfaceView surface_;
   int buckets_, capacity_, noted_capacity_;
+  const int* places_ = nullptr;
   Buffer<ListStatus> status_;
   Buffer<NotedPair> noted_;
   Buffer<ContactSlot> table_;

@@ -47,6 +47,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
         step_(backend_, state_, detection_, sweep_, volumes_, rods_, clock_,
               step_settings(scene_, moving_, options.energies), static_cast<int>(rest_.mass.size())),
         energies_(options.energies) {
+    detection_.number_rows(sweep_.row_places());
     fill_state();
     reserve();
     const std::vector<compare::Vec3f> positions = compare::to_single(scene_.mesh.positions),

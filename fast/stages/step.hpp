@@ -197,13 +197,13 @@ class Step {
     const ContactView view = detection_.view();
     const int* overflow = detection_.overflow();
     clock_.time(StepStage::detection, [&] {
-      detection_.detect(
-          state_.position.data(), settings_.detection_radius, &control()->query_radius, settings_.bounds_relaxation,
-          StepLaunches{begin_regions(target),
-                       {control(), overflow},
-                       sweep_.contact_rows(view.incidence_offsets, detection_.loose_incidences(), overflow),
-                       sweep_.slots(),
-                       sweep_.resolve_contact(view, state_.previous.data())});
+      detection_.detect(state_.position.data(), settings_.detection_radius, &control()->query_radius,
+                        settings_.bounds_relaxation,
+                        StepLaunches{begin_regions(target),
+                                     {control(), overflow},
+                                     sweep_.contact_rows(view, overflow),
+                                     sweep_.slots(),
+                                     sweep_.resolve_contact(view, state_.previous.data())});
     });
   }
 
@@ -222,7 +222,9 @@ class Step {
   /// Sets x ← y, truncated.
   void guess() {
     StepState<Backend>& s = state_;
-    const GuessContacts contacts{.offsets = detection_.view().incidence_offsets,
+    const ContactView view = detection_.view();
+    const GuessContacts contacts{.rows = view.rows,
+                                 .offsets = view.incidence_offsets,
                                  .contacts = sweep_.contacts(),
                                  .position = s.previous.data(),
                                  .target = s.target.data(),

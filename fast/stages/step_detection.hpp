@@ -13,9 +13,9 @@ namespace ogc::fast {
 struct StepLaunches {
   BeginRegions regions;  ///< the certificate, and X_prev ← x
   EndDetection end;
-  CopyContactRows<LooseIncidence> rows;  ///< makes the rows of the contact stream
-  int slots;                             ///< free vertices
-  ResolveContact resolve;                ///< writes the contacts of the stream
+  CopyContactRows rows;    ///< makes the rows of the contact stream
+  int slots;               ///< free vertices
+  ResolveContact resolve;  ///< writes the contacts of the stream
 
   /// Runs the first launch, which also checks the certificate of the regions that this detection replaces.
   template <class Backend>

@@ -88,13 +88,13 @@ class Sweep {
       : backend_(backend),
         colour_begin_(colouring.begin),
         colours_(colouring.count),
-        vertex_count_(static_cast<int>(rest.mass.size())),
         lanes_(lanes_of(rest, scene)),
         sum_(Sums::first_that_gives(asked_of_sum(rest, scene))),
         activation_(rest.activation),
         streams_(rest, colouring, scene.settings.time_step),
         rods_(rest, colouring, segments, scene.settings) {
     upload(colour_, colouring.colour);
+    upload(row_places_, row_places_of(colouring));
     upload(body_, rest.body);
     upload(materials_, rest.materials);
     upload(models_, rest.models);
@@ -132,11 +132,13 @@ class Sweep {
   const ContactIncidence* contacts() const { return contacts_.data(); }
   /// Returns the free vertices by slot, on the backend.
   const SweepVertex* vertices() const { return streams_.vertices(); }
+  /// Returns RowNumbers::place for detections whose contacts this sweep reads, on the backend: the vertices by slot,
+  /// then the others.
+  const int* row_places() const { return row_places_.data(); }
   /// Returns the functor that makes the rows of the contact stream after a detection. If *overflow is not 0, the
   /// functor keeps the old stream, which is complete.
-  template <class Item>
-  CopyContactRows<Item> contact_rows(const int* incidence_offsets, const Item* incidences, const int* overflow) {
-    return {incidence_offsets, incidences, overflow, vertices(), contact_rows_.data()};
+  CopyContactRows contact_rows(const ContactView& view, const int* overflow) {
+    return {view.rows, view.incidence_offsets, overflow, vertices(), contact_rows_.data()};
   }
   /// Returns the functor that writes each contact at the index of its incidence in the contact stream. `previous`: the
   /// positions of the detection.
@@ -146,9 +148,8 @@ class Sweep {
 
   /// Makes the contact stream from the contacts of `view`.
   void resolve_contacts(const ContactView& view, const Vec* previous) {
-    backend_.for_both(slots(), contact_rows(view.incidence_offsets, view.incidences, nullptr),
-                      view.incidence_offsets + vertex_count_, static_cast<int>(contacts_.size()),
-                      resolve_contact(view, previous));
+    backend_.for_both(slots(), contact_rows(view, nullptr), view.incidence_offsets + view.rows.count(),
+                      static_cast<int>(contacts_.size()), resolve_contact(view, previous));
   }
 
   /// Computes the elements' state at xᵗ (Kind::Start), which damping reads. `start`: xᵗ, on the backend.
@@ -208,14 +209,14 @@ class Sweep {
 
   Backend& backend_;
   std::vector<int> colour_begin_, prescribed_host_;
-  int colours_, vertex_count_, lanes_;
+  int colours_, lanes_;
   int sum_;  ///< number in Sums
   ContactActivation activation_;
   Streams<Backend, Kinds> streams_;
   RodSweep<Backend> rods_;
   Buffer<ContactIncidence> contacts_;
   Buffer<ContactRow> contact_rows_;
-  Buffer<int> colour_, body_, prescribed_;
+  Buffer<int> colour_, body_, prescribed_, row_places_;
   Buffer<SurfaceMaterial> materials_;
   Buffer<SurfaceModels> models_;
   Buffer<ContactMaterial> contact_materials_;

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <tbb/parallel_for.h>
+
 #include "fast/stages/simulation.hpp"
 #include "fast/worlds.hpp"
 #include "fast/worlds/backend.hpp"
@@ -24,14 +26,17 @@ class ResidentWorlds : public Worlds {
   /// `list_capacity`: see ResidentSimulation. Throws what Place::expect_room throws after the first world.
   ResidentWorlds(std::span<const compare::Scene> scenes, const compare::SimulationOptions& options, std::string device,
                  int list_capacity = 0)
-      : device_(std::move(device)), has_failed_(scenes.size()) {
+      : device_(std::move(device)), worlds_(scenes.size()), has_failed_(scenes.size()) {
     auto& pool = pool_of<typename Place::Data>();
     const std::size_t before = pool.taken();
-    for (const compare::Scene& scene : scenes) {
-      worlds_.push_back(
-          std::make_unique<WorldSimulation<Place>>(WorldBackend<Place>{}, scene, options, device_, list_capacity));
-      if (worlds_.size() == 1) Place::expect_room(pool.taken() - before, scenes.size());
-    }
+    const auto start = [&](std::size_t w) {
+      worlds_[w] = std::make_unique<WorldSimulation<Place>>(WorldBackend<Place>{}, scenes[w], options, device_,
+                                                            list_capacity);
+    };
+    if (scenes.empty()) return;
+    start(0);
+    Place::expect_room(pool.taken() - before, scenes.size());
+    tbb::parallel_for(std::size_t{1}, scenes.size(), start);
   }
 
   int count() const override { return static_cast<int>(worlds_.size()); }
@@ -48,13 +53,16 @@ class ResidentWorlds : public Worlds {
       std::vector<WorldBackend<Place>*> backends;
       for (std::size_t w = 0; w < worlds_.size(); ++w) {
         if (left(w) <= 0) continue;
-        worlds_[w]->begin_frame(left(w));
         busy.push_back(w);
         backends.push_back(&worlds_[w]->backend());
       }
       if (busy.empty()) return rows;
+      const auto for_each_busy = [&](const auto& f) {
+        tbb::parallel_for(std::size_t{0}, busy.size(), [&](std::size_t k) { f(busy[k]); });
+      };
+      for_each_busy([&](std::size_t w) { worlds_[w]->begin_frame(left(w)); });
       run_worlds<Place>(backends.data(), backends.size());
-      for (const std::size_t w : busy) has_failed_[w] = worlds_[w]->end_frame(rows[w]) ? 0 : 1;
+      for_each_busy([&](std::size_t w) { has_failed_[w] = worlds_[w]->end_frame(rows[w]) ? 0 : 1; });
     }
   }
 

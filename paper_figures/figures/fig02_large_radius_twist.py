@@ -9,12 +9,19 @@ import numpy as np
 from paper_figures.workflow import commands
 from paper_figures.workflow.common import baseline_arguments, ipc_windows, label
 from paper_figures.workflow.runs import provenance, run_job, write_table
-from plots import render, style
-from ogc_testbed.runs import Run, RunError, commits_in_words
-from plots.scene_figure import bodies_of
+from plots import style
+from plots.camera import around, fitted, subject
+from plots.scene_figure import moment, show, source_of
+from ogc_testbed.runs import Run, RunError
 
 SCENE = commands.TWIST
-CAMERA = ((0.75, 0.85, 1.25), (0, 0, 0), (0, 1, 0))
+SIZE, NEAR, MIDDLE = (960, 560), (960, 480), 0.16  # pixels; what is shown from near, around the middle [m]
+TITLE = "Fig. 2. Half a turn with a contact radius of one edge: {ends}"
+ALIKE = 1.25  # quotient of the roughness by two methods up to which they are called about equally rough
+ALT = ("Renderings of a square cloth after half a turn, by IPC on the left and by OGC on the right, whole and from "
+       "near: a sheet, blue in front and sand behind, wound once about its middle, with folds that run towards the "
+       "ends. Curves over time: out-of-plane roughness, stretch of edges, and kinetic energy. Roughness at the end, in "
+       "edge lengths: {said}.")
 
 
 def edges_of(triangles):
@@ -60,56 +67,104 @@ def history(run, rest):
             np.array([stretch(f.positions.astype(float), rest, triangles) for f in frames]))
 
 
-def draw(runs, out):
-    """Draws the last common state of the first two runs (or of the only run), and curves of all runs."""
-    plt = style.use()
-    figure = plt.figure(figsize=(11, 8))
-    grid = figure.add_gridspec(2, 6, height_ratios=[1.2, 1])
-    usable, reason = render.available()
-    axes = [figure.add_subplot(grid[1, 2 * i:2 * i + 2]) for i in range(3)]
-    both_at = min(int(run.column("step")[-1]) for run in runs[:2])  # the last step that both reached
-    shown_runs = runs[:2]
-    for i, run in enumerate(shown_runs):
-        picture = figure.add_subplot(grid[0, 3 * i:3 * i + 3] if len(shown_runs) > 1 else grid[0, :])
-        picture.axis("off")
-        shown = run.frame_at_step(both_at)
-        picture.set_title(f"{label(run)}, t = {shown.time:.3g} s")
-        if usable:
-            picture.imshow(render.picture(bodies_of(run, shown), CAMERA))
-        else:
-            picture.text(0.5, 0.5, reason, ha="center", wrap=True, transform=picture.transAxes)
-    lines, rows = [], []
+def rows_of(runs):
+    """Returns the table: roughness, stretch and kinetic energy of each run at the last step that both first runs
+    reached, and at its own end."""
+    both_at = min(int(run.column("step")[-1]) for run in runs[:2])
     ogc = next(run for run in runs if run.manifest["solver"] == "vbd")
     rest = ogc.frame(ogc.frames[0]).positions.astype(float)  # a window does not begin at rest
-    for run, dash in zip(runs, style.DASHES):
+    rows = []
+    for run in runs:
         time, rough, stretched = history(run, rest)
-        h = run.setting("time_step")
-        axes[0].plot(time, rough, dash, label=label(run))
-        axes[1].fill_between(time, stretched[:, 0], stretched[:, 2], alpha=0.3)
-        axes[1].plot(time, stretched[:, 1], dash, label=f"{label(run)}: median, 1 % to 99 %")
-        axes[2].plot(run.column("step") * h, run.column("kinetic_energy"), dash, label=label(run))
-        steps = run.column("step")
-        energies = dict(zip(steps.astype(int), run.column("kinetic_energy")))
+        h, energies = run.setting("time_step"), dict(zip(run.column("step").astype(int), run.column("kinetic_energy")))
         for at in sorted({np.searchsorted(time, min(both_at * h, time[-1]) - h / 2), len(time) - 1}):
-            energy = energies.get(round(time[at] / h), np.nan)  # a run has no energy for the state with which it began
-            lines.append(f"{label(run)}: at t = {time[at]:.3g} s roughness {rough[at]:.3g} edges, stretch "
-                         f"{stretched[at][0]:.3g} … {stretched[at][2]:.3g}, "
-                         f"kinetic energy {energy:.3g} J")
             stretches = dict(zip(("stretch 1 % [1]", "stretch median [1]", "stretch 99 % [1]"), stretched[at]))
             rows.append({"time [s]": time[at], "roughness [edges]": rough[at], **stretches,
-                         "kinetic energy [J]": energy, "iterations a step": np.mean(run.column("iterations")),
-                         **provenance(run)})
-        lines.append(f"{label(run)}: {len(steps)} steps, {np.mean(run.column('wall')):.4g} ms and "
-                     f"{np.mean(run.column('iterations')):.3g} iterations a step, "
-                     f"{np.mean(run.column('vertex_facet_contacts') + run.column('edge_edge_contacts')):.4g} pairs")
-    axes[0].set(xlabel="time [s]", ylabel="edge lengths", title="Out-of-plane roughness", ylim=(0, None))
-    axes[1].set(xlabel="time [s]", ylabel="length / rest length", title="Stretch of edges")
-    axes[2].set(xlabel="time [s]", ylabel="energy [J]", title="Kinetic energy", yscale="log")
-    for a in axes:
-        a.legend()
-    figure.suptitle(f"{SCENE} ({runs[0].manifest['scale']}); {commits_in_words(runs)}", fontsize=9)
-    style.save(figure, out)
-    write_table(Path(out).with_suffix(".csv"), rows)
+                         # a run has no energy for the state with which it began
+                         "kinetic energy [J]": energies.get(round(time[at] / h), np.nan),
+                         "iterations a step": np.mean(run.column("iterations")), **provenance(run)})
+    return rows
+
+
+def title_of(ends):
+    """Returns the title, which says whose cloth ends rougher. `ends`: name -> roughness at the end."""
+    if not {"IPC", "VBD-OGC"} <= set(ends):
+        return TITLE.format(ends="OGC's cloth, IPC not run")
+    ratio = ends["IPC"] / ends["VBD-OGC"]
+    if 1 / ALIKE <= ratio <= ALIKE:
+        return TITLE.format(ends="IPC's cloth and OGC's end about equally rough")
+    rougher, smoother = ("IPC's", "OGC's") if ratio > 1 else ("OGC's", "IPC's")
+    return TITLE.format(ends=f"{rougher} cloth ends rougher than {smoother}")
+
+
+def whole(run):
+    """Returns whether the run begins at the scene's start; a window begins with a state of OGC's run."""
+    return run is not None and run.column("step")[0] == 1
+
+
+def draw_pair(axes, runs, edges, reach=None):
+    """Draws the last common state of IPC's run and OGC's, side by side; `reach` [m]: of what is shown."""
+    there = [run for run in runs if whole(run)]
+    last = min((int(run.column("step")[-1]) for run in there), default=0)
+    for place, run, letter, name in zip(axes, runs, "ab", ("IPC", "OGC")):
+        title = f"({letter}) {name}, r = {edges}" + (", from near" if reach else "")
+        if not whole(run):
+            style.not_run(place, "not run from the start" if run else "not run")
+            place.set_title(title)
+            continue
+        frame = run.frame_at_step(last)
+        points = subject(run, frame)
+        size = NEAR if reach else SIZE
+        camera = (around(points, np.median(points, axis=0), reach, run, size=size) if reach
+                  else fitted(run, [frame], size))
+        show(place, run, frame, camera, f"{title}, {moment(frame)}", size)
+
+
+def draw(runs, out, wide=(None, None)):
+    """Draws the last states and close views by IPC and OGC with r of one edge; states with r of ten edges (`wide`); and
+    curves of all runs. Returns a line about each run."""
+    style.use()
+    ipc = next((run for run in runs if run.manifest["solver"] == "ipc"), None)
+    ogc = next(run for run in runs if run.manifest["solver"] == "vbd")
+    rest = ogc.frame(ogc.frames[0]).positions.astype(float)
+    third = [(1 / 3, "plot")] * 3
+    rows = [style.pictures(2, SIZE), style.pictures(2, NEAR)]
+    if any(wide):
+        rows.append(style.pictures(2, SIZE))
+    curves, lines = [(f"{label(run).split(',')[0]}", run) for run in (ipc, ogc) if run], []
+    curves += [(f"{label(run).split(',')[0]}, ten edges", run) for run in wide if run]
+    found = {name: history(run, rest) for name, run in curves}
+    ends = {name: rough[-1] for name, (_, rough, _) in found.items()}
+    scale = ogc.manifest["scale"]
+    side = round(len(rest) ** 0.5)
+    below = (f"{side} × {side} vertices{'' if scale == 'paper' else f' (scale {scale}; the paper has 200 × 200)'}; "
+             "roughness at the end [edge lengths]: " + ", ".join(f"{name} {rough:.2g}" for name, rough in ends.items())
+             + ("; IPC's curve: windows of 20 steps from OGC's states" if ipc and not whole(ipc) else ""))
+    title = title_of(ends if whole(ipc) else {})
+    figure, axes = style.page([*rows, (2.4, third)], title, below)
+    draw_pair(axes[0], (ipc, ogc), "one edge")
+    draw_pair(axes[1], (ipc, ogc), "one edge", MIDDLE)
+    if any(wide):
+        draw_pair(axes[2], wide, "ten edges")
+    rough_axes, stretch_axes, energy_axes = axes[-1]
+    for (name, run), colour in zip(curves, (style.BASELINE, style.OURS, style.COLOURS[1], style.COLOURS[4])):
+        time, rough, stretched = found[name]
+        rough_axes.plot(time, rough, color=colour, label=name.replace(", ", ",\n"))
+        stretch_axes.fill_between(time, stretched[:, 0], stretched[:, 2], alpha=0.25, color=colour)
+        stretch_axes.plot(time, stretched[:, 1], color=colour, label=name.replace(", ", ",\n"))
+        steps, h = run.column("step"), run.setting("time_step")
+        energy_axes.plot(steps * h, run.column("kinetic_energy"), color=colour, linewidth=0.8,
+                         label=name.replace(", ", ",\n"))
+        lines.append(f"{name}: {len(steps)} steps, {np.mean(run.column('wall')):.4g} ms and "
+                     f"{np.mean(run.column('iterations')):.3g} iterations a step, roughness {rough[-1]:.3g} edges at t "
+                     f"= {time[-1]:.3g} s")
+    rough_axes.set(xlabel="time [s]", ylabel="edge lengths", title="Out-of-plane roughness", ylim=(0, None))
+    stretch_axes.set(xlabel="time [s]", ylabel="length / rest length", title="Stretch of edges, median, 1 % to 99 %")
+    energy_axes.set(xlabel="time [s]", ylabel="energy [J]", title="Kinetic energy", yscale="log")
+    for place in axes[-1]:
+        style.label_ends(place)
+    said = ", ".join(f"{name} {rough:.2g}" for name, rough in ends.items())
+    style.save(figure, out, title, ALT.format(said=said), source_of([run for _, run in curves]))
     return lines
 
 
@@ -117,24 +172,30 @@ def runs_of(arguments):
     """Returns IPC's run and OGC's. At the paper's size IPC's whole run would take days; IPC then has windows of 20
     steps from states of OGC's run."""
     folder = Path(arguments.folder)
+    if arguments.made:
+        windows = sorted((Run(path.parent) for path in folder.glob("ipc*/run.json") if "wide" not in path.parent.name),
+                         key=lambda run: run.column("step")[0])
+        return [*windows[-1:], Run(folder / "vbd"), *windows[:-1]]
     ours, baseline = commands.beside_ipc(SCENE, arguments.scale, arguments.backend, arguments.membrane)
     ogc = run_job(arguments.ogc, ours, folder)
-    if arguments.without_ipc:
-        found = sorted((Run(path.parent) for path in folder.glob("ipc*/run.json")),
-                       key=lambda run: run.column("step")[0])
-        return [*found[-1:], ogc, *found[:-1]]
     if arguments.scale != "paper":
         return [run_job(arguments.ogc, baseline, folder), ogc]
     *earlier, last = ipc_windows(arguments, SCENE, ogc, commands.TWIST_WINDOWS)
     return [last, ogc, *earlier]
 
 
+def wide_runs(folder):
+    """Returns the runs of IPC and OGC with r of ten edges, if they lie in the folder."""
+    return [Run(folder / name) if (folder / name / "run.json").is_file() else None for name in ("ipc_wide", "vbd_wide")]
+
+
 if __name__ == "__main__":
     parser = baseline_arguments(__doc__.splitlines()[0], backends=("cpu", "cuda"))
-    parser.add_argument("--without-ipc", action="store_true",
-                        help="OGC's run, and those of IPC that are there: makes none")
+    parser.add_argument("--made", action="store_true", help="draw the runs that are there, and make none")
     options = parser.parse_args()
     try:
-        print("\n".join(draw(runs_of(options), Path(options.folder) / "fig02.png")))
+        found_runs, into = runs_of(options), Path(options.folder)
+        write_table(into / "fig02.csv", rows_of(found_runs))
+        print("\n".join(draw(found_runs, into / "fig02.png", wide_runs(into))))
     except RunError as error:
         sys.exit(f"fig02: {error}")

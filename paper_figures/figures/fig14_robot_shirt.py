@@ -1,9 +1,11 @@
-"""Fig. 14: two grippers lift a T-shirt by its shoulders, shake it and fold it. Draws time, contacts, the grippers' lag
-and four frames."""
+"""Fig. 14: two grippers lift a T-shirt by its shoulders, shake it and fold it. Draws four moments, time, the grippers'
+lag or the contacts, and distances."""
 
 from paper_figures.workflow.common import main
 
-CAMERA = ((0.92, 0.72, 1.15), (0, 0.14, -0.28), (0, 1, 0))
+TITLE = "Fig. 14. Two grippers lift, shake and fold a T-shirt"
+ALT = ("Four renderings of a blue T-shirt on a table. Two grey grippers pinch its shoulders, lift it until it hangs, "
+       "and lay it down folded on itself.")
 
 if __name__ == "__main__":
-    main("robot_shirt", frames=(0, 1200, 2220, 3600), camera=CAMERA, driven=True)
+    main("robot_shirt", (0, 1200, 2220, 3600), TITLE, ALT, driven=True)

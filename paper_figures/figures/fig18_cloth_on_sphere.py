@@ -1,9 +1,10 @@
-"""Fig. 18 without IPC and Newton: VBD-OGC on one layer of cloth on a sphere. Draws time and detections in each step,
-and frames 0, 25, 50 and 75."""
+"""Fig. 18 without IPC and Newton: VBD-OGC on one layer of cloth on a sphere. Draws the states at steps 0, 25, 50 and
+75, time, detections and distances."""
 
 from paper_figures.workflow.common import main
 
-CAMERA = ((1.34, 0.8, 1.62), (-0.05, -0.06, 0.0), (0, 1, 0))
+TITLE = "Fig. 18, VBD-OGC alone. A cloth falls onto a sphere"
+ALT = ("Four renderings of a square cloth that falls onto a sphere, wraps it and hangs down on all sides in folds.")
 
 if __name__ == "__main__":
-    main("cloth_on_sphere", frames=(0, 25, 50, 75), camera=CAMERA)
+    main("cloth_on_sphere", (0, 25, 50, 75), TITLE, ALT)

@@ -12,15 +12,19 @@ import numpy as np
 from paper_figures.workflow import commands
 from paper_figures.workflow.common import baseline_arguments
 from paper_figures.workflow.common import label as solver_of
-from paper_figures.figures.fig18_cloth_on_sphere import CAMERA
 from paper_figures.workflow.evidence import CLAIMS
 from paper_figures.workflow.jobs import PROCESSOR_TIME
 from paper_figures.workflow.runs import provenance, run_job, write_table
 from plots import style
-from ogc_testbed.runs import Run, RunError, commits_in_words
-from plots.scene_figure import draw_frames
+from ogc_testbed.runs import Run, RunError
+from plots.camera import fitted
+from plots.scene_figure import show, source_of
 
 SCENE = "cloth_on_sphere"
+TITLE = "Fig. 18. On the same cores a step of IPC takes far longer than one of VBD-OGC, and more detections"
+ALT = ("Four renderings of IPC's states: a square cloth falls on a sphere, wraps it and hangs down in folds. Below, "
+       "curves of time a step, linear and logarithmic, and of detections a step for each solver, and a table of means: "
+       "{lines}.")
 
 
 def label(run):
@@ -120,34 +124,87 @@ def rows(runs):
     return result
 
 
-def draw(runs, out):
+def cells(runs):
+    """Returns the table's head and rows, of texts: time a step, longest step, iterations and detections a step, and
+    IPC's time over the run's, each with the paper's number in brackets where it prints one."""
+    baseline = next((run for run in runs if run.manifest["solver"] == "ipc"), None)
+    scene = {claim["id"]: claim["value"] for claim in
+             json.loads((CLAIMS / f"{SCENE}.json").read_text())["claims"]}
+    whole = runs[0].manifest.get("scale") == "paper"
+    body = []
+    for run in runs:
+        solver, backend = run.manifest["solver"], run.manifest["backend"]
+        beside = [scene.get(f"{SCENE}.{backend}_{kind}") if solver == "vbd" and whole else None
+                  for kind in ("average", "maximum")]
+        printed = lambda value: f" ({value:g})" if value else ""  # noqa: E731
+        steps = min(len(run.column("step")), len(baseline.column("step"))) if baseline else 0
+        ratio = (f"{np.sum(baseline.column('wall')[:steps]) / np.sum(run.column('wall')[:steps]):.3g}"
+                 if baseline and run is not baseline else "–")
+        wall = run.column("wall")
+        number = lambda ms: f"{ms:,.0f}" if ms >= 100 else f"{ms:.3g}"  # noqa: E731
+        body.append([solver_of(run).replace(", CUDA", ", GPU"), number(np.mean(wall)) + printed(beside[0]),
+                     number(wall.max()) + printed(beside[1]), f"{np.mean(run.column('iterations')):.3g}",
+                     f"{np.mean(detections(run)):.3g}", ratio + printed(claimed(run))])
+    return ["", "mean [ms]", "longest [ms]", "iterations", "detections", "IPC's time over it"], body
+
+
+def draw_table(axes, runs):
+    """Draws `cells` as a table; a column is as wide as its longest text."""
+    axes.axis("off")
+    head, body = cells(runs)
+    style.table(axes, head, body)
+    axes.set_title("a step on average; in brackets the paper's number")
+
+
+def states_of(folder):
+    """Returns the run whose states are shown. Throws RunError if it is no run of the scene."""
+    run = Run(folder)
+    if run.manifest["scene"]["name"] != SCENE:
+        raise RunError(f"{folder} is a run of '{run.manifest['scene']['name']}', not of '{SCENE}'")
+    return run
+
+
+def draw(runs, out, states=None):
+    """Draws states, times, detections and the table. `states`: the run of IPC whose states are shown, if not the first
+    of `runs`; without frames its panels say so."""
     for run in runs:
         if run.status != "interrupted":
             run.require_finished()
-    plt = style.use()
-    figure = plt.figure(figsize=(11, 9))
-    grid = figure.add_gridspec(3, 4, height_ratios=[0.9, 1, 1])
-    draw_frames(figure, [grid[0, i] for i in range(4)], runs[0],
-                [round(f * runs[0].setting("steps")) for f in (0, 0.25, 0.5, 0.75)], CAMERA)
-    linear, logarithmic, counts = map(figure.add_subplot, (grid[1, :2], grid[1, 2:], grid[2, :2]))
+    style.use()
+    states = states or runs[0]
+    size = (640, 480)
+    below = f"{states.manifest['scale']} scale; " if states.manifest["scale"] != "paper" else "4,900 vertices; "
+    below += "; ".join(f"{solver_of(run)}: {run.manifest['device']}" for run in runs)
+    figure, axes = style.page([style.pictures(4, size), (2.4, [(0.5, "plot")] * 2),
+                               (2.5, [(0.5, "plot"), (0.5, "picture")])], TITLE, below)
+    steps = [round(share * runs[0].setting("steps")) for share in (0, 0.25, 0.5, 0.75)]
+    if states.frames:
+        frames = [states.frame_at_step(step) for step in steps]
+        camera = fitted(states, frames[1:], size)
+        for place, frame in zip(axes[0], frames):
+            own = camera if frame is not frames[0] else fitted(states, [frame], size)
+            show(place, states, frame, own, f"{solver_of(states)}, step {frame.step}", size)
+    else:
+        for place, step in zip(axes[0], steps):
+            style.not_run(place, "the run's states were not kept")
+            place.set_title(f"{solver_of(states)}, step {step}")
+    (linear, logarithmic), (counts, table) = axes[1], axes[2]
     by_processor = all(run.manifest["backend"] == "cpu" and np.isfinite(processor_ms(run)) for run in runs)
-    for run, dash in zip(runs, style.DASHES):
-        for axes in (linear, logarithmic):
-            axes.plot(run.column("step"), processor_times(run) if by_processor else run.column("wall"), dash,
-                      label=label(run))
-        counts.step(run.column("step"), detections(run), where="mid", linestyle=dash, label=label(run))
+    for run, colour, dash in zip(runs, (style.BASELINE, "#8C8C8C", style.OURS, style.COLOURS[2]), style.DASHES):
+        line = {"color": colour, "linestyle": dash, "label": solver_of(run).replace(", CUDA", ",\nGPU")}
+        for place in (linear, logarithmic):
+            place.plot(run.column("step"), processor_times(run) if by_processor else run.column("wall"), **line)
+        counts.step(run.column("step"), detections(run), where="mid", **line)
     time = "processor time" if by_processor else "time"
-    linear.set(xlabel="step", ylabel=f"{time} a step [ms]", title=time.capitalize(), ylim=(0, None))
-    logarithmic.set(xlabel="step", ylabel=f"{time} a step [ms]", title=f"{time.capitalize()}, logarithmic",
+    linear.set(xlabel="step", ylabel=f"{time} [ms]", title=f"{time.capitalize()} a step", ylim=(0, None))
+    logarithmic.set(xlabel="step", ylabel=f"{time} [ms]", title=f"{time.capitalize()} a step, logarithmic",
                     yscale="log")
-    counts.set(xlabel="step", ylabel="detections a step", title="Detections, continuous and discrete", ylim=(0, None))
-    for axes in (linear, counts):  # in the third axes the legend would cover the curve of a GPU
-        axes.legend()
-    words = figure.add_subplot(grid[2, 2:])
-    words.axis("off")
-    words.text(0, 1, "\n\n".join(summary(runs)), va="top", wrap=True, fontsize=8.5)
-    figure.suptitle(f"{SCENE} ({runs[0].manifest['scale']}); {commits_in_words(runs)}", fontsize=9)
-    style.save(figure, out)
+    counts.set(xlabel="step", ylabel="detections", title="Detections a step, continuous and discrete", ylim=(0, None))
+    for place in (linear, logarithmic, counts):
+        style.label_ends(place)
+    draw_table(table, runs)
+    lines = "; ".join(f"{row[0]} {row[1]} ms, {row[4]} detections" for row in cells(runs)[1])
+    style.save(figure, out, TITLE, ALT.format(lines=lines), source_of(runs))
 
 
 def runs_of(arguments):
@@ -167,11 +224,13 @@ if __name__ == "__main__":
     parser = baseline_arguments(__doc__.splitlines()[0])
     parser.add_argument("--cuda", action="store_true", help="VBD-OGC on CUDA, too")
     parser.add_argument("--made", action="store_true", help="draw the runs that there are, whole or not, and make none")
+    parser.add_argument("--states", metavar="RUN", help="run of IPC whose states are shown, if those of the folder "
+                                                        "were not kept")
     options = parser.parse_args()
     try:
         found = runs_of(options)
         write_table(Path(options.folder) / "fig18_solvers.csv", rows(found))
-        draw(found, Path(options.folder) / "fig18_solvers.png")
+        draw(found, Path(options.folder) / "fig18_solvers.png", states_of(options.states) if options.states else None)
         print("\n".join(summary(found)))
     except RunError as error:
         sys.exit(f"fig18_solvers: {error}")

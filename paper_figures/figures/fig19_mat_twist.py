@@ -12,22 +12,27 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from matplotlib.ticker import NullFormatter, ScalarFormatter
 
 from paper_figures.figures.table1 import contacts, times
 from paper_figures.workflow import commands
-from paper_figures.workflow.common import baseline_arguments, label
+from paper_figures.workflow.common import baseline_arguments
 from paper_figures.workflow.evidence import RESULTS
 from paper_figures.workflow.jobs import ENDED_BY_TIME, Job, Limit, RunFailure
 from paper_figures.workflow.runs import provenance, write_table
 from plots import style
-from plots.movie import camera_of
-from ogc_testbed.runs import Run, RunError, commits_in_words
-from plots.scene_figure import draw_movie
+from plots.camera import fitted
+from plots.scene_figure import audit_in_words, draw_movie, frames_at, moment, show, source_of
+from ogc_testbed.runs import Run, RunError
 
 GIPC, GIPC_DEVICE = RESULTS / "h200" / "gipc_mat.csv", "NVIDIA H200"
 # The paper's times over the whole run [ms]: average, and maximum if given.
 PAPER = {"cuda": (5.5, 8.5), "cpu": (540.0, None), "ipc": (61180.0, None)}
+PAPER_GIPC = 1893  # ms a step, average
+TITLE = "Fig. 19. A twisted mat costs VBD-OGC milliseconds a step, GIPC hundreds, IPC tens of thousands"
+ALT = ("Four renderings of a blue mat whose two ends turn against each other, at 0, 4, 8 and 12 s: it winds into a "
+       "thick rope. Curves over time: on the GPU our step takes a few milliseconds and GIPC's a hundred to thousands; "
+       "on the CPU ours takes tens to hundreds of milliseconds and IPC's seconds to tens of seconds. A table has mean "
+       "and longest step of each method beside the paper's.")
 HALF = 8.0  # [s]: half of the paper's 16 s, the duration if the paper's π/2 is the relative rate of the ends
 
 
@@ -163,126 +168,136 @@ def table(runs, theirs):
     return rows + [row_of("one step", run, **cells) for _, run, cells in distances(runs)]
 
 
+def rows_of(path):
+    """Returns the rows of a kept table."""
+    with Path(path).open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
 def seconds(run):
     return run.setting("time_step") * run.column("step")
 
 
-def draw_times(axes, runs, backend):
-    for bounds, colour in zip(commands.MAT_BOUNDS, style.COLOURS):
+def number(ms):
+    return f"{ms:,.0f}" if ms >= 100 else f"{ms:.3g}"
+
+
+def draw_gpu(axes, runs, theirs, backend):
+    """Draws the time of each step of our whole runs, and GIPC's, which ends earlier."""
+    for bounds, colour in zip(commands.MAT_BOUNDS, (style.COLOURS[4], style.OURS)):
         run = runs[f"{bounds}/whole"]
-        axes.plot(seconds(run), run.column("wall"), color=colour, linewidth=0.7,
-                  label=f"{label(run)}, {bounds} ({run.manifest['device']})")
-    for value, dash in zip(PAPER[backend], (":", "--")):
-        if value:
-            axes.axhline(value, color="black", linestyle=dash, linewidth=0.8,
-                         label=f"paper: {value:g} ms, {'average' if dash == ':' else 'maximum'} (another machine)")
-    axes.set(xlabel="time [s]", ylabel="time a step [ms]", yscale="log", title="VBD-OGC, whole run")
-    axes.legend(fontsize=6)
+        axes.plot(seconds(run), run.column("wall"), color=colour, linewidth=0.8, label=f"ours,\n{bounds}")
+    if theirs is not None:
+        axes.plot(np.arange(1, len(theirs) + 1) / 240, theirs, color=style.BASELINE, linewidth=0.8,
+                  label="GIPC,\nto 9.6 s")
+    if theirs is not None and PAPER[backend][0]:
+        style.paper_line(axes, PAPER[backend][0], f"paper,\nours {PAPER[backend][0]:g}", ":")
+        style.paper_line(axes, PAPER_GIPC, f"paper,\nGIPC {PAPER_GIPC:,}", "--")
+    axes.set(xlabel="time [s]", ylabel="time a step [ms]", yscale="log",
+             title="GPU" if backend == "cuda" else "CPU, whole runs")
+    style.label_ends(axes)
 
 
-def draw_gipc(axes, runs, theirs):
-    for bounds, colour in zip(commands.MAT_BOUNDS, style.COLOURS):
-        run = runs.get(f"{bounds}/free")
-        if run:
-            axes.plot(seconds(run), run.column("wall"), color=colour, linewidth=0.7,
-                      label=f"{bounds}, no friction ({run.manifest['device']})")
-    if theirs is None:
-        axes.set_title("No friction (GIPC's times are of the paper's size)")
-    else:
-        axes.plot(np.arange(1, len(theirs) + 1) / 240, theirs, color="black", linewidth=0.7,
-                  label=f"GIPC, another program's times ({GIPC_DEVICE})")
-        axes.set_title(f"No friction, the {len(theirs):,} steps that were measured of GIPC")
-    axes.set(xlabel="time [s]", ylabel="time a step [ms]", yscale="log")
-    if axes.get_legend_handles_labels()[0]:
-        axes.legend(fontsize=6)
-
-
-def draw_windows(axes, runs):
-    axes.set(xlabel="time [s]", ylabel="time a step [ms]", yscale="log", title="CPU, windows of the run with planes")
-    colours = {"vbd_ball": style.COLOURS[0], "vbd_planes": style.COLOURS[1], "ipc": style.COLOURS[3]}
-    windows = {name: [runs[key] for share in commands.MAT_WINDOWS if (key := f"window_{share}/{name}") in runs]
-               for name in colours}
-    if not any(windows.values()):
-        axes.text(0.5, 0.5, "not run", transform=axes.transAxes, ha="center")
+def draw_cpu(axes, rows):
+    """Draws the mean of each window on the CPU, by VBD and by IPC."""
+    axes.set(xlabel="time [s]", ylabel="time a step [ms]", yscale="log", title="CPU, mean of windows from four states")
+    kinds = {"ours,\nballs": ("vbd", "ball", style.COLOURS[4]), "ours,\nplanes": ("vbd", "planes", style.OURS),
+             "IPC": ("ipc", "", style.BASELINE)}
+    found = {name: [(row["first step [1]"], row["mean [ms]"]) for row in rows
+                    if (row["what"], row["solver"], row["bounds"]) == ("window", solver, bounds)]
+             for name, (solver, bounds, _) in kinds.items()}
+    if not any(found.values()):
+        style.not_run(axes)
         return
-    for name, found in windows.items():
-        for number, run in enumerate(found):
-            axes.plot(seconds(run), run.column("wall"), ".-", color=colours[name], markersize=3, linewidth=0.7,
-                      label=f"{label(run)} {bounds_of(run)} ({run.manifest['device']})" if number == 0 else None)
-    for solver, words in (("cpu", "VBD-OGC"), ("ipc", "IPC")):
-        axes.axhline(PAPER[solver][0], color="black", linestyle=":", linewidth=0.8)
-        axes.annotate(f"paper, {words}: {PAPER[solver][0]:g} ms", (0, PAPER[solver][0]), fontsize=6)
-    axes.legend(fontsize=6)
+    for name, places in found.items():
+        if places:
+            steps, times_ms = np.array(places, float).T
+            axes.plot((steps - 1) / 240, times_ms, "o-", color=kinds[name][2], linewidth=1, markersize=4, label=name)
+    if rows[0].get("scale", "paper") == "paper":
+        style.paper_line(axes, PAPER["cpu"][0], "paper,\nours 540", ":")
+        style.paper_line(axes, PAPER["ipc"][0], "paper,\nIPC 61,180", "--")
+    style.label_ends(axes)
 
 
-def draw_distances(distance, residual, runs):
-    for share, colour in zip(commands.MAT_WINDOWS, style.COLOURS):
-        found = [(run, cells) for at, run, cells in distances(runs) if at == share]
-        swept = [(np.mean(run.column("iterations")), cells) for run, cells in found if run.manifest["solver"] == "vbd"]
-        name = f"{share} % of the run"
-        of = lambda key: zip(*[(n, cells[key]) for n, cells in swept if cells.get(key, "") != ""])  # noqa: E731
-        for axes, key in ((distance, "rms distance to Newton [m]"), (residual, "residual [1]")):
-            points = list(of(key))
-            if points:
-                axes.plot(*points, "o-", color=colour, markersize=3, label=name)
-        for run, cells in found:
-            if run.manifest["solver"] == "ipc" and "rms distance to Newton [m]" in cells:
-                distance.axhline(cells["rms distance to Newton [m]"], color=colour, linestyle="--", linewidth=0.8)
-        motion = next((cells["rms motion of the step [m]"] for _, cells in found
-                       if "rms motion of the step [m]" in cells), None)
-        if motion:
-            distance.axhline(motion, color=colour, linestyle=":", linewidth=0.6)
-    distance.set(xlabel="iterations", ylabel="distance, rms [m]", xscale="log", yscale="log",
-                 title="One step from Newton's (dashed: IPC; dotted: motion)")
-    residual.set(xlabel="iterations", ylabel="residual (Eq. 29) [1]", xscale="log", yscale="log",
-                 title="What one step leaves")
-    for axes in (distance, residual):
-        axes.set_xticks(sorted({n for numbers in commands.MAT_ITERATIONS.values() for n in numbers}))
-        axes.xaxis.set_major_formatter(ScalarFormatter())
-        axes.xaxis.set_minor_formatter(NullFormatter())
-        if axes.get_legend_handles_labels()[0]:
-            axes.legend(fontsize=6)
+def methods(rows, whole_scale=True):
+    """Returns the rows of the table: method, mean and longest time a step, the paper's mean; "not run" for what no row
+    is about."""
+    def cell(what, solver, bounds):
+        row = next((r for r in rows if (r["what"], r["solver"], r["bounds"]) == (what, solver, bounds)), None)
+        return ["not run", ""] if row is None else [number(float(row["mean [ms]"])), number(float(row["worst [ms]"]))]
+
+    printed = (lambda words: words) if whole_scale else (lambda words: "")
+    return [["VBD-OGC, GPU, balls", *cell("whole", "vbd", "ball"), printed("5.5 / 8.5")],
+            ["VBD-OGC, GPU, planes", *cell("whole", "vbd", "planes"), printed("5.5 / 8.5")],
+            ["GIPC, GPU, no friction", *cell("without friction", "gipc", ""), printed("1,893 / 20,000")],
+            ["  ours, the same steps", *cell("without friction", "vbd", "planes"), ""],
+            ["VBD-OGC, CPU, windows", *cell("windows", "vbd", "planes"), printed("540")],
+            ["IPC, CPU, windows", *cell("windows", "ipc", ""), printed("61,180")]]
+
+
+def draw_methods(axes, rows, whole_scale):
+    axes.axis("off")
+    body = methods(rows, whole_scale)
+    drawn = axes.table(body, colLabels=["a step", "mean [ms]", "longest [ms]", "paper [ms]"],
+                       colWidths=[0.4, 0.18, 0.2, 0.22], bbox=(0, 0, 1, 1), cellLoc="center", edges="horizontal")
+    drawn.auto_set_font_size(False)
+    drawn.set_fontsize(8)
+    for (row, column), cell in drawn.get_celld().items():
+        cell.set_edgecolor("0.85")
+        cell.set_text_props(fontweight="bold" if row == 0 else None, ha="left" if column == 0 else "center")
+    axes.set_title("all four methods")
 
 
 def draw_lag(axes, runs):
-    beside = axes.twinx()
-    for bounds, colour in zip(commands.MAT_BOUNDS, style.COLOURS):
+    for bounds, colour in zip(commands.MAT_BOUNDS, (style.COLOURS[4], style.OURS)):
         run = runs[f"{bounds}/whole"]
-        axes.plot(seconds(run), run.column("largest_lag"), color=colour, label=f"lag, {bounds}")
-        beside.plot(seconds(run), run.column("inverted_tetrahedra"), ":", color=colour, linewidth=0.8)
-    axes.set(xlabel="time [s]", ylabel="largest lag of the ends [m]", title="Lag; dotted: inverted tetrahedra")
-    beside.set(ylabel="inverted tetrahedra")
-    beside.grid(False)
-    axes.legend(fontsize=6)
+        axes.plot(seconds(run), run.column("largest_lag"), color=colour, linewidth=0.9, label=f"{bounds}")
+    axes.set(xlabel="time [s]", ylabel="lag [m]", title="Lag of the turned ends behind their motion", ylim=(0, None))
+    style.label_ends(axes)
 
 
-def draw(runs, theirs, backend, out):
-    plt = style.use()
-    figure, axes = plt.subplots(2, 3, figsize=(14, 7.5))
-    draw_times(axes[0, 0], runs, backend)
-    draw_gipc(axes[0, 1], runs, theirs)
-    draw_windows(axes[0, 2], runs)
-    draw_distances(axes[1, 0], axes[1, 1], runs)
-    draw_lag(axes[1, 2], runs)
-    whole = [runs[f"{bounds}/whole"] for bounds in commands.MAT_BOUNDS]
-    audited = ", ".join(f"{bounds}: {run.manifest.get('audited_states', 0)} states audited, intersections: "
-                        f"{row_of('', run)['intersections']}" for bounds, run in zip(commands.MAT_BOUNDS, whole))
-    figure.suptitle(f"mat_twist ({whole[0].manifest['scale']}), {audited}; {commits_in_words(list(runs.values()))}",
-                    fontsize=8)
-    style.save(figure, out)
+def draw(runs, theirs, backend, out, rows=None):
+    """Draws four states of the run with planes, times on GPU and CPU, the table of methods, and the lag. `rows`: of the
+    table (None: those of `runs`)."""
+    style.use()
+    rows = [*(row_of("whole", runs[f"{bounds}/whole"]) for bounds in commands.MAT_BOUNDS),
+            *(row for row in (rows or table(runs, theirs)) if row["what"] != "whole")]
+    whole = runs["planes/whole"]
+    last = whole.column("step")[-1]
+    frames = frames_at(whole, [round(share / 100 * last) for share in commands.MAT_WINDOWS])
+    seen = [frame for frame in frames if frame] or [whole.frame(whole.frames[-1])]
+    size = (640, 400)
+    scale = whole.manifest["scale"]
+    below = (f"15,312 vertices, planes: {audit_in_words(whole)}" if scale == "paper"
+             else f"scale {scale}, not the paper's size; {audit_in_words(whole)}")
+    below += ("; GIPC: its official code on one H200, IPC: ours, 16 cores; the paper says 343 times faster than GIPC "
+              "and 133 times faster than IPC" if scale == "paper" else "")
+    half = (0.5, "plot")
+    rows_of_page = [style.pictures(4, size), (2.6, [half, half]), (2.2, [half, (0.5, "picture")])]
+    figure, axes = style.page(rows_of_page, TITLE, below)
+    for place, frame in zip(axes[0], frames):
+        show(place, whole, frame, fitted(whole, seen, size), moment(frame), size)
+    draw_gpu(axes[1][0], runs, theirs, backend)
+    draw_cpu(axes[1][1], rows)
+    draw_lag(axes[2][0], runs)
+    draw_methods(axes[2][1], rows, scale == "paper")
+    style.save(figure, out, TITLE, ALT, source_of([runs[f"{bounds}/whole"] for bounds in commands.MAT_BOUNDS]))
 
 
 if __name__ == "__main__":
     parser = baseline_arguments(__doc__.splitlines()[0], backends=("cpu", "cuda"))
     parser.add_argument("--made", action="store_true", help="draw the runs that there are, and make none")
     parser.add_argument("--movie", help="MP4 to write instead, of the finished whole run with planes")
+    parser.add_argument("--rows", metavar="CSV", help="kept table, for what has no run in the folder")
     options = parser.parse_args()
     try:
         if options.movie:
-            draw_movie(whole := Run(Path(options.folder) / "planes/whole"), camera_of(whole), options.movie)
+            draw_movie(Run(Path(options.folder) / "planes/whole"), options.movie)
             sys.exit()
         found_runs, external = runs_of(options), gipc_times(options.scale)
-        write_table(Path(options.folder) / "fig19.csv", table(found_runs, external))
-        draw(found_runs, external, options.backend, Path(options.folder) / "fig19.png")
+        kept = rows_of(options.rows) if options.rows else None
+        if kept is None:
+            write_table(Path(options.folder) / "fig19.csv", table(found_runs, external))
+        draw(found_runs, external, options.backend, Path(options.folder) / "fig19.png", kept)
     except RunError as error:
         sys.exit(f"fig19: {error}")

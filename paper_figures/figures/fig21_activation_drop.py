@@ -26,15 +26,24 @@ import numpy as np
 
 from paper_figures.workflow import commands, contact_forces
 from paper_figures.workflow.accept import not_run
+from paper_figures.workflow.evidence import NOT_RUN
 from paper_figures.workflow.runs import iterations, provenance, run_job, write_table
 from plots import render, style
-from ogc_testbed.runs import Run, RunError, commits_in_words
-from plots.scene_figure import bodies_of
+from plots.bodies import bodies_of
+from plots.camera import fitted
+from plots.scene_figure import look_of, show, source_of
+from ogc_testbed.runs import Run, RunError
 
 SCENE, STEPS, VARIANTS = commands.ACTIVATIONS, commands.ACTIVATION_STEPS, commands.VARIANTS
 OGC, IPC = PAPER = commands.PRINTED[:2]
 ABOVE_HALF = commands.WEAK[0]
-CAMERA = ((1.6, 0.9, 1.9), (-0.08, -0.12, 0.0), (0, 1, 0))
+SIZE, DISTANCES = (800, 640), "cividis"  # pixels; the colours of distances
+NAMES = {"ogc": "OGC's", "ipc_log": "IPC's"}
+TITLE = "Fig. 21. OGC's and IPC's activation drape the cloth alike; here OGC's converges no faster"
+ALT = ("Renderings of the cloth on a sphere after 40 steps with our activation function and with IPC's, and the first "
+       "coloured by the distance between the two, at most {apart} mm. Curves: the residual over the iterations of the "
+       "last step for both, the force over distance of both functions, the residual for other contact stiffnesses, and "
+       "bars with condition numbers.")
 LEVELS = {"1e-2": 1e-2, "1e-3": 1e-3, "1e-4": 1e-4}
 CONDITIONS = {
     "condition_number": "with friction",
@@ -190,14 +199,39 @@ def colour(variant):
     )
 
 
-def draw_state(axes, run, title):
-    axes.axis("off")
-    axes.set_title(title)
+def draw_states(axes, results):
+    """Draws the paper's panels a and b, and both states in one: OGC's, coloured by how far IPC's is from it. Returns
+    the largest distance [m]; not-a-number if states were not kept."""
+    runs = [results[variant].run for variant in PAPER]
+    titles = [f"({letter}) {NAMES[variant.energy]} activation, step 40" for letter, variant in zip("ab", PAPER)]
+    if not all(run.frames for run in runs):
+        for place, title in zip(axes, (*titles, "their distance")):
+            style.not_run(place, "the states were not kept")
+            place.set_title(title)
+        return np.nan
+    frames = [run.frame(run.frames[-1]) for run in runs]
+    camera = fitted(runs[0], frames, SIZE)
+    for place, run, frame, title in zip(axes, runs, frames, titles):
+        show(place, run, frame, camera, title, SIZE)
+    apart = np.linalg.norm(frames[0].positions.astype(float) - frames[1].positions, axis=1)
     usable, reason = render.available()
-    if usable:
-        axes.imshow(render.picture(bodies_of(run, run.frame(run.frames[-1])), CAMERA))
-    else:
-        axes.text(0.5, 0.5, reason, ha="center", va="center", wrap=True, transform=axes.transAxes)
+    if not usable:
+        style.not_run(axes[2], reason)
+        return apart.max()
+    import matplotlib
+
+    bodies, first = [], 0
+    for body in bodies_of(runs[0], frames[0]):
+        own = apart[first:first + len(body[0])]
+        first += len(body[0])
+        scale = matplotlib.colormaps[DISTANCES](own / max(apart.max(), 1e-12))
+        bodies.append((*body[:2], 255 * scale[:, :3], None) if body[2] != style.BODY else body)
+    image = render.picture(bodies, camera, SIZE, **look_of(runs[0]))
+    style.picture(axes[2], image, f"(a) coloured by the distance to (b): at most {1e3 * apart.max():.2g} mm")
+    shades = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, 1e3 * apart.max()), DISTANCES)
+    inset = axes[2].inset_axes((0.72, 0.09, 0.24, 0.035))
+    axes[2].figure.colorbar(shades, cax=inset, orientation="horizontal", label="mm").ax.tick_params(labelsize=7)
+    return apart.max()
 
 
 def draw_residual(axes, run, step, dash, shade, label):
@@ -209,73 +243,35 @@ def draw_convergence(axes, results, step):
     for number, variant in enumerate(PAPER):
         found = results[variant]
         names = (
-            (found.double, "-", "VBD, double"),
-            (found.single, ":", f"VBD, single, {found.single.manifest['backend']}"),
+            (found.double, "-", "VBD"),
             (found.newton, "--", "Newton"),
         )
         for run, dash, name in names:
-            draw_residual(axes, run, step, dash, style.COLOURS[number], f"{variant.label}, {name}")
-    axes.set(yscale="log", xlabel="iteration", ylabel="residual (Eq. 29) [1]", title=f"Step {step}")
-    axes.legend(fontsize=7)
+            if run:
+                label = f"{NAMES[variant.energy]},\n{name}"
+                draw_residual(axes, run, step, dash, (style.OURS, style.BASELINE)[number], label)
+    axes.set(yscale="log", xlabel="iteration", ylabel="residual (Eq. 29) [1]",
+             title=f"(c) residual in step {step}, double")
+    style.label_ends(axes, 7)
 
 
 def draw_forces(axes, force):
-    for number, energy in enumerate(commands.ENERGIES):
-        axes.plot(
-            *force[energy],
-            color=style.COLOURS[number],
-            linestyle=style.DASHES[number % len(style.DASHES)],
-            label=energy,
-        )
+    for energy, colour_of in zip(commands.PAPER_ENERGIES, (style.OURS, style.BASELINE)):
+        axes.plot(*force[energy], color=colour_of, label=NAMES[energy])
     axes.set(
         ylim=(0, 5),
         xlim=(0, 1.1),
         xlabel="distance [r]",
         ylabel="force [k_c r]",
-        title="Force over distance (r = 1, k_c = 1)",
+        title="(d) force over distance (r = 1, k_c = 1)",
     )
-    axes.legend(fontsize=7)
-
-
-def draw_ratios(axes, ratio):
-    for number, (name, curve) in enumerate(ratio.items()):
-        axes.plot(*curve, color=style.COLOURS[number], label=f"κ = {name}")
-    axes.axhline(1, color="black", linewidth=0.8)
-    axes.set(
-        xscale="log",
-        yscale="log",
-        ylim=(0.05, 30),
-        xlabel="force [k_c r]",
-        ylabel="curvature, IPC's over OGC's [1]",
-        title="Curvature ratio at equal force: below 1 IPC's energy is the softer one",
-    )
-    axes.legend(fontsize=7)
-
-
-def draw_histogram(axes, states):
-    centres = np.sqrt(contact_forces.EDGES[1:] * contact_forces.EDGES[:-1])
-    for variant, forces in states.items():
-        if variant.ratio == 1:
-            axes.step(
-                centres,
-                forces.counts / max(1, len(forces.force)),
-                where="mid",
-                color=colour(variant),
-                linestyle="--" if variant.weak else "-",
-                label=f"{variant.label}: IPC's softer at {100 * forces.share_softer:.0f} %",
-            )
-    axes.axvline(contact_forces.HALF, color="black", linewidth=0.8, linestyle=":")
-    axes.set(
-        xscale="log",
-        xlabel="force [k_c r]",
-        ylabel="share of contacts [1]",
-        title="Contacts of the last state by force (dotted: k_c r/2)",
-    )
-    axes.set_ylim(0, 1.5 * axes.get_ylim()[1])  # room for the legend
-    axes.legend(fontsize=7)
+    axes.legend(fontsize=8, loc="upper right")
 
 
 def draw_by_ratio(axes, results, step):
+    if sum(found.double is not None for found in results.values()) <= len(PAPER):
+        axes.set_title(f"VBD in double, step {step}, by κ and contact stiffness")
+        return style.not_run(axes, "the curves of other κ and of weak contact were not kept")
     for variant, found in results.items():
         if found.double:
             draw_residual(axes, found.double, step, "--" if variant.weak else "-", colour(variant), variant.label)
@@ -285,7 +281,7 @@ def draw_by_ratio(axes, results, step):
         ylabel="residual (Eq. 29) [1]",
         title=f"VBD in double, step {step}, by κ and contact stiffness",
     )
-    axes.legend(fontsize=6, ncols=2)
+    return style.label_ends(axes, 6.5)
 
 
 def draw_conditions(axes, rows):
@@ -299,11 +295,14 @@ def draw_conditions(axes, rows):
             color=style.COLOURS[number],
             label=words,
         )
-    axes.set_yticks(places, [row["activation"] for row in shown], fontsize=7)
+    axes.set_yticks(places, [row["activation"].replace(", ", ",\n") for row in shown], fontsize=6.5)
     axes.invert_yaxis()
     largest = max((float(row["condition_number_at_end [1]"]) for row in shown), default=1)
-    axes.set(xscale="log", xlim=(1, 100 * largest), xlabel="condition number [1]", title="Newton's last matrix")
-    axes.legend(fontsize=7)
+    axes.set(xscale="log", xlim=(1, 3 * largest), xlabel="condition number [1]", title="Newton's last matrix")
+    if not shown:
+        style.not_run(axes)
+    for number, words in enumerate(CONDITIONS.values()):
+        axes.text(1.02, 0.9 - 0.1 * number, words, color=style.COLOURS[number], fontsize=7, transform=axes.transAxes)
 
 
 def over(rows, column, top=IPC, bottom=OGC):
@@ -315,35 +314,30 @@ def over(rows, column, top=IPC, bottom=OGC):
         return "–"
 
 
-def headline(results, rows):
-    left_out = [variant.label for variant in VARIANTS if variant not in results]
-    missing = f"\nNOT RUN: {'; '.join(left_out)}" if left_out else ""
-    columns = ("condition_number_at_end [1]", "vbd_iterations_to_1e-3 [1]")
-    shown = [variant for variant in (IPC, *commands.RATIOS) if variant in results]
-    quotients = [(variant, *(over(rows, column, variant) for column in columns)) for variant in shown]
-    by_ratio = ", ".join(f"{condition} × and {sweeps} × (κ = {variant.ratio})" for variant, condition,
-                         sweeps in quotients)
+def below(results, rows, scale):
+    """Returns the line below the title: what the paper says and what we find."""
+    told = {row["activation"] for row in rows if row["status"] != NOT_RUN}
+    left_out = [variant.label for variant in VARIANTS if variant not in results and variant.label not in told]
+    found = [over(rows, column) for column in ("vbd_iterations_to_1e-3 [1]", "condition_number_at_end [1]")]
+    where = "4,900 vertices" if scale == "paper" else f"scale {scale}"
+    said = [text if text != "–" else "not reached by both" for text in found]
+    words = (f"{where}; of IPC's over ours, VBD's iterations to 1e-3: {said[0]} (paper 2), condition number: {said[1]} "
+             "(paper 5)")
+    return words + (f"; not run: {'; '.join(left_out)}" if left_out else "")
+
+
+def draw(results, panels, rows, scale, out):
+    style.use()
+    step = STEPS[scale]
+    figure, axes = style.page([style.pictures(3, SIZE), (2.7, [(0.5, "plot")] * 2), (2.7, [(0.5, "plot")] * 2)], TITLE,
+                              below(results, rows, scale))
+    apart = draw_states(axes[0], results)
+    draw_convergence(axes[1][0], results, step)
+    draw_forces(axes[1][1], panels["force"])
+    draw_by_ratio(axes[2][0], results, step)
+    draw_conditions(axes[2][1], rows)
     runs = [run for found in results.values() for run in found.all]
-    apart = rows[1]["largest_distance_from_ogc [mm]"]
-    return (
-        f"the paper's two states are at most {apart} mm apart. Of ipc_log over ogc, condition number and VBD's "
-        f"iterations to 10⁻³ (paper: 5 × and 2 ×):\n{by_ratio}; {commits_in_words(runs)}{missing}"
-    )
-
-
-def draw(results, panels, states, rows, scale, out):
-    plt, step = style.use(), STEPS[scale]
-    figure, axes = plt.subplots(4, 2, figsize=(9.5, 13))
-    for panel, variant in zip(axes[0], PAPER):
-        draw_state(panel, results[variant].run, f"{variant.label}, step {step}")
-    draw_convergence(axes[1, 0], results, step)
-    draw_forces(axes[1, 1], panels["force"])
-    draw_ratios(axes[2, 0], panels["ratio"])
-    draw_histogram(axes[2, 1], states)
-    draw_by_ratio(axes[3, 0], results, step)
-    draw_conditions(axes[3, 1], rows)
-    figure.suptitle(f"{SCENE} ({scale}): {headline(results, rows)}", fontsize=8)
-    style.save(figure, out)
+    style.save(figure, out, TITLE, ALT.format(apart=f"{1e3 * apart:.2g}"), source_of(runs))
 
 
 def main(folder, ogc, scale="small", backend="cpu", without=()):
@@ -366,7 +360,27 @@ def main(folder, ogc, scale="small", backend="cpu", without=()):
     )
     write_table(folder / "fig21_forces.csv", list(contact_forces.table(states)))
     write_table(folder / "fig21_ratios.csv", ratio_rows(panels["ratio"]))
-    draw(results, panels, states, rows, scale, folder / "fig21.png")
+    draw(results, panels, rows, scale, folder / "fig21.png")
+    return folder / "fig21.png"
+
+
+def drawn_as_made(arguments):
+    """Draws the runs that are there, with the rows of a kept table, and returns the picture's path."""
+    folder = Path(arguments.folder)
+
+    def there(job):
+        return Run(folder / job.name) if (folder / job.name / "run.json").is_file() else None
+
+    scale = arguments.scale
+    found = {v: Solved(there(commands.ablation(scale, v)), there(commands.by_newton(scale, v)),
+                       there(commands.by_vbd(scale, v)), there(commands.by_vbd_on(scale, v, arguments.backend)))
+             for v in VARIANTS}
+    results = {v: solved for v, solved in found.items() if solved.run}
+    if not set(PAPER) <= set(results):
+        raise RunError(f"{folder} lacks the runs of the paper's two energies; leave --made out, and they are made")
+    with Path(arguments.made).open(newline="") as file:
+        rows = [row for row in csv.DictReader(file) if row["status"] != NOT_RUN]
+    draw(results, curves(folder, arguments.ogc), rows, scale, folder / "fig21.png")
     return folder / "fig21.png"
 
 
@@ -383,8 +397,13 @@ if __name__ == "__main__":
         choices=[v.name for v in VARIANTS if v not in PAPER],
         help="what is left out; the figure says so",
     )
+    parser.add_argument("--made", metavar="CSV", help="draw the runs that there are, with this kept "
+                                                        "table, and make none")
     arguments = parser.parse_args()
     try:
+        if arguments.made:
+            print(drawn_as_made(arguments))
+            sys.exit()
         print(main(arguments.folder, arguments.ogc, arguments.scale, arguments.backend, arguments.without))
     except (RunError, csv.Error) as error:
         sys.exit(f"fig21: {error}")

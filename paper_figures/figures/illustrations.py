@@ -28,6 +28,28 @@ TITLES = {
     "fig09": "Fig. 9: a single iteration, cut as a whole and cut vertex by vertex",
     "fig22": "Fig. 22: limitations",
 }
+ALTS = {
+    "fig02_models": "Three drawings of a bent line with a point near it. IPC offsets each segment by a capsule, so "
+                    "that the forces at the bend are not orthogonal to the segments; a smaller radius helps; OGC "
+                    "offsets each segment along its normals alone, and its forces are orthogonal.",
+    "fig03": "Drawings of a line of segments and a point, for IPC's contact sets, signed distance and OGC: arrows show "
+             "which segments are pushed, and in which direction.",
+    "fig04": "A closed curve whose parts come near, its conventional offset, in which the parts merge, and OGC's "
+             "offset, in which overlapping layers are counted.",
+    "fig05": "Three vertices, convex, mixed and saddle, with their blocks in green above and the set of their normals "
+             "on a sphere below.",
+    "fig06": "A triangle whose points have one normal, an edge whose normals form an arc, and both on the sphere of "
+             "normals.",
+    "fig07": "Blocks of a triangle, a prism; of an edge, a part of a cylinder; of a boundary edge, half a cylinder; of "
+             "a vertex, a part of a ball. Closed boundaries are solid, open ones dashed.",
+    "fig08": "Normals and blocks of an edge and of a vertex of the edge-only manifold: a circle and a cylinder, a cut "
+             "sphere and a cut ball.",
+    "fig09": "A chain of vertices that meets an obstacle in one solver iteration: the proposed step, IPC's step, which "
+             "stops all vertices at the first collision, the bounds of each vertex, and OGC's step, in which only near "
+             "vertices are held back.",
+    "fig22": "Left: a point's way past a corner along which the direction of the contact force jumps. Right: two "
+             "triangles that fall beside each other, and the number of rounds they need over their speed.",
+}
 SEGMENT_COLOURS = [style.COLOURS[0], style.COLOURS[3], style.COLOURS[2], style.COLOURS[5], style.COLOURS[1]]
 
 
@@ -394,7 +416,8 @@ def draw(path):
     drawer(figure, data["panels"])
     figure.suptitle(TITLES[data["figure"]])
     out = Path(path).with_suffix(".png")
-    style.save(figure, out)
+    name = data["figure"]
+    style.save(figure, out, TITLES[name], ALTS[name], f"ogc illustrate {name}")
     return out
 
 

@@ -13,6 +13,9 @@ from paper_figures.workflow.jobs import RunFailure, parser_of_figure
 from plots import style
 from ogc_testbed.runs import Run
 
+TITLE = "How far a step by VBD in single precision ends from Newton's in double"
+ALT = ("Dots on a logarithmic axis for three scenes: the largest and the mean distance between the vertices of both "
+       "ends, and half of the spacing of single-precision numbers there.")
 DISTANCES = {"largest_distance [m]": "largest distance of a vertex", "rms_distance [m]": "root mean square",
              "rounding [m]": "half of a float's spacing"}
 
@@ -40,11 +43,9 @@ def draw(rows, scale, out):
     axes.set(yscale="log", xlim=(-0.5, len(rows) - 0.5), xticks=places, xticklabels=names, ylabel="distance [m]")
     axes.tick_params(axis="x", labelsize=7)
     axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1, 0.5))
-    commits = ", ".join(sorted({row["commit"] for row in rows}))
-    where = f"{rows[0]['backend']}, {rows[0]['device']}"
-    figure.suptitle(f"The end of a step by VBD in single precision ({where}) and by Newton in double\n"
-                    f"{scale}, commit {commits}", fontsize=8)
-    style.save(figure, out)
+    where = f"{scale}, {rows[0]['backend']}, {rows[0]['device']}"
+    figure.suptitle(f"{TITLE}\n{where}", fontsize=9)
+    style.save(figure, out, TITLE, ALT, ", ".join(sorted({row["commit"] for row in rows})))
 
 
 def main():

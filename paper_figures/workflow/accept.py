@@ -19,13 +19,14 @@ import sys
 from fnmatch import fnmatch
 from pathlib import Path
 
-from paper_figures.workflow import recipes
+from paper_figures.workflow import captions, recipes
 from paper_figures.workflow.evidence import NOT_RUN, RESULTS, SCENES, run_at
 from paper_figures.workflow.jobs import ENDED_BY_TIME
-from paper_figures.workflow.kept import AcceptError, bytes_of, run_files
+from paper_figures.workflow.kept import MOVIES, PICTURES, AcceptError, file_of, run_files
 
 COLUMNS = ("file", "figure", "scale", "backend", "redo", "commit", "compiler", "device", "ended", "sha256")
-LARGEST = 2**20  # bytes of a file; tests limit the whole folder to 10 MB
+# Bytes of a file, and of a picture or movie; a test limits tables to 10 MB and pictures and movies to 30.
+LARGEST, LARGEST_PICTURE = 2**20, 4 * 2**20
 
 
 def manifests(folder):
@@ -101,14 +102,16 @@ def pieces(recipe, scale, backend, runs, incomplete=False):
     if not picture.is_file():
         raise AcceptError(f"{picture} is missing: make it with experiments/reproduce {recipe.name} --scale {scale}")
     if "illustration" in recipe.body:
-        return [(picture.name, bytes_of(picture)),
+        suffix, data = file_of(picture)
+        return [(picture.stem + suffix, data),
                 (f"{recipe.name}.json.gz", gzip.compress((folder / f"{recipe.name}.json").read_bytes(), mtime=0))]
     outputs = [runs / path for path in recipe.outputs(scale, backend)]
     missing = [path for path in outputs if not path.is_file()]
     if missing and not incomplete:
         raise AcceptError(f"{missing[0]} is missing: make it with experiments/reproduce {recipe.name} --scale {scale}, "
                           "or keep the figure without it by --incomplete")
-    found = [(f"{recipe.name}_{scale}{path.suffix}", bytes_of(path)) for path in outputs if path not in missing]
+    found = [(f"{recipe.name}_{scale}{suffix}", data) for suffix, data in map(file_of, (path for path in outputs
+                                                                                        if path not in missing))]
     found += [(f"{path.stem}_{scale}.csv", path.read_bytes()) for path in sorted(folder.glob("*.csv"))
               if not path.stem.endswith(f"_{scale}")]
     paths = [path for path in sorted(folder.rglob("run.json")) if keeps(recipe, run_name(path, folder))]
@@ -129,14 +132,20 @@ def run_name(path, folder):
     return "_".join(part for part in path.parent.relative_to(folder).parts if part != "runs")
 
 
-def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomplete=False, by_hand=None):
+def is_picture(name):
+    return name.endswith(PICTURES + MOVIES)
+
+
+def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomplete=False, by_hand=None,
+           pictures=False):
     """Copies all that is kept of the `chosen` figures; returns the rows about them. Nothing is written if one of them
     can't be accepted. `incomplete`: also accepts a figure that itself names the runs left out. `by_hand`: the command
     that makes it again, if it was not the workflow's. Of a picture of other figures' runs only the picture is made,
-    because those figures keep the runs."""
+    because those figures keep the runs. `pictures`: keeps pictures and movies alone, and of what was accepted before
+    all else."""
     folder, kept, rows, scenes = Path(results) / machine, [], [], {}
     before = {(row["file"], row["sha256"]): row["redo"] for row in rows_of(folder / "provenance.csv")}
-    shown = {name for recipe in chosen for name in recipe.body.get("of", ())}
+    shown = {name for recipe in chosen for name in recipes.shown_of(recipe.body)}
     for recipe in chosen:
         missing = [] if incomplete else list(left_out(Path(runs) / recipe.folder(scale, backend)))
         if missing:
@@ -146,10 +155,12 @@ def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomple
                        backend) if "of" not in recipe.body else composed(recipe, chosen, scale, backend, runs, ogc)
         for name, data in unlike_others(pieces(recipe, scale, backend, Path(runs), incomplete), folder, recipe.name,
                                         rows):
+            if pictures and not is_picture(name):
+                continue
             if name.startswith(f"../{SCENES}/"):
                 scenes[folder / name] = data
                 continue
-            if len(data) > LARGEST:
+            if len(data) > (LARGEST_PICTURE if is_picture(name) else LARGEST):
                 raise AcceptError(f"{name} has {len(data) / 2**20:.2g} MiB: accepted results are small data")
             drawn = "illustration" in recipe.body
             options = f" --scale {scale}" + (" --backend cuda" if backend == "cuda" else "")
@@ -164,14 +175,18 @@ def accept(chosen, scale, backend, runs, machine, ogc, results=RESULTS, incomple
     twice = {path.name for path, _ in kept if sum(other == path for other, _ in kept) > 1}
     if twice:
         raise AcceptError(f"two files would both be called {', '.join(sorted(twice))}")
-    outdated = earlier_files(folder / "provenance.csv", rows)
+    outdated = [name for name in earlier_files(folder / "provenance.csv", rows) if not pictures or is_picture(name)]
     for name in outdated:
         (folder / name).unlink(missing_ok=True)
     for path, data in (*kept, *scenes.items()):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(data)
     merge(folder / "provenance.csv", COLUMNS, rows, ("file",), {(name,) for name in outdated})
+    drawn = {recipe.name: Path(runs) / recipe.picture(scale, backend) for recipe in chosen}
+    captions.keep(folder, {row["file"]: drawn[row["figure"]] for row in rows if is_picture(row["file"])}, outdated)
     drop_scenes(Path(results))
+    if pictures:
+        return rows
     merge(folder / "durations.csv", ("figure", "scale", "backend", "seconds", "machine"),
           list(recipes.durations(chosen, scale, backend, Path(runs), machine)), ("figure", "scale", "backend"))
     return rows
@@ -198,10 +213,10 @@ def drop_scenes(results):
 def composed(recipe, chosen, scale, backend, runs, ogc):
     """Returns the origin of a picture of other figures' runs: theirs, if they have only one."""
     found = [origin(other, Path(runs) / other.folder(scale, backend), ogc) for other in chosen
-             if other.name in recipe.body["of"]]
+             if other.name in recipes.shown_of(recipe.body)]
     if len({words["commit"] for words in found}) > 1:
         raise AcceptError(f"{recipe.name} mixes runs of several commits: run experiments/reproduce "
-                          f"{' '.join(recipe.body['of'])} anew")
+                          f"{' '.join(recipes.shown_of(recipe.body))} anew")
     return max(found, key=lambda words: words["ended"])
 
 
@@ -246,11 +261,12 @@ def main():
                         help="that makes the figure again, where the workflow's does not (options of its script)")
     parser.add_argument("--incomplete", action="store_true",
                         help="also a figure that says itself which runs it was drawn without, or that has no movie")
+    parser.add_argument("--pictures", action="store_true", help="keep pictures and movies alone, not the runs")
     options = parser.parse_args()
     try:
         chosen = recipes.choose(options.figures, recipes.load(), options.backend)
         rows = accept(chosen, options.scale, options.backend, options.runs, options.machine, str(options.ogc),
-                      incomplete=options.incomplete, by_hand=options.redo)
+                      incomplete=options.incomplete, by_hand=options.redo, pictures=options.pictures)
     except (AcceptError, recipes.RecipeError) as error:
         sys.exit(f"accept: {error}")
     print(f"{len(rows)} files accepted into paper_figures/results/{options.machine}; then: python3 -m "

@@ -41,32 +41,57 @@ def ipc_windows(arguments, scene, whole, starts, steps=20):
     return [run_job(arguments.ogc, job, arguments.folder) for job in jobs]
 
 
-def main(scene, frames, camera, driven=False, near=None):
-    """Draws the figure of one run of `scene`. `frames` are steps, moved together if the run is shorter than the last of
-    them. `camera`: eye, target, up, or a function that computes these from a run. `driven`: a motion that may be faster
-    than bounds allow drives a body, whose lag is shown in place of detections. `near`: a camera for the last frame, as
-    a function of its positions."""
+def draw_a_run(scene, draw_it, profiled=False):
+    """Draws the figure of the run of `scene` that the command line names, by draw_it(run, out), or its movie.
+    `profiled`: draw_it gets a third argument, the run of the option --profiled, or None."""
     parser = argparse.ArgumentParser(description=f"Draws the figure of a run of {scene}.")
     parser.add_argument("run", help="run folder, made by: ogc run " + scene)
-    parser.add_argument("--out", help="PNG to write; a PDF is put beside it (default: SCENE.png in the run folder)")
+    parser.add_argument("--out", help="picture to write (default: SCENE.png in the run folder)")
     parser.add_argument("--movie", help="MP4 to write instead of the figure")
-    parser.add_argument("--profiled", help="run folder of the same scene, made with --profile, for the times by stage")
+    if profiled:
+        parser.add_argument("--profiled",
+                            help="run folder of the same scene, made with --profile, for the times by stage")
     arguments = parser.parse_args()
     try:
-        run = Run(arguments.run)
-        found = run.manifest["scene"]["name"]
-        if found != scene:
-            raise RunError(f"{arguments.run} is a run of '{found}', not of '{scene}'")
-        camera = camera(run) if callable(camera) else camera
+        run = run_of(arguments.run, scene)
         if arguments.movie:
-            draw_movie(run, camera, arguments.movie)
+            draw_movie(run, arguments.movie)
             sys.exit()
-        last = int(run.column("step")[-1])
-        claims = load_claims(CLAIMS / f"{scene}.json",
-                             run.manifest["backend"]) if run.manifest.get("scale") == "paper" else {}
         out = Path(arguments.out or Path(arguments.run) / f"{scene}.png")
-        draw(run, [round(step * min(1, last / frames[-1])) for step in frames], camera, claims, out,
-             Run(arguments.profiled) if arguments.profiled else None, driven, near)
+        more = (Run(arguments.profiled) if arguments.profiled else None,) if profiled else ()
+        draw_it(run, out, *more)
     except RunError as error:
         sys.exit(f"{Path(sys.argv[0]).name}: {error}")
     print(out)
+
+
+def main(scene, frames, title, alt, driven=False, near=None):
+    """Draws the figure of one run of `scene`. `frames` are steps, moved together if the run is shorter than the last of
+    them. `title`: its claim, in a clause. `alt`: what it shows, for readers who don't see it. `driven`: a motion that
+    may be faster than bounds allow drives a body, whose lag is shown in place of detections. `near`: (a camera for the
+    last frame as a function of run and frame, words)."""
+    def figure(run, out, by_stage):
+        draw(run, scaled(run, frames), claims_of(run), out, title, alt, by_stage, driven, near)
+
+    draw_a_run(scene, figure, profiled=True)
+
+
+def run_of(folder, scene):
+    """Returns the run. Throws RunError if it is of another scene."""
+    run = Run(folder)
+    found = run.manifest["scene"]["name"]
+    if found != scene:
+        raise RunError(f"{folder} is a run of '{found}', not of '{scene}'")
+    return run
+
+
+def scaled(run, steps):
+    """Returns the steps, moved together if the run is shorter than the last of them."""
+    share = min(1, int(run.column("step")[-1]) / steps[-1])
+    return [round(step * share) for step in steps]
+
+
+def claims_of(run):
+    """Returns the paper's numbers about a run, which are of the paper's size alone."""
+    path = CLAIMS / f"{run.manifest['scene']['name']}.json"
+    return load_claims(path, run.manifest["backend"]) if run.manifest.get("scale") == "paper" else {}

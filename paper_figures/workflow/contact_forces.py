@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from ogc_testbed.runs import RunError
-from plots.scene_figure import is_cloth
+from plots.camera import is_cloth
 
 DECADES, EACH = (-4, 2), 8
 EDGES = 10.0 ** (np.arange(DECADES[0] * EACH, DECADES[1] * EACH + 1) / EACH)  # edges of the histogram's bins [k_c r]

@@ -1,5 +1,5 @@
 """Prepares the files of runs and pictures for results: rows of a long run thinned (thinned.py), a scene once for all
-manifests that name its hash, settings without their explanations, pictures with a palette.
+manifests that name its hash, settings without their explanations, pictures as PNG or WebP.
 """
 
 import gzip
@@ -13,8 +13,9 @@ from paper_figures.workflow.evidence import ROWS, SCENES, EvidenceError, run_at
 from paper_figures.workflow.jobs import AUDIT, PROCESSOR_TIME
 
 LONG = 2**15  # bytes of rows; larger files are compressed
-COLOURS = 64  # of a picture's palette
-REFINEMENTS = 4  # refinements of the palette by k-means, so that large areas keep their colour
+QUALITY = 90  # of WebP
+FEW = 4096  # colours of a drawing at most: those of its lines and of the edges of its letters
+PICTURES, MOVIES = (".png", ".webp", ".svg"), (".mp4",)
 
 
 class AcceptError(Exception):
@@ -31,24 +32,27 @@ def compressed(name, data):
     return (f"{name}.gz", gzip.compress(data, mtime=0)) if len(data) > LONG else (name, data)
 
 
-def bytes_of(path):
-    """Returns what is kept of a figure's file; a picture gets a palette."""
-    return in_palette(path.read_bytes()) if path.suffix == ".png" else path.read_bytes()
+def file_of(path):
+    """Returns (suffix, bytes) of what is kept of a figure's file. A picture is kept without loss where that is small,
+    as drawings are, and as WebP where it is rendered."""
+    return picture(path.read_bytes()) if path.suffix == ".png" else (path.suffix, path.read_bytes())
 
 
-def in_palette(picture):
-    """Returns the PNG with at most COLOURS colours, chosen to cover rare ones too, without dithering: about a quarter
-    of the size. Throws AcceptError."""
+def picture(data):
+    """Returns (suffix, bytes) of a PNG as kept: as PNG if it has few colours, as a drawing has, otherwise as WebP.
+    Throws AcceptError."""
     from PIL import Image, UnidentifiedImageError
 
     try:
-        image = Image.open(io.BytesIO(picture)).convert("RGB")
+        image = Image.open(io.BytesIO(data)).convert("RGB")
     except UnidentifiedImageError as error:
         raise AcceptError(f"a picture is no PNG ({error}): draw it again") from error
-    out = io.BytesIO()
-    palette = {"method": Image.Quantize.MAXCOVERAGE, "kmeans": REFINEMENTS, "dither": Image.Dither.NONE}
-    image.quantize(COLOURS, **palette).save(out, "PNG", optimize=True)
-    return out.getvalue()
+    out, drawn = io.BytesIO(), image.getcolors(FEW) is not None
+    if drawn:
+        image.save(out, "PNG", optimize=True)
+    else:
+        image.save(out, "WEBP", quality=QUALITY, method=6)
+    return ".png" if drawn else ".webp", out.getvalue()
 
 
 def run_files(path, stem):

@@ -110,6 +110,12 @@ def load(folder=FIGURES):
             for name, body in sorted(bodies.items())}
 
 
+def shown_of(body):
+    """Returns figure -> folder of its run that a picture of other figures' runs shows; fig19/planes/whole is the run
+    planes/whole of fig19."""
+    return {name: run or "run" for name, _, run in (text.partition("/") for text in body.get("of", ()))}
+
+
 def choose(names, recipes, backend):
     """Returns recipes by figure, scene, `illustrations`, `ablations` or `all` (without studies). Throws RecipeError for
     a name that is none of these, is not implemented, or has no such backend."""
@@ -135,7 +141,7 @@ def choose(names, recipes, backend):
             raise RecipeError(f"{found[0].name} compares solvers of the CPU: it has no backend '{backend}'; leave "
                               "--backend out")
         chosen += [r for r in found if r not in chosen]
-    needed = [recipes[name] for r in chosen for name in r.body.get("of", [])]
+    needed = [recipes[name] for r in chosen for name in shown_of(r.body)]
     # figures that draw other figures' runs come after these
     return sorted([*chosen, *(r for r in needed if r not in chosen)], key=lambda r: "of" in r.body)
 
@@ -165,9 +171,11 @@ def steps(recipe, scale, backend, ogc, python=sys.executable):
                 Step(recipe.name, picture, inputs, (*drawing, run, "--out", picture)),
                 *([Step(f"{recipe.name}_movie", movie, inputs, (*drawing, run, "--movie", movie))] if movie else [])]
     if "of" in recipe.body:
-        drawn = [f"{name}-{scale}-{backend}/run" for name in recipe.body["of"]]
-        return [Step(recipe.name, picture, (*(f"{run}/run.json" for run in drawn), *script, *plots),
-                     (*drawing, picture, *drawn))]
+        drawn = [f"{name}-{scale}-{backend}/{run}" for name, run in shown_of(recipe.body).items()]
+        # A figure that makes its runs itself has its picture as output.
+        made = [f"{name}-{scale}-{backend}/" + ("run/run.json" if run == "run" else f"{name}.png")
+                for name, run in shown_of(recipe.body).items()]
+        return [Step(recipe.name, picture, (*made, *script, *plots), (*drawing, picture, *drawn))]
     options = [str(option).format(backend=backend) for option in recipe.body.get("options", [])]
     # A study's runs follow from its own file; those of a figure with several runs from the modules that list them.
     made_by = (*script, *((str(FIGURES / recipe.file),) if "study" in recipe.body

@@ -17,7 +17,7 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-from paper_figures.workflow import recipes, verdicts
+from paper_figures.workflow import captions, recipes, verdicts
 from paper_figures.workflow.evidence import RESULTS, Evidence, EvidenceError
 
 DEVIATIONS = recipes.ROOT / "compare/deviations.md"
@@ -68,14 +68,14 @@ def page(title, body):
     return f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head>\n<body>\n{body}\n</body></html>\n'
 
 
-def embedded(data, words):
-    return f'<img alt="{escape(words)}" src="data:image/png;base64,{base64.b64encode(data).decode()}">'
+def embedded(data, words, kind="png"):
+    return f'<img alt="{escape(words)}" src="data:image/{kind};base64,{base64.b64encode(data).decode()}">'
 
 
 def shown(path, words):
     """Returns a picture or a movie as HTML."""
     if path.suffix != ".mp4":
-        return embedded(path.read_bytes(), words)
+        return embedded(path.read_bytes(), words, path.suffix[1:])
     data = base64.b64encode(path.read_bytes()).decode()
     return f'<video controls title="{escape(words)}" src="data:video/mp4;base64,{data}"></video>'
 
@@ -123,7 +123,7 @@ def numbered(text):
 
 def pictures_of(figure, folder=RESULTS):
     """Returns the accepted pictures of a figure, and then its movies."""
-    return [path for suffix in ("png", "mp4") for path in sorted(folder.rglob(f"*.{suffix}"))
+    return [path for suffix in ("png", "webp", "mp4") for path in sorted(folder.rglob(f"*.{suffix}"))
             if numbered(path.stem) == figure]
 
 
@@ -168,7 +168,8 @@ def how_to_redo(recipe):
 
 def accepted_picture(figure, path):
     words = f"{escape(path.relative_to(RESULTS).as_posix())}: {origin_of(path)}"
-    return f"<figure>{shown(path, f'{figure}, ours')}<figcaption><small>{words}</small></figcaption></figure>"
+    image = shown(path, f"{figure}, ours: {captions.alt_of(path)}")
+    return f"<figure>{image}<figcaption><small>{words}</small></figcaption></figure>"
 
 
 def what_it_says(mine, claims):

@@ -388,7 +388,10 @@ TEST_CASE("guard: finders and guards share a mesh; contacts are those of a finde
 
 TEST_CASE("guard: wrong input is refused by argument, vertex and value", "[unit]") {
   CHECK_THAT(refusal_of({.query_radius = 0}), ContainsSubstring("query_radius is 0,"));
-  CHECK_THAT(refusal_of({.query_radius = 2 * fast::most_query_radius}), ContainsSubstring("at most 1048576 [m]"));
+  CHECK_THAT(refusal_of({.query_radius = 2 * fast::most_query_radius}), ContainsSubstring("to 1048576 m"));
+  CHECK_THAT(refusal_of({.query_radius = fast::least_radius / 2}), ContainsSubstring("a length from 9.094947e-13 to"));
+  CHECK_THAT(refusal_of({.contact_radius = fast::least_radius / 2, .query_radius = 1}),
+             ContainsSubstring("0 or a length of at least 9.094947e-13 m"));
   CHECK_THAT(refusal_of({.contact_radius = 0.2F, .query_radius = 0.1F}),
              ContainsSubstring("query_radius is 0.1, but at least contact_radius, 0.2"));
   CHECK_THAT(refusal_of({.contact_radius = -1, .query_radius = 1}), ContainsSubstring("contact_radius is -1"));
@@ -427,6 +430,39 @@ TEST_CASE("guard: wrong input is refused by argument, vertex and value", "[unit]
         fast::Mesh(6, mesh.triangles, {}, {std::span<const compare::Index>{}, &partners});
       },
       "partners names vertex 6");
+}
+
+// Multiplication by a power of two is exact, so states must be the same multiples.
+TEST_CASE("guard: at the limits of lengths, and far below, the steps are those of ordinary size", "[property]") {
+  for (const compare::Bounds bounds : both_bounds) {
+    const tests::TestMesh mesh = tests::crumpled_layers(3);
+    const std::size_t count = mesh.positions.size();
+    const auto run = [&](float factor, float query_radius) {
+      fast::Guard guard(mesh.connectivity(), tests::scaled(mesh.positions, factor),
+                        {.query_radius = query_radius, .bounds = bounds});
+      std::mt19937 random(7);
+      std::uniform_real_distribution<float> amount(-0.25F, 0.25F);
+      Positions x = guard.positions();
+      compare::Index cut = 0;
+      for (int step = 0; step < 6; ++step) {
+        Positions moves(count);
+        for (compare::Vec3f& move : moves) move = {amount(random), amount(random), amount(random)};
+        cut += guard.step(x, tests::scaled(moves, factor), x).cut;
+      }
+      CHECK(cut > 0);
+      const fast::ContactView view = guard.contacts();
+      std::vector<float> found(view.bound, view.bound + count);
+      for (float& length : found) length /= factor;
+      return std::pair(tests::scaled(x, 1 / factor), found);
+    };
+    INFO("bounds " << static_cast<int>(bounds));
+    const auto expected = run(1, 1);
+    CHECK((run(fast::least_radius, fast::least_radius) == expected));
+    CHECK((run(fast::most_query_radius, fast::most_query_radius) == expected));
+    // far below: no distance is beyond r_q in either run
+    const auto vast = run(1, 64);
+    for (const float factor : {0x1p-50F, 0x1p-72F, 0x1p-75F}) CHECK((run(factor, fast::least_radius) == vast));
+  }
 }
 
 TEST_CASE("guard: a mesh without vertices, and without CUDA the backend says so", "[unit]") {

@@ -46,27 +46,6 @@ def check_movie(source, module, folder, scratch):
         assert "can't be imported" in done.stderr, done.stderr
 
 
-def check_any_movie(source, folder, scratch):
-    """The movie of a run whose scene nobody knows: of its first and last frame, as few as make one."""
-    copy = scratch / "any"
-    shutil.copytree(folder, copy)
-    for path in sorted((copy / "frames").glob("frame_*.h5"))[1:-1]:
-        path.unlink()
-    sys.path.insert(0, str(source))
-    from plots import render
-    done = subprocess.run([sys.executable, "-m", "plots.movie", str(copy)], cwd=source, capture_output=True, text=True,
-                          check=False)
-    if done.returncode == 0:
-        assert (copy / "movie.mp4").read_bytes()[4:8] == b"ftyp", "no movie"
-    else:
-        assert not render.available()[0] or "can't be imported" in done.stderr, done.stderr
-    for path in (copy / "frames").iterdir():
-        path.unlink()
-    done = subprocess.run([sys.executable, "-m", "plots.movie", str(copy)], cwd=source, capture_output=True, text=True,
-                          check=False)
-    assert done.returncode == 1 and "has no stored frame" in done.stderr, done.stderr
-
-
 def check_teaser(source, folder, scratch):
     """The teaser of one run; of a scene that it knows no camera of, words."""
     out, other = scratch / "teaser.png", scratch / "other"
@@ -90,7 +69,8 @@ def check_refused(source, module, folder, scratch):
     good, rows = json.loads((copy / "run.json").read_text()), (copy / "steps.csv").read_text()
     faults = [({"status": "running"}, rows, "not finished"), ({"guarantee_kept": False}, rows, "the audit failed"),
               ({"scene": {**good["scene"], "name": "knot"}}, rows, "is a run of 'knot'"),
-              ({}, rows.replace("edge_edge_contacts", "pairs", 1), "has no column 'edge_edge_contacts'; it has: step"),
+              ({}, rows.replace("discrete_detections", "pairs", 1),
+               "has no column 'discrete_detections'; it has: step"),
               ({}, rows.splitlines()[0] + "\n", "holds no step yet"), ({}, None, "steps.csv is missing")]
     for changes, table, words in faults:
         (copy / "run.json").write_text(json.dumps({**good, **changes}))
@@ -176,7 +156,6 @@ if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as name:
         check_drawn(source_dir, scene_module, run_folder, Path(name))
         check_movie(source_dir, scene_module, run_folder, Path(name))
-        check_any_movie(source_dir, run_folder, Path(name))
         check_teaser(source_dir, run_folder, Path(name))
         check_refused(source_dir, scene_module, run_folder, Path(name))
         check_mixture(source_dir, run_folder)

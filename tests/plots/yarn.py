@@ -17,10 +17,9 @@ sys.path.insert(0, str(SOURCE))
 try:
     import numpy as np
 
-    from plots import render, yarn
-    from plots.movie import camera_of
+    from plots import camera, render, style, yarn
     from ogc_testbed.runs import Run, RunError
-    from plots.scene_figure import bodies_of
+    from plots.bodies import bodies_of
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
@@ -117,7 +116,8 @@ class Drawn(unittest.TestCase):
         cls.run_folder = Run(cls.folder)
 
     def picture(self, frame):
-        return render.picture(bodies_of(self.run_folder, frame), camera_of(self.run_folder)).astype(int)
+        seen = camera.of_ends(self.run_folder, (1280, 720))
+        return render.picture(bodies_of(self.run_folder, frame), seen, bar=False).astype(int)
 
     def test_a_frame_has_an_orientation_of_each_segment_and_a_changed_one_is_damaged(self):
         import h5py
@@ -142,7 +142,8 @@ class Drawn(unittest.TestCase):
         twisted = turned(frame.orientations.astype(float), np.linspace(0, 40 * np.pi, count))
         plain = self.picture(frame)
         other = self.picture(dataclasses.replace(frame, orientations=twisted))
-        seen, seen_then = (image.min(axis=2) < 250 for image in (plain, other))
+        ground = np.round(255 * np.array(style.rgb(style.GROUND)))
+        seen, seen_then = (np.abs(image - ground).max(axis=2) > 8 for image in (plain, other))
         self.assertGreater(seen.mean(), 0.03)
         self.assertLess(seen.mean(), 0.9)
         blue = plain[..., 2] - plain[..., 0] > 20  # of both plies

@@ -255,6 +255,79 @@ bool starts_parallel(const CcdCase& c) {
   return cross <= 1e-6 * product;
 }
 
+using Wide = std::array<double, 3>;
+using FourWide = std::array<Wide, 4>;
+
+Wide along(const Wide& a, double s, const Wide& b) { return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]}; }
+Wide less(const Wide& a, const Wide& b) { return along(a, -1, b); }
+double product(const Wide& a, const Wide& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Wide across(const Wide& a, const Wide& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// Returns the squared distance of a point and a segment.
+double from_segment(const Wide& p, const Wide& a, const Wide& b) {
+  const Wide e = less(b, a);
+  const double square = product(e, e);
+  const double s = square > 0 ? std::clamp(product(less(p, a), e) / square, 0.0, 1.0) : 0;
+  const Wide gap = less(less(p, a), along({}, s, e));
+  return product(gap, gap);
+}
+
+/// Returns the distance of the faces at the start [m], in double. Forms alone use it, so its rounding may at most cost
+/// a name.
+double start_gap(const CcdCase& c) {
+  FourWide x;
+  for (std::size_t k = 0; k < 4; ++k)
+    x[k] = {double{c.from[k].x} - c.from[0].x, double{c.from[k].y} - c.from[0].y, double{c.from[k].z} - c.from[0].z};
+  const bool edges = c.kind == CcdKind::edge_edge;
+  double least = std::min(from_segment(x[0], x[2], x[3]), from_segment(x[edges ? 1 : 0], x[edges ? 2 : 1], x[3]));
+  least = std::min(least, edges ? from_segment(x[2], x[0], x[1]) : from_segment(x[0], x[1], x[2]));
+  if (edges) least = std::min(least, from_segment(x[3], x[0], x[1]));
+  // The foot of the perpendicular: w = s p + t q + h n, within the triangle, or within both edges
+  const Wide p = edges ? less(x[1], x[0]) : less(x[2], x[1]), q = less(x[3], x[edges ? 2 : 1]),
+             w = less(x[edges ? 2 : 0], x[edges ? 0 : 1]), n = across(p, q);
+  const double square = product(n, n), s = product(across(w, q), n), t = (edges ? 1 : -1) * product(across(w, p), n);
+  if (square > 0 && s >= 0 && t >= 0 && (edges ? s <= square && t <= square : s + t <= square))
+    least = std::min(least, product(w, n) * product(w, n) / square);
+  return std::sqrt(least);
+}
+
+/// Returns the displacements relative to their mean [m].
+FourWide own_ways(const CcdCase& c) {
+  FourWide way;
+  Wide mean{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    way[k] = {double{c.to[k].x} - c.from[k].x, double{c.to[k].y} - c.from[k].y, double{c.to[k].z} - c.from[k].z};
+    mean = along(mean, 0.25, way[k]);
+  }
+  for (Wide& w : way) w = less(w, mean);
+  return way;
+}
+
+/// Returns S of the case (ccd_resolution) [m].
+double size_of(const CcdCase& c) {
+  double coordinate = 0, displacement = 0;
+  for (const Vec3f& x : c.from)
+    for (const double d : {double{x.x} - c.from[0].x, double{x.y} - c.from[0].y, double{x.z} - c.from[0].z})
+      coordinate = std::max(coordinate, std::abs(d));
+  for (const Wide& w : own_ways(c))
+    for (const double d : w) displacement = std::max(displacement, std::abs(d));
+  return coordinate + displacement;
+}
+
+/// Returns a time until which a kernel in double can tell the faces apart: their gap, less 2⁻³⁸ S for rounding, over
+/// the largest speeds of both.
+double surely_apart(const CcdCase& c) {
+  std::array<double, 2> speed{};
+  const FourWide way = own_ways(c);
+  for (std::size_t k = 0; k < 4; ++k) {
+    double& own = speed[is_first(c.kind, k) ? 0 : 1];
+    own = std::max(own, std::sqrt(product(way[k], way[k])));
+  }
+  return (start_gap(c) - 0x1p-38 * size_of(c)) / (speed[0] + speed[1]);
+}
+
 /// Makes the form that finds no impact in cases for which `skips` returns true.
 template <class Skips>
 WrongForm skipping(std::string name, std::string meaning, Skips skips) {
@@ -299,6 +372,20 @@ std::vector<WrongForm> ccd_forms() {
         skipping("edges_skipped_where_cross_product_below_" + std::string(text),
                  "edges never meet where ‖e × e'‖² is below an absolute " + std::string(text) + " m⁴",
                  [e = epsilon](const CcdCase& c) { return c.kind == CcdKind::edge_edge && parallelism(c).first < e; }));
+  forms.push_back(skipping("starts_nearer_than_1e-10_skipped", "faces that start nearer than 1e-10 m never meet",
+                           [](const CcdCase& c) { return start_gap(c) < 1e-10; }));
+  forms.push_back(skipping(
+      "starts_not_told_apart_skipped", "faces that rounding does not tell apart at the start never meet: fail open",
+      [](const CcdCase& c) { return start_gap(c) <= ccd_resolution * unit_roundoff * size_of(c); }));
+  forms.push_back(told("impacts_before_1e-10_skipped", "what meets before 1e-10 of the motion never meets",
+                       &Authority::ccd, [](const CcdIn& in, CcdTruth& truth) {
+                         for (std::size_t i = 0; i < truth.impact.size(); ++i) {
+                           // elsewhere a right time may be that early or not: the judge accepts both
+                           if (truth.early[i] >= 1e-10 || surely_apart(in.cases[i]) > 2e-10) continue;
+                           truth.early[i] = truth.impact[i] < 1e-10 ? 1 : 0;
+                           truth.impact[i] = std::numeric_limits<double>::infinity();
+                         }
+                       }));
   return forms;
 }
 

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "compare/files/bytes.hpp"
 #include "compare/files/frames/mesh_sequence.hpp"
 #include "compare/files/frames/natural_order.hpp"
 #include "compare/files/meshes/mesh_files.hpp"
@@ -17,6 +18,7 @@
 #include "experiments/program/audits/auditor.hpp"
 #include "experiments/program/mesh_input.hpp"
 #include "experiments/program/output.hpp"
+#include "experiments/program/python_program.hpp"
 
 namespace ogc::experiments {
 
@@ -80,8 +82,10 @@ void check_corners(const compare::Mesh& mesh, const std::string& name) {
 
 class SequenceSource : public AuditSource {
  public:
-  SequenceSource(std::unique_ptr<compare::MeshSequence> frames, std::size_t limit)
-      : frames_(std::move(frames)), limit_(limit) {}
+  /// `converted`: the folder that the frames are read from, if they were converted into it; else null.
+  SequenceSource(std::unique_ptr<compare::MeshSequence> frames, std::size_t limit,
+                 std::shared_ptr<const ScratchFolder> converted)
+      : converted_(std::move(converted)), frames_(std::move(frames)), limit_(limit) {}
   std::size_t size() const override { return frames_->size(); }
   std::string name(std::size_t i) const override { return frames_->name(i); }
   AuditedState next() override {
@@ -124,6 +128,7 @@ class SequenceSource : public AuditSource {
     loose_edges_ = mesh.loose_edges;
   }
 
+  std::shared_ptr<const ScratchFolder> converted_;
   std::unique_ptr<compare::MeshSequence> frames_;
   std::size_t limit_, next_ = 0;
   std::shared_ptr<const compare::Topology> topology_;
@@ -212,13 +217,30 @@ std::unique_ptr<compare::MeshSequence> open_frames(const AuditRequest& request) 
       std::move(files), [options = request.meshes](const fs::path& file) { return compare::load_mesh(file, options); });
 }
 
+/// If the only path is a USD file, converts its frames to arrays in a new folder and makes the request name them. Else
+/// returns null.
+std::shared_ptr<const ScratchFolder> convert_usd(AuditRequest& request) {
+  const std::string first = request.paths.front(), extension = extension_of(first);
+  const bool is_usd = extension == ".usd" || extension == ".usda" || extension == ".usdc" || extension == ".usdz";
+  if (request.paths.size() != 1 || !is_usd) return nullptr;
+  compare::expect_regular_file(first);
+  auto folder = std::make_shared<const ScratchFolder>();
+  const std::string arrays = (folder->path() / "frames.npz").string();
+  if (run_python("plots.usd", {first, "--out", arrays}) != 0)
+    throw InputError(first + ": could not be converted; the reason stands above");
+  request.paths = {arrays};
+  return folder;
+}
+
 }  // namespace
 
-std::unique_ptr<AuditSource> open_audit(const AuditRequest& request) {
+std::unique_ptr<AuditSource> open_audit(const AuditRequest& given) {
+  AuditRequest request = given;
+  const std::shared_ptr<const ScratchFolder> converted = convert_usd(request);
   const bool is_run = request.paths.size() == 1 &&
                       type_of(fs::path(request.paths.front()) / "run.json") == fs::file_type::regular;
   if (is_run && request.topology.empty()) return std::make_unique<RunSource>(request.paths.front(), request.limit);
-  auto source = std::make_unique<SequenceSource>(open_frames(request), request.limit);
+  auto source = std::make_unique<SequenceSource>(open_frames(request), request.limit, converted);
   if (source->size() == 0) throw InputError(request.paths.front() + ": holds no frame; there is nothing to audit");
   return source;
 }

@@ -18,6 +18,7 @@
 #include "experiments/program/interrupt.hpp"
 #include "experiments/program/option_checks.hpp"
 #include "experiments/program/own_process.hpp"
+#include "experiments/program/progress.hpp"
 #include "experiments/program/runs/ablation_grid.hpp"
 #include "experiments/program/runs/ablation_table.hpp"
 #include "experiments/program/runs/resume.hpp"
@@ -429,8 +430,15 @@ void ablate(const AblateOptions& options, const CLI::App& command, CommandContex
     write_results(base.out, axes, results);
     return results;
   };
+  const auto missing = std::ranges::count_if(planned, [](const PlannedRun& run) { return !is_done(run.options.out); });
+  Progress progress(0, missing, "run");
+  std::int64_t made_runs = 0;
   for (std::size_t i = 0; i < planned.size(); ++i) {
     if (options.only != every_run && options.only != static_cast<std::int64_t>(i)) continue;
+    if (missing > 1 && options.only == every_run && !is_done(planned[i].options.out)) {
+      progress.show(made_runs++, "");  // each run has a bar of its own
+      progress.end();
+    }
     const std::string name = planned[i].options.out.substr(base.out.size() + 1);
     const bool is_stopped = interrupted() && !is_done(planned[i].options.out);
     const Made made = is_stopped ? Made::interrupted : make(planned[i], counted_run(name, i, planned.size()), context);

@@ -1,7 +1,9 @@
 // `ogc bench`: runs Google Benchmark over stages, steps and parts of steps, writes its JSON, and compares two such
 // files by rank.
 #include <algorithm>
+#include <array>
 #include <optional>
+#include <sstream>
 
 #include <benchmark/benchmark.h>
 #include <tbb/task_arena.h>
@@ -13,8 +15,10 @@
 #include "experiments/bench/results.hpp"
 #include "experiments/bench/scene_benchmarks.hpp"
 #include "experiments/bench/stage_benchmarks.hpp"
+#include "experiments/bench/worlds_benchmarks.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/option_checks.hpp"
+#include "experiments/program/progress.hpp"
 #include "experiments/program/version.hpp"
 #include "experiments/scenes/registry.hpp"
 
@@ -35,6 +39,7 @@ struct CommandOptions {
 /// Prints one line (median, spread, counters) after the last repetition of a benchmark.
 class LineReporter : public benchmark::BenchmarkReporter {
  public:
+  explicit LineReporter(std::size_t count) : progress_(0, static_cast<std::int64_t>(count), "benchmark") {}
   bool ReportContext(const Context&) override { return true; }
 
   void ReportRuns(const std::vector<Run>& runs) override {
@@ -51,6 +56,8 @@ class LineReporter : public benchmark::BenchmarkReporter {
     std::ranges::sort(times);
     std::string counters;
     for (const auto& [name, counter] : last->counters) counters += "  " + name + " " + number(counter.value);
+    progress_.show(++done_, "");
+    progress_.end();
     print_result(table({{last->run_name.function_name, duration(median(times)),
                          duration(times.front()) + " to " + duration(times.back()),
                          std::to_string(times.size()) + " repetitions" + counters}},
@@ -58,7 +65,29 @@ class LineReporter : public benchmark::BenchmarkReporter {
   }
 
   std::vector<std::string> failed;
+
+ private:
+  Progress progress_;
+  std::int64_t done_ = 0;
 };
+
+/// Counts the benchmarks of a filter, and prints nothing.
+std::size_t count_benchmarks(const std::string& filter) {
+  std::string program = "ogc", list = "--benchmark_list_tests=true", run = "--benchmark_list_tests=false";
+  const auto set = [&](std::string& flag) {
+    std::array<char*, 3> words{program.data(), flag.data(), nullptr};
+    int count = 2;
+    benchmark::Initialize(&count, words.data());
+  };
+  set(list);
+  std::ostringstream nowhere;
+  benchmark::ConsoleReporter reporter;
+  reporter.SetOutputStream(&nowhere);
+  reporter.SetErrorStream(&nowhere);
+  const std::size_t count = benchmark::RunSpecifiedBenchmarks(&reporter, nullptr, filter);
+  set(run);
+  return count;
+}
 
 std::vector<fast::Backend> backends_of(const std::string& name) {
   if (name == "cpu") return {fast::Backend::cpu};
@@ -94,9 +123,10 @@ void initialize(const CommandOptions& options) {
 void run_benchmarks(const CommandOptions& options) {
   register_stage_benchmarks(options.bench);
   register_scene_benchmarks(options.bench);
+  register_worlds_benchmarks(options.bench);
+  LineReporter reporter(options.list ? 0 : count_benchmarks(options.filter));
   initialize(options);
   say_context(options);
-  LineReporter reporter;
   const std::size_t found = benchmark::RunSpecifiedBenchmarks(&reporter, nullptr, options.filter);
   if (found == 0)
     throw compare::InputError("--filter " + options.filter + " fits no benchmark; `ogc bench --list` prints all names");
@@ -118,6 +148,7 @@ std::vector<std::string> words_of(const CommandOptions& options) {
                                  std::to_string(options.bench.steps),
                                  "--repetitions",
                                  std::to_string(options.bench.repetitions)};
+  if (options.bench.worlds > 0) words.insert(words.end(), {"--worlds", std::to_string(options.bench.worlds)});
   for (const std::string& state : options.bench.states) words.insert(words.end(), {"--from-state", state});
   if (options.threads > 0) words.insert(words.end(), {"--threads", std::to_string(options.threads)});
   return words;
@@ -180,6 +211,10 @@ void add_bench_command(CLI::App& app, CommandContext& context) {
       ->take_all()
       ->type_size(1)
       ->expected(1);
+  command
+      ->add_option("--worlds", options->bench.worlds,
+                   "Also measures so many worlds side by side: worlds/N/small_cloth, worlds/N/SCENE/SCALE")
+      ->check(whole_number(1, most_worlds));
   command->add_option("--steps", options->bench.steps, "A repetition measures a window of so many steps")
       ->check(whole_number(1, most_counted))
       ->capture_default_str();
@@ -207,6 +242,7 @@ void add_bench_command(CLI::App& app, CommandContext& context) {
       "  ogc bench --filter 'step/twist' --scale smoke\n"
       "  ogc bench --filter 'stage/.*/cpu' --json before.json\n"
       "  ogc bench --filter 'stage/.*/cpu' --json after.json --against before.json\n"
+      "  ogc bench --worlds 1024 --filter small_cloth --backend cuda\n"
       "  ogc bench --from-state runs/twist/frames/frame_001200.h5 --steps 64 --backend cuda\n\n"
       "Names: stage/STAGE/BACKEND (a batch of the judge's cases, on a device with its transfers), "
       "step/SCENE/SCALE/BACKEND (resident, as in steps.csv),\n"

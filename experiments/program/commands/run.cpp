@@ -1,4 +1,6 @@
 // `ogc run`: turns options into a RunRequest, and the result into an exit status.
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -9,7 +11,9 @@
 #include "experiments/program/commands.hpp"
 #include "experiments/program/interrupt.hpp"
 #include "experiments/program/option_checks.hpp"
+#include "experiments/program/python_program.hpp"
 #include "experiments/program/runs/resume.hpp"
+#include "experiments/program/runs/sheet.hpp"
 #include "experiments/program/runs/worlds_run.hpp"
 
 namespace ogc::experiments {
@@ -25,7 +29,8 @@ std::string introduction(const RunRequest& request) {
 }
 
 /// RunOptions that are allowed with --resume, because they change no bit of the results.
-constexpr std::array<std::string_view, 4> free_options{"--resume", "--threads", "--checkpoint", "--json"};
+constexpr std::array<std::string_view, 6> free_options{"--resume", "--threads", "--checkpoint",
+                                                       "--json",   "--view",    "--view-png"};
 
 ResumedRun resumed(const RunOptions& options, const std::string& folder, const CLI::App& command) {
   std::string given;
@@ -56,20 +61,53 @@ int make_worlds(const RunOptions& options, const CommandContext& context) {
   return summary.was_interrupted ? exit_interrupted : static_cast<int>(exit_success);
 }
 
-int make_run(const RunOptions& options, const std::string& resume, const CLI::App& command,
+/// How a run is shown while it goes on: in a window, in a picture, or not at all.
+struct LiveView {
+  bool window = false;
+  std::string png;
+  bool any() const { return window || !png.empty(); }
+  std::vector<std::string> words(const std::string& target) const {
+    std::vector<std::string> result{target, "--follow"};
+    if (!png.empty()) result.insert(result.end(), {"--png", png});
+    return result;
+  }
+};
+
+/// Starts the viewer, which follows the run's folder: the run never waits for a picture.
+void start_view(const LiveView& view, const std::filesystem::path& folder, const compare::Mesh& mesh) {
+  ScratchFolder sheet;
+  write_run_sheet(sheet.path(), folder, mesh);
+  std::vector<std::string> words = view.words(sheet.path().string());
+  words.insert(words.end(), {"--process", std::to_string(getpid())});
+  start_python("plots.view", words);
+  sheet.release();
+}
+
+int make_run(const RunOptions& options, const std::string& resume, const LiveView& view, const CLI::App& command,
              const CommandContext& context) {
   const auto limit = limited_threads(options.threads);
   if (options.scene.empty() && resume.empty())
     throw compare::InputError("run needs a scene (" + scene_names() +
                               "), a scene file, a mesh file, or --resume RUN; see ogc run --help");
-  if (resume.empty() && options.worlds > 0) return make_worlds(options, context);
+  if (resume.empty() && options.worlds > 0) {
+    if (view.any()) throw compare::InputError("--view shows a run of one world; leave it or --worlds out");
+    return make_worlds(options, context);
+  }
   ResumedRun run = resume.empty() ? ResumedRun{options, request_of(options, context)}
                                   : resumed(options, resume, command);
+  const std::filesystem::path folder = run.request.folder;
+  if (view.any()) {
+    std::vector<std::string> check = view.words(folder.string());
+    check.emplace_back("--check");
+    if (const int status = run_python("plots.view", check); status != 0) return status;
+  }
+  const compare::Mesh mesh = view.any() ? run.request.scene.mesh : compare::Mesh{};
   catch_interrupts();
   const std::string text = introduction(run.request);
   compare::Contestant contestant = contestant_of(run.options, run.request.meetings);
   RunSession session(std::move(run.request), std::move(contestant));
   log_line(text);
+  if (view.any()) start_view(view, folder, mesh);
   const RunSummary summary = session.run();
   if (context.json) {
     print_result(to_json(summary));
@@ -95,8 +133,14 @@ void add_run_command(CLI::App& app, CommandContext& context) {
       ->add_option("--worlds", options->worlds,
                    "So many copies run side by side and never see each other; with --jitter, copy w begins with the "
                    "offsets of seed + w. A copy that fails is named, and the others go on")
-      ->check(whole_number(1, 1 << 20));
+      ->check(whole_number(1, most_worlds));
   add_threads_option(*command, options->threads);
+  auto view = std::make_shared<LiveView>();
+  command->add_flag(
+      "--view", view->window,
+      "A window shows the newest frame while the run goes on (ogc view --help); the run never waits for it");
+  command->add_option("--view-png", view->png, "This file gets a picture of the newest frame again and again")
+      ->excludes("--view");
   command->add_flag("--json", context.json, "Print the summary as JSON on standard output");
   command->footer(
       settings_help() +
@@ -126,8 +170,9 @@ void add_run_command(CLI::App& app, CommandContext& context) {
       "Frames are packed and written beside the simulation, which waits where the disk is too slow. The\n"
       "summary and run.json say where the time went: start, steps, waiting for audits, for the disk.\n"
       "Exit status 1: a penetration, a broken bound, a number that is not finite.");
-  command->callback(
-      [options, resume, command, &context] { context.status = make_run(*options, *resume, *command, context); });
+  command->callback([options, resume, view, command, &context] {
+    context.status = make_run(*options, *resume, *view, *command, context);
+  });
 }
 
 }  // namespace ogc::experiments

@@ -1,8 +1,9 @@
 """OGC Testbed: Offset Geometric Contact on arrays.
 
 Contact sets and bounds of a mesh (find_contacts), cloth simulations (Scene), a solver's moves kept apart (Guard), exact
-audits of anybody's frames (audit), kernels before the judge (kernel, judge), and runs of the program (Run). Arrays are
-float32 and int32 in C order, from any library with DLPack; nothing is cast or copied silently.
+audits of anybody's frames (audit), kernels before the judge (kernel, judge), runs of the program (Run), and pages that
+show them (view). Arrays are float32 and int32 in C order, from any library with DLPack; nothing is cast or copied
+silently.
 Names are loaded at their first use, so that the import takes milliseconds.
 """
 
@@ -17,6 +18,7 @@ _MODULES = {
     "judging": ("judge",),
     "kernels": ("kernel",),
     "meshes": ("from_mesh", "load"),
+    "page": ("view",),
     "runs": ("Run", "RunError"),
 }
 _MODULE_OF = {name: module for module, names in _MODULES.items() for name in names}

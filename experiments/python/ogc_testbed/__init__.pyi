@@ -20,6 +20,7 @@ from ._fast import (
 from .judging import judge as judge
 from .kernels import kernel as kernel
 from .meshes import from_mesh as from_mesh, load as load
+from .page import view as view
 from .runs import Run as Run, RunError as RunError
 
 __version__: str

@@ -95,7 +95,7 @@ def judge(function, stage=None, cases=100_000, seed=1, program=None, time_limit=
         done = subprocess.run(list(map(str, command)), env=environment, capture_output=True, text=True, check=False)
     if not done.stdout.strip():
         said = (done.stderr.strip().splitlines() or [f"exit status {done.returncode}"])[-1]
-        raise (ValueError if done.returncode == 2 else RuntimeError)(said.removeprefix("ogc: "))
+        raise (ValueError if done.returncode == 2 else RuntimeError)(said.removeprefix(f"{Path(program).name}: "))
     return verdict_of(json.loads(done.stdout), done.returncode, done.stderr)
 
 

@@ -73,12 +73,7 @@ class Run:
         """Returns the scene's bodies as in run.json, each with `triangles` [n, 3] numbered from the body's first
         vertex. A rod also has `segments` [n, 2], numbered in the same way, and `first_segment`, the index of its first
         orientation."""
-        path = self.folder / "trajectory.vtkhdf"
-        if not path.is_file():
-            raise RunError(f"{path} is missing: the run is not finished; assemble it with: ogc export {self.folder}")
-        with _opened(path) as file:
-            triangles = file["VTKHDF/Polygons/Connectivity"][:].reshape(-1, 3)
-            edges = file["VTKHDF/Lines/Connectivity"][:].reshape(-1, 2)
+        triangles, edges = self.topology
         result, segment_count = [], 0
         for body in self.manifest["scene"]["bodies"]:
             first, vertex = body["first_triangle"], body["first_vertex"]
@@ -88,6 +83,23 @@ class Run:
                 result[-1].update(segments=own - vertex, first_segment=segment_count)
                 segment_count += len(own)
         return result
+
+    @cached_property
+    def topology(self):
+        """Returns triangles [n, 3] and loose edges [m, 2] of all bodies, numbered in the run's vertices."""
+        path = self.folder / "trajectory.vtkhdf"
+        if not path.is_file():
+            raise RunError(f"{path} is missing: the run is not finished; assemble it with: ogc export {self.folder}")
+        with _opened(path) as file:
+            return (file["VTKHDF/Polygons/Connectivity"][:].reshape(-1, 3),
+                    file["VTKHDF/Lines/Connectivity"][:].reshape(-1, 2))
+
+    def view(self, **options):
+        """Shows the run in a notebook; `.save("view.html")` of the result writes the page, which opens offline in any
+        browser. Options are those of ogc_testbed.page.Page."""
+        from ogc_testbed.motion import motion_of_run
+        from ogc_testbed.page import Page
+        return Page(motion_of_run(self, options.pop("every", 1)), **options)
 
     @cached_property
     def start_positions(self):

@@ -15,6 +15,7 @@ import resource
 import signal
 import struct
 import sys
+import threading
 import time
 import traceback
 import types
@@ -41,6 +42,21 @@ def end_if_copy():
     """Ends this process if a kernel has forked it: the answer is the parent's."""
     if os.getpid() != WORKER:
         os._exit(0)
+
+
+def end_with_parent():
+    """Makes this process, and all that kernels have started, end soon after `ogc` was killed. The end of the socket
+    would tell, but only between two questions; this also ends a kernel that never returns."""
+    parent = os.getppid()
+
+    def look():
+        while os.getppid() == parent:
+            time.sleep(0.2)
+        if os.getpgrp() == os.getpid():
+            os.killpg(0, signal.SIGKILL)
+        os._exit(1)
+
+    threading.Thread(target=look, daemon=True).start()
 
 
 # ---- the socket
@@ -436,6 +452,7 @@ def main():
     sys.stdout.reconfigure(line_buffering=True)
     fcntl.fcntl(SOCKET, fcntl.F_SETFD, fcntl.FD_CLOEXEC)
     os.register_at_fork(after_in_child=lambda: os.close(SOCKET))
+    end_with_parent()
     layout = json.loads(bytes(receive()))
     try:
         try:

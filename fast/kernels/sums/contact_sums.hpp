@@ -63,8 +63,8 @@ struct SumContacts {
     const auto nothing = part(
         0, [](int k) { return k; }, [](int, ContactSum&) {});
     const ContactSum sum = team.template sum<ContactSum>(
-        nothing, part_of<PairKind::vertex_facet>(row.begin, row.vertex_facet),
-        part_of<PairKind::edge_edge>(row.begin + row.vertex_facet, row.count - row.vertex_facet));
+        nothing, part_of<PairKind::vertex_facet>(row.vertex_facet.begin, row.vertex_facet.count),
+        part_of<PairKind::edge_edge>(row.edge_edge.begin, row.edge_edge.count));
     if (!team.leader()) return;
     if (force != nullptr) force[v] = sum.all.force;
     if (friction != nullptr) friction[v] = sum.friction;
@@ -83,7 +83,7 @@ struct SumContacts {
     ContactIncidence contact;
     ResolveContact here = resolve;
     here.stream = &contact;
-    here(0, incidence);
+    here(0, incidence, here.record(incidence));
     ContactSum sum{contact_term<pairs>(at, activation, OneItem<ContactIncidence>{contact}), {}};
     if (friction != nullptr && contact.friction > 0) sum.friction = friction_alone<pairs>(at, activation, contact);
     return sum;

@@ -103,17 +103,14 @@ struct ContactParts {
   Activation activation;
 
   /// `vertex_facet` returns the part of the vertex–facet contacts, `edge_edge` the part of the edge–edge contacts.
-  /// Edge–edge contacts come second in the row.
-  OGC_HD auto vertex_facet() const { return range<PairKind::vertex_facet>(row.begin, row.vertex_facet); }
-  OGC_HD auto edge_edge() const {
-    return range<PairKind::edge_edge>(row.begin + row.vertex_facet, row.count - row.vertex_facet);
-  }
+  OGC_HD auto vertex_facet() const { return range<PairKind::vertex_facet>(row.vertex_facet); }
+  OGC_HD auto edge_edge() const { return range<PairKind::edge_edge>(row.edge_edge); }
 
  private:
   template <PairKind pairs>
-  OGC_HD auto range(int begin, int count) const {
+  OGC_HD auto range(const Row& own) const {
     return pooled_part(
-        begin, count, [contacts = view.contacts](int i) { return contacts[i]; },
+        own.begin, own.count, [contacts = view.contacts](int i) { return contacts[i]; },
         [seen = &view, activation = activation](const ContactIncidence& contact) {
           return contact_term<pairs>(*seen, activation, OneItem<ContactIncidence>{contact});
         });

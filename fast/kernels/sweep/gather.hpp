@@ -30,7 +30,10 @@ struct Gather {
     Activation activation;
     if constexpr (std::is_same_v<Activation, AnyActivation>) activation.activation = view.activation;
     const ContactParts<Activation> contacts{view, view.contact_rows[slot], activation};
-    team.prefetch(view.contacts + contacts.row.begin, contacts.row.count * static_cast<int>(sizeof(ContactIncidence)));
+    const auto prefetch_row = [&](const Row& row) {
+      team.prefetch(view.contacts + row.begin, row.count * static_cast<int>(sizeof(ContactIncidence)));
+    };
+    prefetch_row(contacts.row.vertex_facet), prefetch_row(contacts.row.edge_edge);
     const OwnVertex at{own, own - view.start[vertex.vertex]};
     return total(team, Parts::part_of(view, slot, vertex, at)..., contacts.vertex_facet(), contacts.edge_edge());
   }

@@ -165,7 +165,7 @@ def draw(folders, panels, title, out):
                 continue
             ablation.draw_metric(axes, name, *metrics[name], has_names=True)
             if row == 0:
-                axes.set_title(f"{scene}\n{axes.get_title()}")
+                axes.set_title(f"{scene}\n{axes.get_title('left')}")
     words = f"{title}\npoint: median of the runs; line: their range; shaded: the first point's"
     lines = (textwrap.fill(line, int(LETTERS * width)) for line in words.splitlines())
     figure.suptitle("\n".join(lines), fontsize=9)

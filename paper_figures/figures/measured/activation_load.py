@@ -32,6 +32,8 @@ SEEDS = {"smoke": 1, "small": 1}  # solved to convergence, so one seed suffices
 JITTER = 1e-6  # [m]
 OTHERS = ("quadratic", "cubic")
 WAYS = ("contact stiffness", "curvature at the load", "smallest distance")
+ALT = ("A panel for each load with curves: iterations of the last step over the smallest distance, for IPC's "
+       "logarithm at several stiffnesses, and stars for OGC's activation.")
 
 
 @dataclass(frozen=True)
@@ -193,7 +195,7 @@ def draw(rows, out):
         axes.set(xscale="log", yscale="log", xlabel="smallest distance [mm]", ylabel="iterations of the last step",
                  title=f"k_c = {stiffness:g} N/m, load {float(load):.2g} k_c r; numbers: κ")
         axes.legend(fontsize=6)
-    style.save(figure, out)
+    style.save(figure, out, "OGC's activation and IPC's under three loads", ALT, "rows: activation_load_small.csv")
 
 
 def main():

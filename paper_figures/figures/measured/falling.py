@@ -30,6 +30,8 @@ LEFT = array("d", (-0.025, 0, 0, -0.005, 0, 0, -0.015, 0.015, 0))  # as in Fig. 
 POLICIES = {"ball": (), "ball, one round": ("--set", "guess_rounds=1"), "planes": ("--set", "bounds=planes"),
             "planes, nothing slides": ("--set", "bounds=dat"), "off": ("--set", "bounds=off"),
             "ipc": ("--solver", "ipc")}
+ALT = ("Plots over the speed of a fall, for several bounds: the way that is made over that of a free fall, "
+       "and the detections a step.")
 
 
 def mirrored(points):
@@ -123,7 +125,7 @@ def draw(rows, out):
         grid[1, column].set_yscale("log")
     figure.suptitle(f"falling for {STEPS * TIME_STEP:g} s, {APART * 1e3:g} mm apart, r = {RADIUS * 1e3:g} mm",
                     fontsize=9)
-    style.save(figure, out)
+    style.save(figure, out, "How far bounds hold back what falls fast", ALT, "rows: falling.csv")
 
 
 def main():

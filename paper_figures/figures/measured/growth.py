@@ -18,6 +18,9 @@ from paper_figures.workflow.evidence import run_at
 from paper_figures.workflow.jobs import MEMORY, RunFailure
 
 FIRST = 5
+TITLE = "Time a step grows in proportion to the number of vertices"
+ALT = ("Plots of the median time a step over the number of vertices of fifty layers, on a logarithmic scale in both "
+       "directions, with the fitted powers; of the contacts a vertex; and of the time over the number of threads.")
 
 
 def row_of(name, run, memory):
@@ -117,9 +120,9 @@ def draw(rows, out):
     for axes in panels:
         if axes.has_data():
             axes.legend(fontsize=7)
-    figure.suptitle("\n".join([*in_words(rows), "commit " + ", ".join(sorted({row["commit"] for row in rows}))]),
-                    fontsize=8)
-    style.save(figure, out)
+    lines = in_words(rows)
+    figure.suptitle("\n".join([TITLE, *lines]), fontsize=8)
+    style.save(figure, out, TITLE, f"{ALT} {'; '.join(lines)}.", ", ".join(sorted({row["commit"] for row in rows})))
 
 
 def main():

@@ -16,10 +16,10 @@ from paper_figures.figures.table1 import contacts, times
 from paper_figures.workflow import commands
 from paper_figures.workflow.jobs import Limit, RunFailure, parser_of_figure
 from paper_figures.workflow.runs import provenance, write_table
-from plots import render, style
-from plots.movie import camera_of
-from ogc_testbed.runs import Run, RunError, commits_in_words
-from plots.scene_figure import bodies_of
+from plots import camera, render, style
+from plots.scene_figure import MOVIE, source_of
+from ogc_testbed.runs import Run, RunError
+from plots.bodies import bodies_of
 
 NAME = "mat_volumes"
 ROWS = {commands.MAT_VOLUMES: "volume", commands.MAT: "balls", commands.MAT_PLANES: "planes"}
@@ -27,6 +27,8 @@ SHARES = (25, 50, 75, 100)  # of the run [%]
 EARLY = 2.75  # [s]: before this time few vertices are inside
 FROM_AUDIT = {"most vertices inside [1]": "most_vertices_inside", "deepest [m]": "deepest_m",
               "most edges through [1]": "most_edges_meeting_volumes"}
+ALT = ("Plots of the time a step and of vertices inside their own body over time, and renderings of the "
+       "twisted mat as a volume, with balls and with planes at several moments.")
 
 
 def runs_of(options):
@@ -90,13 +92,13 @@ def draw(runs, out):
             frame = run.frame(frame_at(run, share))
             axes.set_title(f"{kind}, {frame.time:.3g} s")
             if usable:
-                axes.imshow(render.picture(bodies_of(run, frame), camera_of(run)))
+                axes.imshow(render.picture(bodies_of(run, frame), camera.of_ends(run, MOVIE)))
             else:
                 axes.text(0.5, 0.5, reason, ha="center", va="center", wrap=True, transform=axes.transAxes)
     about = runs[commands.MAT].manifest
-    figure.suptitle(f"mat_twist ({about['scale']}), {about['device']}, {commits_in_words(list(runs.values()))}",
-                    fontsize=8)
-    style.save(figure, out)
+    title = "A mat that is a volume lets itself be entered where bounds hold it apart"
+    figure.suptitle(f"{title} ({about['scale']}, {about['device']})", fontsize=9)
+    style.save(figure, out, title, ALT, source_of(list(runs.values())))
 
 
 def arguments():

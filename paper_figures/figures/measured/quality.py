@@ -25,6 +25,9 @@ COUNTS = ("few", "the scene's", "most")
 WHY_NOT = {"fifty_layers": "too large for Newton's method", commands.STRETCH: "no moving planes for rods"}
 OTHER_STATE, ABSENT, FAILED = "asked of another state", "not run", "Newton's method did not converge"
 LAGS = "what is prescribed lags"
+ALT = ("A panel for each scene with curves of the residual of one step over its time, for balls and for planes from "
+       "three states of the run; dots mark the scene's number of iterations. Below, bars with the time until a tenth "
+       "and a hundredth of the force is left.")
 
 
 def finished(folder):
@@ -213,9 +216,8 @@ def picture(steps, scale):
                 for share, dash in zip(commands.QUALITY_SHARES, style.DASHES)]
     figure.legend(handles=entries, loc="outside lower center", ncols=len(entries), fontsize=7)
     about = origin(steps[0].run)
-    commits = ", ".join(sorted({origin(step.run)["commit"] for step in steps}))
-    figure.suptitle(f"Residual of a step against its time; dots: the scene's iterations. {scale}, {about['backend']}, "
-                    f"{about['device']}, commit {commits}", fontsize=8)
+    figure.suptitle(f"Residual of a step against its time; dots: the scene's iterations ({scale}, {about['backend']}, "
+                    f"{about['device']})", fontsize=9)
     return figure
 
 
@@ -237,7 +239,9 @@ def main():
         print(options.folder / name)
     if not options.no_picture:
         from plots import style
-        style.save(picture(steps, options.scale), options.folder / "quality.png")
+        commits = ", ".join(sorted({origin(step.run)["commit"] for step in steps}))
+        style.save(picture(steps, options.scale), options.folder / "quality.png",
+                   "Residual of a step against its time, by bounds", ALT, commits)
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ released cloth from the cloth that hangs untwisted. Steps whose meetings were no
 """
 
 import argparse
+import csv
 import sys
 from itertools import chain
 from pathlib import Path
@@ -18,22 +19,36 @@ from paper_figures.workflow import commands
 from paper_figures.workflow.first_meeting import FirstMeeting
 from paper_figures.workflow.jobs import Limit, RunFailure
 from paper_figures.workflow.runs import provenance, write_table
-from plots import render, style
-from ogc_testbed.runs import Run, RunError, commits_in_words
-from plots.scene_figure import bodies_of, draw_movie
+from plots import render, style  # noqa: F401  tests replace render.available
+from plots.camera import around, densest, fitted, view_of
+from plots.render import View
+from plots.scene_figure import audit_in_words, draw_movie, moment, show, source_of, times
+from ogc_testbed.runs import Run, RunError
 
 FIGURE = {commands.STRETCH: "fig15", commands.YARN_TWIST: "fig16"}
 PICTURES = {commands.STRETCH: "fig15.png", commands.YARN_TWIST: "fig16.png"}
 JOBS = {commands.STRETCH: commands.yarn_stretched, commands.YARN_TWIST: commands.yarn_twisted}
-KINDS = {"ogc": "OGC", "baseline": "baseline"}
-SHOWN = (0, 1 / 3, 2 / 3, 1)  # as parts of the run
-# Position of the eye, and upward direction: from above, pulled from left to right; from the front, rotated about the
-# vertical.
-# vertical.
-VIEWS = {commands.STRETCH: ((0, 1, 0), (1, 0, 0)), commands.YARN_TWIST: ((0.25, 0.1, 1), (0, 1, 0))}
+KINDS = {"ogc": "OGC", "baseline": "penalty"}
+# Moments that are shown, as parts of the run, and of the one after it in which the cloth is let go.
+SHOWN = {commands.STRETCH: (0, 0.3, 0.7, 1), commands.YARN_TWIST: (0, 0.36, 1)}
+LET_GO = (0.2, 1)
 AT_REST = 0.01  # m/s: a cloth with a smaller root mean square speed is at rest
-MARGIN, ANGLE = 1.08, 30  # margin of a picture around the yarn; PyVista's angle of view [degrees]
-SIZE = {commands.STRETCH: (640, 480), commands.YARN_TWIST: (640, 720)}
+FALLEN = 2.0  # m: what is farther than this from the middle has come off and is not waited for
+SIZE = {commands.STRETCH: (800, 400), commands.YARN_TWIST: (560, 720)}
+NEAR_SIZE, NEAR_REACH = (960, 480), 0.05
+NEAR_VIEW = {commands.STRETCH: View((0.25, 1.0, 0.0), up=(1, 0, 0)), commands.YARN_TWIST: View((0.25, 0.1, 1.0))}
+PAPER_MS = {commands.STRETCH: "0.23 / 0.30", commands.YARN_TWIST: "0.25 / 0.33"}
+TITLES = {commands.STRETCH: "Fig. 15. Pulled apart, the knit holds with OGC and unravels with a penalty force",
+          commands.YARN_TWIST: "Fig. 16. Twisted five turns and let go, the knit stays a knit with OGC and tangles "
+                               "with a penalty force"}
+ALTS = {commands.STRETCH: "Renderings of a knitted cloth of one yarn that is pulled to the left and right. With OGC "
+                          "its loops become long and narrow and hold. With the penalty force threads pass through one "
+                          "another and the cloth comes apart. Close views show the loops of both, a plot the tension "
+                          "over time, and a table the number of pull-throughs.",
+        commands.YARN_TWIST: "Renderings of a hanging knitted cloth of one yarn whose lower edge is turned five times "
+                             "and then let go. With OGC it becomes a rope and, let go, hangs down as one, unbroken. "
+                             "With the penalty force threads pass through one another, tangle, and the cloth comes "
+                             "apart. Close views, a plot of the tension, and a table of pull-throughs."}
 
 
 def runs_of(options):
@@ -179,31 +194,37 @@ def table(runs, how_far):
     return rows
 
 
-def camera_of(scene, points, size):
-    """Returns (eye, target, up) of a camera for which all `points` fill the picture."""
-    back, up = (np.array(v, float) / np.linalg.norm(v) for v in VIEWS[scene])
-    right = np.cross(up, back) / np.linalg.norm(np.cross(up, back))
-    axes = np.stack([right, np.cross(back, right), back])
-    seen = points.astype(float) @ axes.T
-    low, high = seen.min(axis=0), seen.max(axis=0)
-    half = np.max((high - low)[:2] / 2 * MARGIN * np.array([size[1] / size[0], 1]))
-    target = (low + high) / 2
-    eye = target + np.array([0, 0, half / np.tan(np.radians(ANGLE / 2)) + (high - low)[2] / 2])
-    return tuple(eye @ axes), tuple(target @ axes), tuple(up)
+def moments(scene, runs, kind):
+    """Returns [(run, frame)] of the pictures of a kind: of its shown run, and of the cloth that is let go, whose frames
+    are enough."""
+    run = runs[main_runs(scene)[kind]]
+    found = [(run, run.frame_at_step(round(share * run.column("step")[-1]))) for share in SHOWN[scene]]
+    released = sorted((run.folder.parent / f"{kind}_released/frames").glob("frame_*.h5"))
+    steps = [int(path.stem.removeprefix("frame_")) for path in released]
+    for share in LET_GO if steps else ():
+        wanted = run.column("step")[-1] + share * (steps[-1] - run.column("step")[-1])
+        found.append((run, run.frame(released[int(np.argmin([abs(step - wanted) for step in steps]))])))
+    return found
 
 
-def draw_pictures(figure, places, scene, run, words):
-    usable, reason = render.available()
-    for share, place in zip(SHOWN, places):
-        axes = figure.add_subplot(place)
-        axes.axis("off")
-        frame = run.frame_at_step(round(share * run.column("step")[-1]))
-        axes.set_title(f"{words}, t = {frame.time:.3g} s")
-        if usable:
-            camera = camera_of(scene, frame.positions, SIZE[scene])
-            axes.imshow(render.picture(bodies_of(run, frame), camera, SIZE[scene]))
-        else:
-            axes.text(0.5, 0.5, reason, ha="center", va="center", wrap=True, transform=axes.transAxes)
+def draw_pictures(axes, scene, found, words):
+    for (run, frame), place in zip(found, axes):
+        points = frame.positions.astype(float)
+        fallen = ~np.isfinite(points).all(axis=1)
+        middle = np.median(points[~fallen], axis=0)
+        near = np.linalg.norm(points - middle, axis=1) < FALLEN  # threads that have come off fall far
+        camera = view_of(scene).fit(points[near], SIZE[scene])
+        free = ", let go" if frame.step > run.column("step")[-1] else ""
+        show(place, run, frame, camera, f"{words}, {moment(frame)}{free}", SIZE[scene])
+    for place in axes[len(found):]:
+        style.not_run(place)
+
+
+def draw_near(place, scene, run, frame, words):
+    """Draws a close view of the cloth's middle."""
+    points = frame.positions.astype(float)
+    centre = densest(points, NEAR_REACH) if scene == commands.YARN_TWIST else np.median(points, axis=0)
+    show(place, run, frame, around(points, centre, NEAR_REACH, run, NEAR_VIEW[scene], NEAR_SIZE), words, NEAR_SIZE)
 
 
 def label(run):
@@ -216,72 +237,60 @@ def drawn_over_time(runs):
             if commands.WINDOW_OF not in name and run.column("step")[0] == 1 and name != "hanging"}
 
 
-def draw_over_time(axes_of_tension, axes_of_meetings, runs):
+def draw_tension(axes, runs):
     for name, run in drawn_over_time(runs).items():
         weaker = commands.YARN_STIFFNESS.index(round(material(run)[1]))
-        colour, dash = style.COLOURS[weaker], style.DASHES[kind_of(run) == "baseline"]
-        axes_of_tension.plot(seconds(run), tension(run), dash, color=colour, linewidth=1, label=label(run))
-        parts = [run, *windows_of(name, runs)]
-        part, first = first_among(parts)
+        colour = (style.OURS if kind_of(run) == "ogc" else style.BASELINE)
+        axes.plot(seconds(run), tension(run), (style.DASHES)[weaker], color=colour, linewidth=1,
+                  label=label(run).replace(", k_c = ", ",\n"))
+        part, first = first_among([run, *windows_of(name, runs)])
         if first is not None:
-            axes_of_tension.plot(seconds(part)[first], tension(part)[first], "x", color=colour)
-        time, asked = asked_of(parts)
-        if len(asked):
-            axes_of_meetings.plot(time, np.cumsum(asked), dash, color=colour, linewidth=1,
-                                  label=label(run))
-    axes_of_tension.set(xlabel="time [s]", ylabel="k_s · mean stretch [N]",
-                        title="Mean tension; ×: the first meeting")
-    axes_of_meetings.set(xlabel="time [s]", ylabel="meetings so far", title="Threads that met on the way of a step",
-                         ylim=(0, None))
-    axes_of_meetings.set_yscale("symlog")
-    for axes in (axes_of_tension, axes_of_meetings):
-        if axes.get_legend_handles_labels()[0]:
-            axes.legend(fontsize=6)
+            axes.plot(seconds(part)[first], tension(part)[first], "x", color=colour, markersize=8, markeredgewidth=2)
+    axes.set(xlabel="time [s]", ylabel="k_s · mean stretch [N]",
+             title="Mean tension of the yarn; ×: threads pass through one another", ylim=(0, None))
+    style.label_ends(axes)
 
 
-def draw_distances(axes, how_far):
-    for number, (name, of) in enumerate(how_far.items()):
-        kind, _, released = name.partition("_")
-        words = "let go, from the cloth that hangs" if released else "twisted, from its start"
-        axes.plot(np.sort(of), 100 * np.arange(1, len(of) + 1) / len(of), style.DASHES[number % 4],
-                  label=f"{KINDS[kind]}, {words}")
-    axes.set(xlabel="distance [m]", xscale="log", ylabel="vertices within [%]", title="Distance at the end")
-    axes.legend(fontsize=6)
-
-
-def draw_reached(axes, runs):
-    """Draws the tension at the first meeting over k_c r, or, if no threads met, the largest tension."""
-    chosen = drawn_over_time(runs)
-    for place, (name, run) in enumerate(chosen.items()):
-        parts = [run, *windows_of(name, runs)]
-        part, first = first_among(parts)
-        asked = len(asked_of(parts)[0]) > 0
-        height = np.nanmax(tension(run)) if first is None else tension(part)[first]
-        height /= material(run)[1] * run.setting("contact_radius")
-        axes.bar(place, height, color=style.COLOURS[2 if first is None else 3])
-        words = "" if first is not None else ", none" if asked else ", not asked"
-        axes.annotate(f"{height:.2g}{words}", (place, height), ha="center", va="bottom", fontsize=6)
-    axes.set_xticks(range(len(chosen)), [name.replace("_", "\n") for name in chosen], fontsize=6)
-    axes.set(ylabel="tension over k_c r [1]", title="At the first meeting; none: at the most")
-
-
-def draw(scene, runs, how_far, out):
-    plt = style.use()
-    figure = plt.figure(figsize=(13, 9))
-    grid = figure.add_gridspec(3, 12, height_ratios=[1, 1, 0.9])
-    for row, (kind, name) in enumerate(main_runs(scene).items()):
-        draw_pictures(figure, [grid[row, 3 * k:3 * k + 3] for k in range(4)], scene, runs[name], KINDS[kind])
-    panels = [figure.add_subplot(grid[2, 4 * k:4 * k + 4]) for k in range(3)]
-    draw_over_time(*panels[:2], runs)
-    if scene == commands.YARN_TWIST:
-        draw_distances(panels[2], how_far)
+def draw_rows(axes, scene, rows):
+    """Draws the table's numbers: meetings, tension at the first one, and for twisted cloths how far they end."""
+    axes.axis("off")
+    short = lambda text: f"{float(text):.3g}" if text not in ("", None) else "–"  # noqa: E731
+    if scene == commands.STRETCH:
+        head = ["", "k_c [N/m]", "pull-throughs", "of steps", "tension / k_c r at the first"]
+        body = [[KINDS[row["kind"]], row["k_c [N/m]"], row["meetings [1]"] or "0", row["steps asked [1]"],
+                 short(row["tension over k_c r [1]"])] for row in rows]
     else:
-        draw_reached(panels[2], runs)
+        head = ["", "pull-throughs", "of steps", "from the hanging cloth, median [m]"]
+        apart = ("distance, median [m]", "distance while it moves, median [m]")
+        body = [[KINDS[row["kind"]] + (", let go" if "released" in row["run"] else ""), str(row["meetings [1]"] or "–"),
+                 str(row["steps asked [1]"]),
+                 short(row[apart[0]] or row[apart[1]]) if "released" in row["run"] else "–"]
+                for row in rows if row["run"] != "hanging"]
+    style.table(axes, head, body)
+
+
+def draw(scene, runs, rows, out):
+    """Draws pictures of our run and of the baseline, both from near, the tension, and the numbers of the table."""
+    style.use()
     ours = runs[main_runs(scene)["ogc"]]
-    figure.suptitle(f"{scene} ({ours.manifest['scale']}), {ours.manifest['backend']} ({ours.manifest['device']}), "
-                    f"{commits_in_words(list(runs.values()))}; baseline: bounds=off, "
-                    "contact_activation=quadratic", fontsize=8)
-    style.save(figure, out)
+    pictures = {kind: moments(scene, runs, kind) for kind in KINDS}
+    count = max(map(len, pictures.values()))
+    where = "" if ours.manifest["scale"] == "paper" else f"scale {ours.manifest['scale']}; "
+    below = (f"{where}one yarn of {ours.manifest['scene']['vertices']:,} vertices, {audit_in_words(ours)}; ours "
+             f"{np.mean(times(ours)):.2g} ms a step, longest {times(ours).max():.2g} ({ours.manifest['device']}), "
+             f"paper {PAPER_MS[scene]} (RTX 4090); “penalty” (the paper's Newton): the same sweep with a "
+             "quadratic force, no bounds")
+    page = [*[style.pictures(count, SIZE[scene])] * 2, style.pictures(2, NEAR_SIZE),
+            (2.5, [(0.5, "plot"), (0.5, "picture")])]
+    figure, axes = style.page(page, TITLES[scene], below)
+    for row, (kind, found) in zip(axes, pictures.items()):
+        draw_pictures(row, scene, found, KINDS[kind])
+    for place, (kind, found) in zip(axes[2], pictures.items()):
+        run, frame = found[len(SHOWN[scene]) - 1]
+        draw_near(place, scene, run, frame, f"{KINDS[kind]}, {moment(frame)}, from near")
+    draw_tension(axes[3][0], runs)
+    draw_rows(axes[3][1], scene, rows)
+    style.save(figure, out, TITLES[scene], ALTS[scene], source_of([runs[name] for name in main_runs(scene).values()]))
 
 
 def arguments():
@@ -292,6 +301,7 @@ def arguments():
     parser.add_argument("--scale", default="small", choices=("smoke", "small", "paper"))
     parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"), help="of all runs")
     parser.add_argument("--made", action="store_true", help="draw the runs that there are, and make none")
+    parser.add_argument("--rows", metavar="CSV", help="kept table, whose numbers are shown, not those of the runs")
     parser.add_argument("--movie", help="MP4 to write instead, of our finished run")
     return parser.parse_args()
 
@@ -300,12 +310,15 @@ def make(options):
     scene, folder = options.scene, Path(options.folder)
     if options.movie:
         run = Run(folder / main_runs(scene)["ogc"])
-        ends = np.concatenate([run.start_positions, run.frame(run.frames[-1]).positions])
-        return draw_movie(run, camera_of(scene, ends, (640, 480)), options.movie)
+        ends = [run.frame(run.frames[0]), run.frame(run.frames[-1])]
+        return draw_movie(run, options.movie, fitted(run, ends, (1280, 720)))
     runs = runs_of(options)
-    how_far = far(runs) if scene == commands.YARN_TWIST else {}
-    write_table(folder / f"{FIGURE[scene]}.csv", table(runs, how_far))
-    return draw(scene, runs, how_far, folder / PICTURES[scene])
+    if options.rows:
+        with open(options.rows, newline="", encoding="utf-8") as file:
+            return draw(scene, runs, list(csv.DictReader(file)), folder / PICTURES[scene])
+    rows = table(runs, far(runs) if scene == commands.YARN_TWIST else {})
+    write_table(folder / f"{FIGURE[scene]}.csv", rows)
+    return draw(scene, runs, rows, folder / PICTURES[scene])
 
 
 if __name__ == "__main__":

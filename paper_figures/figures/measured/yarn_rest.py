@@ -22,7 +22,8 @@ from paper_figures.workflow import commands
 from paper_figures.workflow.jobs import Limit, RunFailure, parser_of_figure
 from paper_figures.workflow.runs import provenance, write_table
 from plots import style
-from ogc_testbed.runs import Run, RunError, commits_in_words
+from plots.scene_figure import source_of
+from ogc_testbed.runs import Run, RunError
 
 NAME, PICTURE = "fig16_rest", "fig16_rest.png"
 LAST = 1.0  # s
@@ -30,6 +31,8 @@ SHARES = {"median": 50, "nine vertices in ten within": 90, "largest": 100}  # of
 STILL = 50  # percentage of the vertices; sweeps that circulate move loops at the rim by a millimetre about their places
 THREAD = 12  # vertices that are farther apart along the yarn belong to different threads
 TOUCHING, HALF_ROW = 3.5e-3, 5e-3  # [m] between centre lines: the yarn is 3 mm thick, rows are 10 mm apart
+ALT = ("Two plots: the kinetic energy of the hanging cloths until they are at rest, and the share of "
+       "vertices within a distance of the cloth that was never twisted.")
 
 
 def runs_of(options):
@@ -143,9 +146,9 @@ def draw(runs, out):
     for axes in (over_time, spread):
         axes.legend(fontsize=7)
     about = runs["released"].manifest
-    figure.suptitle(f"yarn_twist, let go: {about['backend']} ({about['device']}), "
-                    f"{commits_in_words(list(runs.values()))}", fontsize=8)
-    style.save(figure, out)
+    title = "Whether the twisted knit, let go, hangs as one that was never twisted"
+    figure.suptitle(f"{title} ({about['scale']}, {about['device']})", fontsize=9)
+    style.save(figure, out, title, ALT, source_of(list(runs.values())))
 
 
 def arguments():

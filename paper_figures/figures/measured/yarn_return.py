@@ -20,13 +20,16 @@ from paper_figures.workflow import commands, release
 from paper_figures.workflow.jobs import Job, Limit, RunFailure, parser_of_figure
 from paper_figures.workflow.runs import provenance, write_table
 from plots import style
-from ogc_testbed.runs import Run, RunError, commits_in_words
+from plots.scene_figure import source_of
+from ogc_testbed.runs import Run, RunError
 
 NAME = "yarn_return"
 TURNS = {"smoke": (0.01, 0.02), "small": (1, 2, 5), "paper": (1, 2, 3, 5)}
 HELD = {"smoke": 0.01, "small": 1, "paper": 1}  # time for which the twist is held before the release [s]
 LONGER = 3  # factor on the steps that brake a twisted cloth of stiffer yarn
 COARSE = ("--set", "time_step=4e-4", "--set", "iterations=4")  # the scene's own settings
+ALT = ("A small picture for each variant of the yarn of the hanging cloth at rest, seen from the front; "
+       "threads are coloured by their distance from the cloth that was never twisted.")
 
 
 @dataclass(frozen=True)
@@ -166,9 +169,9 @@ def draw(runs, out):
     figure.supxlabel("x [m]", fontsize=7)
     figure.supylabel("y [m]", fontsize=7)
     about = next(iter(runs.values())).manifest
-    figure.suptitle("yarn_twist, let go and braked; colour: distance from the untwisted cloth, yellow 20 mm and more\n"
-                    f"{about['device']}, {commits_in_words(list(runs.values()))}", fontsize=6.5)
-    style.save(figure, out)
+    title = "How far the twisted knit, let go, ends from one that was never twisted"
+    figure.suptitle(f"{title} ({about['device']}; yellow: 20 mm and more)", fontsize=6.5)
+    style.save(figure, out, title, ALT, source_of(list(runs.values())))
 
 
 def arguments():

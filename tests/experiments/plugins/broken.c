@@ -64,7 +64,7 @@ static void write_messages(void) {
 static void tell_number(void) {
   FILE* const file = fopen("child", "w");
   if (!file) return;
-  fprintf(file, "%d", (int)getpid());
+  fprintf(file, "%d\n", (int)getpid());
   fclose(file);
 }
 
@@ -95,7 +95,8 @@ static void fork_child(void) {
 static void break_activation(const ogc_activation_in* in, ogc_activation_out* out, int64_t i) {
   volatile float* const nowhere = NULL;
   if (breaks("crash")) *nowhere = 1;
-  if (breaks("hang"))
+  if (breaks("hang and tell")) tell_number();
+  if (breaks("hang") || breaks("hang and tell"))
     for (;;) pause();
   if (breaks("exit")) exit(7);
   if (breaks("nan")) out->slope[i] = NAN;

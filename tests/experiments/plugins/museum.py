@@ -28,6 +28,9 @@ MENDED = {
     "signs_choose": ("positive(w) == 1)", "false)"),
     "weights_rotated": ("std::rotate(w, w + 1, w + 3)", "std::rotate(w, w, w + 3)"),
     "nan_of_needles": ("w.of[0] <= 0 || w.of[1] <= 0 || w.of[2] <= 0", "positive(w) < 3"),
+    "near_pairs_left_out": ("< 1e-10", "< 0"),
+    "early_crossings_left_out": ("t < 1e-10 ? 1 : t", "t"),
+    "free_without_separator": ("return 1;", "return 0;"),
     "ones_for_identity": ("off_diagonal = 1", "off_diagonal = 0"),
 }
 

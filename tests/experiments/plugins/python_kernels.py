@@ -11,6 +11,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -349,6 +350,57 @@ class Refused(Judged):
         bare.chmod(0o755)
         self.refused(RIGHT, "has no NumPy", OGC_PYTHON=str(bare), PYTHONPATH="")
         self.refused(RIGHT, "the interpreter /nowhere/python3 can't be started", OGC_PYTHON="/nowhere/python3")
+
+
+class WhoseJudgeIsKilled(Judged):
+    """The worker of a judge that was killed ends, whatever it does, and with it what the kernel has started."""
+
+    def orphans_end(self, plugin, count, problem=ONE_CASE, **environment):
+        """Kills the judge once the plug-in has noted `count` processes in the file `child`; all of them end."""
+        notes = self.folder / "child"
+        judge = subprocess.Popen([OGC, "compare", *problem, "--time-limit", "1000", "--plugin", plugin],
+                                 cwd=self.folder, env={**os.environ, "OGC_PYTHON": sys.executable, **environment},
+                                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            self.wait("no number was noted", lambda: notes.exists() and notes.read_text().endswith("\n"))
+        finally:
+            judge.kill()
+            judge.wait()
+        numbers = [int(number) for number in notes.read_text().split()]
+        self.assertEqual(len(numbers), count)
+        self.wait("a process goes on", lambda: not any(self.runs(number) for number in numbers))
+
+    def file(self, source):
+        file = self.folder / "mine.py"
+        file.write_text("import os, subprocess, time\n"
+                        "def note(*numbers): open('child', 'w').write(' '.join(map(str, numbers)) + '\\n')\n"
+                        + source)
+        return file
+
+    def wait(self, failure, done, seconds=100):
+        until = time.monotonic() + seconds
+        while not done():
+            self.assertLess(time.monotonic(), until, failure)
+            time.sleep(0.05)
+
+    @staticmethod
+    def runs(number):
+        """Returns whether the process runs; one that has ended may wait for its new parent to ask for its status."""
+        try:
+            return Path(f"/proc/{number}/stat").read_text().rsplit(")", 1)[1].split()[0] not in "ZX"
+        except (FileNotFoundError, ProcessLookupError):
+            return False
+
+    def test_in_a_kernel(self):
+        begin = "    note(os.getpid(), subprocess.Popen(['sleep', '1000']).pid)\n    time.sleep(1000)\n"
+        self.orphans_end(self.file(RIGHT.replace(HEAD, HEAD + begin)), 2)
+
+    def test_while_loading(self):
+        self.orphans_end(self.file("note(os.getpid())\ntime.sleep(1000)\n"), 1)
+
+    def test_in_a_shared_library(self):
+        problem = ("--problem", "stage=activation gen=ladder.radius seed=1 index=1")
+        self.orphans_end(PLUGINS / "libplugin_broken.so", 1, problem, OGC_BROKEN="hang and tell")
 
 
 class OfEveryStage(Judged):

@@ -289,12 +289,19 @@ class Errors(unittest.TestCase):
         bad = self.x.copy()
         bad[7, 1] = np.nan
         self.expect(ValueError, ("x: vertex 7", "nan"), find, self.mesh, bad, RADIUS, QUERY)
-        self.expect(ValueError, ("contact_radius <= query_radius", "0.01"), find, self.mesh, self.x, QUERY, RADIUS)
-        for vast in (3e38, 2e19, 1048577):  # their squares overflow, or nearly
-            self.expect(ValueError, ("query_radius <= 1048576",), find, self.mesh, self.x, RADIUS, vast)
-            self.expect(ValueError, ("at most 1048576",), ogc.Guard, self.mesh, self.x, vast)
+        for radius in (QUERY, 0, -1, np.nan, 2.0**-41):
+            self.expect(ValueError, ("radius is ", "a length from 9.094947e-13 to 0.005 m"), find, self.mesh, self.x,
+                        radius, RADIUS)
+        for query in (3e38, 2e19, 1048577, 2.0**-41):  # squares of the first overflow, or nearly
+            for call in (lambda: find(self.mesh, self.x, RADIUS, query), lambda: ogc.Guard(self.mesh, self.x, query)):
+                self.expect(ValueError, ("query_radius is ", "a length from 9.094947e-13 to 1048576 m"), call)
+        far = self.x.copy()
+        far[7, 1] = -1.0001 * 2**30
+        for call in (lambda: find(self.mesh, far, RADIUS, QUERY), lambda: ogc.Guard(self.mesh, far, QUERY)):
+            self.expect(ValueError, ("x: vertex 7 has (", "coordinates from -1073741824 to 1073741824 m"), call)
         self.assertEqual(len(find(self.mesh, self.x, 2.0**20, 2.0**20).bound), 72)
-        self.expect(ValueError, ("bounds_relaxation", "0.5"), find, self.mesh, self.x, RADIUS, QUERY, relaxation=0.5)
+        self.expect(ValueError, ("relaxation is 0.5", "between 0 and 0.5"), find, self.mesh, self.x, RADIUS, QUERY,
+                    relaxation=0.5)
         self.expect(ValueError, ("backend", "'gpu'", '"cpu"'), find, self.mesh, self.x, RADIUS, QUERY, backend="gpu")
         wrong = self.faces.copy()
         wrong[3, 1] = 72

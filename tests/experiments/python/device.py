@@ -1,15 +1,21 @@
 """The Python package on a CUDA device: arrays stay there, and the host's arrays give the same bits.
 
-Usage: device.py BUILD_DIR. Exit status 77: skipped, there is no usable device, or a Python package is missing.
+Usage: device.py BUILD_DIR [PROGRAM]. Without the program `ogc` a simulation is not compared with it. Exit status 77:
+skipped, there is no usable device, or a Python package is missing.
 """
 
+import functools
 import gc
+import json
+import subprocess
 import sys
+import tempfile
 import unittest
+from pathlib import Path
 
 from package import main, prepare, two_layers
 
-prepare(__doc__)
+_, PROGRAM = prepare(__doc__)
 import numpy as np  # noqa: E402
 
 import ogc_testbed as ogc  # noqa: E402
@@ -17,9 +23,11 @@ import ogc_testbed as ogc  # noqa: E402
 if not ogc.backend_info("cuda")["usable"]:
     print(f"SKIPPED: {ogc.backend_info('cuda')['description']}")
     sys.exit(77)
-from device_array import KEPT_ALIVE, DeviceArray  # noqa: E402
+from device_array import CUDA, KEPT_ALIVE, DeviceArray, Exported, free_memory  # noqa: E402
 
 RADIUS, QUERY = 5e-3, 5e-2
+COLUMNS = ("vertex_facet", "vertex_facet_kind", "edge_edge", "edge_edge_kind", "bound", "distance_vertex",
+           "distance_edge", "distance_triangle")
 
 
 class Device(unittest.TestCase):
@@ -27,17 +35,48 @@ class Device(unittest.TestCase):
         self.x, self.faces = two_layers(16, 4e-3)
         self.mesh = ogc.Mesh(self.faces)
 
-    def test_contacts_are_those_of_the_host(self):
+    def test_contacts_lie_where_the_positions_do(self):
         there = DeviceArray(self.x)
         host = ogc.find_contacts(self.mesh, self.x, RADIUS, QUERY)
         copied = ogc.find_contacts(self.mesh, self.x, RADIUS, QUERY, backend="cuda")
         stayed = ogc.find_contacts(self.mesh, there, RADIUS, QUERY, backend="cuda")
+        self.assertEqual((there.asked, host.device, copied.device, stayed.device), (1, None, None, 0))
         self.assertGreater(len(host.vertex_facet), 100)
-        for name in ("vertex_facet", "edge_edge"):
-            self.assertEqual(getattr(host, name).tobytes(), getattr(copied, name).tobytes(), name)
-        for name in ("vertex_facet", "edge_edge", "bound", "distance_edge"):
-            self.assertEqual(getattr(copied, name).tobytes(), getattr(stayed, name).tobytes(), name)
-        self.assertEqual(there.asked, 1)
+        self.assertIs(copied.cpu(), copied)
+        back = stayed.cpu()
+        for name in COLUMNS:
+            expected, exported = getattr(host, name), Exported(getattr(stayed, name))
+            self.assertEqual((exported.device, exported.shape), ((CUDA, 0), expected.shape), name)
+            self.assertEqual(getattr(stayed, name).__dlpack_device__(), (CUDA, 0))
+            for found in (exported.numbers, getattr(copied, name), getattr(back, name)):
+                self.assertEqual((found.dtype, found.tobytes()), (expected.dtype, expected.tobytes()), name)
+            self.assertEqual(Exported(getattr(stayed, name)).address, exported.address, "it is not copied")
+        self.assertEqual({sets.smallest_distance for sets in (host, copied, stayed, back)}, {host.smallest_distance})
+
+    def test_no_later_call_overwrites_contacts(self):
+        finder = ogc.ContactFinder(self.mesh, backend="cuda")
+        sets = finder.find(DeviceArray(self.x), RADIUS, QUERY)
+        kept = [getattr(sets, name) for name in COLUMNS]
+        first = [Exported(column) for column in kept]
+        others = [finder.find(DeviceArray(self.x * np.float32(scale)), RADIUS, QUERY) for scale in (2, 0.5, 1)]
+        self.assertEqual(len({Exported(found.bound).address for found in (sets, *others)}), 4)
+        del sets, finder
+        gc.collect()
+        for column, before in zip(kept, first):
+            now = Exported(column)
+            self.assertEqual((now.address, now.numbers.tobytes()), (before.address, before.numbers.tobytes()))
+
+    def test_contacts_are_let_go(self):
+        """A find keeps about 30 kB; a leak would keep 30 MB of 1,000."""
+        finder, there = ogc.ContactFinder(self.mesh, backend="cuda"), DeviceArray(self.x)
+        before = 0
+        for call in range(1100):
+            sets = finder.find(there, RADIUS, QUERY)
+            sets.bound, sets.edge_edge
+            if call == 100:
+                before = free_memory()
+        del sets
+        self.assertLess(before - free_memory(), 8 * 2**20)
 
     def test_a_guard_works_where_the_arrays_are(self):
         for bounds in ("ball", "planes"):
@@ -102,6 +141,21 @@ class Device(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "x: 3 rows came for 512"):
             ogc.find_contacts(self.mesh, DeviceArray(self.x[:3]), RADIUS, QUERY, backend="cuda")
 
+    def test_what_only_says_that_it_is_there_is_refused(self):
+        """A kernel that read the host's memory would end all work of the process on the device."""
+        liar, guard = DeviceArray(self.x), ogc.Guard(self.mesh, self.x, QUERY, backend="cuda")
+        right, liar.address = liar.address, self.x.ctypes.data
+        try:
+            for name, call in (("x", lambda: ogc.find_contacts(self.mesh, liar, RADIUS, QUERY, backend="cuda")),
+                               ("x", lambda: guard.step(liar, DeviceArray(self.x))),
+                               ("dx", lambda: guard.step(DeviceArray(self.x), liar, out=DeviceArray(self.x))),
+                               ("out", lambda: guard.step(DeviceArray(self.x), DeviceArray(self.x), out=liar))):
+                with self.assertRaisesRegex(ValueError, f"^{name}: it is not in the memory of a CUDA device"):
+                    call()
+        finally:
+            liar.address = right
+        self.assertGreater(len(ogc.find_contacts(self.mesh, self.x, RADIUS, QUERY, backend="cuda").vertex_facet), 0)
+
     def test_a_simulation_runs_there(self):
         scene = ogc.scene("cloth_on_sphere", scale="smoke")
         sim = scene.start(backend="cuda")
@@ -113,6 +167,18 @@ class Device(unittest.TestCase):
         groups[scene.bodies[1].vertices] = 0
         self.assertTrue(ogc.audit(np.stack(states), scene.faces, groups=groups).clean)
         self.assertGreater(sim.metrics.vertex_facet_contacts[-1], 0)
+
+    @unittest.skipUnless(PROGRAM, "no program was named")
+    def test_a_simulation_ends_where_the_program_ends(self):
+        scene = ogc.scene("cloth_on_sphere", scale="smoke")
+        sim = scene.start(backend="cuda")
+        sim.advance(int(scene.settings["steps"]))
+        with tempfile.TemporaryDirectory() as folder:
+            words = "run cloth_on_sphere --scale smoke --backend cuda --json --out".split()
+            done = subprocess.run([*PROGRAM, *words, Path(folder) / "run"], stdout=subprocess.PIPE, check=True)
+        ours = functools.reduce(lambda hash, byte: (hash ^ byte) * 0x100000001B3 % 2**64, sim.positions.tobytes(),
+                                0xCBF29CE484222325)  # FNV-1a
+        self.assertEqual(f"{ours:016x}", json.loads(done.stdout)["final_hash"])
 
 
 if __name__ == "__main__":

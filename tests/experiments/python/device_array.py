@@ -80,3 +80,32 @@ class DeviceArray:
         new = ctypes.pythonapi.PyCapsule_New
         new.restype, new.argtypes = ctypes.py_object, [ctypes.c_void_p, ctypes.c_char_p, ctypes.c_void_p]
         return new(ctypes.addressof(managed), b"dltensor", None)
+
+
+class Exported:
+    """What an object on the device exports by DLPack: address, device, shape, and a copy of its numbers."""
+
+    TYPES = {(0, 32): np.int32, (1, 8): np.uint8, (2, 32): np.float32}  # by code and bits of dlpack.h
+
+    def __init__(self, exporting):
+        DeviceArray.cuda = DeviceArray.cuda or driver()
+        get = ctypes.pythonapi.PyCapsule_GetPointer
+        get.restype, get.argtypes = ctypes.c_void_p, [ctypes.py_object, ctypes.c_char_p]
+        capsule = exporting.__dlpack__()  # whose end lets the tensor go
+        tensor = ManagedTensor.from_address(get(capsule, b"dltensor")).tensor
+        self.address, self.device = tensor.data, (tensor.device_type, tensor.device_id)
+        self.shape = tuple(tensor.shape[i] for i in range(tensor.ndim))
+        self.numbers = np.empty(self.shape, self.TYPES[tensor.code, tensor.bits])
+        if self.numbers.size:
+            status = DeviceArray.cuda.cuMemcpyDtoH_v2(ctypes.c_void_p(self.numbers.ctypes.data),
+                                                      ctypes.c_uint64(tensor.data),
+                                                      ctypes.c_size_t(self.numbers.nbytes))
+            assert status == 0, status
+
+
+def free_memory():
+    """Returns the device's free memory [bytes]."""
+    DeviceArray.cuda = DeviceArray.cuda or driver()
+    free, total = ctypes.c_size_t(), ctypes.c_size_t()
+    assert DeviceArray.cuda.cuMemGetInfo_v2(ctypes.byref(free), ctypes.byref(total)) == 0
+    return free.value

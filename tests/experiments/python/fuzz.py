@@ -10,6 +10,8 @@ with AddressSanitizer:
   LD_PRELOAD="$(g++ -print-file-name=libasan.so) $(g++ -print-file-name=libstdc++.so)"
     ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 fuzz.py build/asan --cases=100000
 
+So ran 50,000 calls each of the seeds 301 and 302 on 29 November 2026: no crash.
+
 Exit status 77: skipped, a Python package is missing.
 """
 
@@ -231,7 +233,7 @@ class Fuzz:
         if self.random.random() < 0.5:
             return ogc.find_contacts(self.one(ogc.Mesh, self.mesh), self.array(x), **self.query(),
                                      backend=self.text("cpu"))
-        return ogc.ContactFinder.find(self.one(ogc.ContactFinder, self.finder), self.array(x), **self.query())
+        return ogc.ContactFinder.find(self.one(ogc.ContactFinder, self.finder), self.array(x), **self.query()).cpu()
 
     def guard(self):
         x, faces = self.shape()
@@ -312,8 +314,10 @@ class Fuzz:
         if action < 0.5:
             ogc.Simulation.advance(sim, self.random.choice([0, 1, 2, 1, -1, 2**70, "x", None, 1.5]))
         elif action < 0.7:
-            steps = ogc.Simulation.run(sim, seconds=self.number(0.01, 0.02),
-                                       every=self.random.choice([1, 2, 0, -1, 2**62]))
+            seconds = self.number(0.01, 0.02)
+            few = seconds in (0.01, 0.02)  # other numbers may legally ask for 10¹¹ steps, which one call must not run
+            every = self.random.choice([1, 2, 0, -1, 2**62 if few else 3])
+            steps = ogc.Simulation.run(sim, seconds=seconds, every=every)
             for _, _ in zip(range(2), steps):
                 pass
         elif action < 0.8:

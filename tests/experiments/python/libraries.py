@@ -65,6 +65,13 @@ class Libraries(unittest.TestCase):
         self.assertIn("libgmp.so.10", own)
         self.assertNotRegex(said("nm", "-C", judge), r"cholmod|gemm_|ogc::reference::(Factor|start_(newton|ipc))")
 
+    def test_the_judges_messages_have_its_name(self):
+        for words in (["compare", "trunc"], ["compar"], ["compare", "truncate", "--cases", "-1"]):
+            done = subprocess.run([BUILD / "ogc-judge", *words], capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+            self.assertTrue(done.stderr.startswith("ogc-judge: "), done.stderr)
+            self.assertNotIn("see ogc ", done.stderr)
+
     def test_symbols_stay_inside(self):
         for module in ("_fast", "_audit"):
             self.assertEqual(symbols(module, "defined"), {f"PyInit_{module}"})

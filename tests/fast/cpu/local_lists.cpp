@@ -79,12 +79,12 @@ TEST_CASE("contacts that find no room are counted, but not for their buckets and
   CHECK(*lists.contact_count == static_cast<int>(lists.slot_mask) + 1);  // all slots are taken
   CHECK(*lists.without_slot > room);
   std::vector<int> records(static_cast<std::size_t>(lists.buckets)),
-      incidences(static_cast<std::size_t>(view.vertex_count));
+      incidences(static_cast<std::size_t>(lists.rows.count()));
   for (int i = 0; i < room; ++i) {
     const EnteredContact& contact = lists.entered[i];
     ++records[static_cast<std::size_t>(contact.bucket)];
     for (const int v : ContactFaces{view}.vertices(contact.bucket, contact.second).role) {
-      if (v >= 0) ++incidences[static_cast<std::size_t>(v)];
+      if (v >= 0) ++incidences[static_cast<std::size_t>(lists.rows(v, contact.bucket >= view.vertex_count))];
     }
   }
   CHECK(std::equal(records.begin(), records.end(), lists.record_counts));

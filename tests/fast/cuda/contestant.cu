@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "compare/stages/closest_points.hpp"
 #include "tests/catch.hpp"
 
+#include "compare/problem/error.hpp"
 #include "compare/problem/scene.hpp"
 #include "compare/record/steps_csv.hpp"
 #include "experiments/scenes/registry.hpp"
@@ -150,6 +152,34 @@ TEST_CASE("positions that are on the device already give the same sets", "[gpu]"
   CHECK(static_cast<std::size_t>(vertex_facet) == sets.vertex_facet.size());
   CHECK(static_cast<std::size_t>(edge_edge) == sets.edge_edge.size());
   CHECK(same_bits(bound, sets.bound));
+}
+
+TEST_CASE("columns stay on the device, beyond later calls and the finder, and have the host's bits", "[gpu]") {
+  const Crumpled sheets = crumpled_sheets(30);
+  const fast::Mesh mesh(static_cast<compare::Index>(sheets.positions.size()), sheets.triangles);
+  const fast::ContactQuery query{.contact_radius = 0.004f, .query_radius = 0.006f};
+  const fast::ContactColumns host = fast::ContactFinder(mesh).find_columns(sheets.positions, query);
+  CHECK(host.vertex_facet.size() > 20);
+  fast::CudaBuffer<Vec3f> positions;
+  positions.upload(sheets.positions.data(), sheets.positions.size());
+  auto finder = std::make_unique<fast::ContactFinder>(mesh, fast::Backend::cuda);
+  const fast::ContactColumns there = finder->find_columns_resident(positions.data(), query),
+                             other = finder->find_columns(sheets.positions, {.contact_radius = 1, .query_radius = 1});
+  finder.reset();
+  CHECK(there.device == 0);
+  CHECK(other.bound.data() != there.bound.data());
+  const fast::ContactColumns back = there.copied_to_host();
+  CHECK(back.device == fast::ContactColumns::on_host);
+  CHECK(back.smallest_distance == host.smallest_distance);
+  CHECK(std::ranges::equal(back.vertex_facet, host.vertex_facet));
+  CHECK(std::ranges::equal(back.vertex_facet_kind, host.vertex_facet_kind));
+  CHECK(std::ranges::equal(back.edge_edge, host.edge_edge));
+  CHECK(std::ranges::equal(back.edge_edge_kind, host.edge_edge_kind));
+  for (const auto column : {&fast::ContactColumns::d_min_vertex, &fast::ContactColumns::d_min_edge,
+                            &fast::ContactColumns::d_min_triangle, &fast::ContactColumns::bound})
+    CHECK(std::ranges::equal(back.*column, host.*column));
+  finder = std::make_unique<fast::ContactFinder>(mesh, fast::Backend::cuda);
+  CHECK_THROWS_AS(finder->find_resident(sheets.positions.data(), query), compare::InputError);
 }
 
 TEST_CASE("a simulation repeats to the bit, whatever the frames and however small its lists began", "[gpu]") {

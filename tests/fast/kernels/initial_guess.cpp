@@ -16,7 +16,7 @@ struct Line {
   Vec position[3] = {{0, 0, 0}, {0, 1, 0}, {0, 2, 0}};
   float bound[3] = {0.25f, 0.25f, 0.25f};
   Vec taken[6];
-  int number[3] = {-1, -1, -1}, offsets[4] = {0, 1, 1, 1};
+  int number[3] = {-1, -1, -1}, offsets[7] = {0, 1, 1, 1, 1, 1, 1};
   ContactIncidence contact{.index = {0, 0, 1, 0}, .stiffness = 1, .kind = ContactKind::point_point};
   StepControl control;
 
@@ -25,7 +25,7 @@ struct Line {
     for (int v = 0; v < 3; ++v) guess_vertex(hold)(v);
   }
   GuessVertex guess_vertex(bool hold) {
-    const GuessContacts contacts{hold ? offsets : nullptr, &contact, previous, target, taken, 1.5f};
+    const GuessContacts contacts{{nullptr, 3}, hold ? offsets : nullptr, &contact, previous, target, taken, 1.5f};
     return {target, {previous, bound}, contacts, 3, taken, position, &control, number};
   }
 };

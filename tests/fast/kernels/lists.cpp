@@ -26,8 +26,8 @@ struct SmallLists {
   std::vector<EnteredContact> entered;
   std::vector<RawContact> bucketed;
   std::vector<int> record_counts = zeros(buckets), record_offsets = zeros(buckets + 1), record_filled = zeros(buckets);
-  std::vector<int> incidence_counts = zeros(vertices), incidence_offsets = zeros(vertices + 1),
-                   incidence_filled = zeros(vertices);
+  static constexpr int rows = 2 * vertices;
+  std::vector<int> incidence_counts = zeros(rows), incidence_offsets = zeros(rows + 1), incidence_filled = zeros(rows);
   std::vector<EdgeEdgeRecord> records;
   std::vector<LooseIncidence> loose;
   std::vector<Incidence> incidences;
@@ -55,6 +55,7 @@ struct SmallLists {
     lists.record_counts = record_counts.data(), lists.record_offsets = record_offsets.data(),
     lists.record_filled = record_filled.data();
     lists.edge_edge_count = &edge_edge_count, lists.edge_edge = records.data();
+    lists.rows = {nullptr, vertices};
     lists.incidence_counts = incidence_counts.data(), lists.incidence_offsets = incidence_offsets.data(),
     lists.incidence_filled = incidence_filled.data();
     lists.loose = loose.data(), lists.incidences = incidences.data();
@@ -144,9 +145,9 @@ TEST_CASE(
       const LooseIncidence& own = small.loose[static_cast<std::size_t>(i)];
       resolved[static_cast<std::size_t>(RankIncidences{lists}.put(own))] = own.code;
     }
-    for (std::size_t v = 0; v < vertices; ++v) {
-      const auto begin = small.incidences.begin() + small.incidence_offsets[v],
-                 end = small.incidences.begin() + small.incidence_offsets[v + 1];
+    for (std::size_t row = 0; row < SmallLists::rows; ++row) {
+      const auto begin = small.incidences.begin() + small.incidence_offsets[row],
+                 end = small.incidences.begin() + small.incidence_offsets[row + 1];
       REQUIRE(std::is_sorted(begin, end, [](Incidence a, Incidence b) { return a.code < b.code; }));
     }
     for (std::size_t i = 0; i < resolved.size(); ++i) REQUIRE(resolved[i] == small.incidences[i].code);
@@ -261,7 +262,7 @@ TEST_CASE("a vertex–facet contact is entered once and has no edges", "[unit]")
   const ListsView lists = small.view();
   for (int k = 0; k < 3; ++k) lists.enter({2, SmallLists::vertices + 5, -1, -1}, small.faces());
   REQUIRE(small.contact_count == 1);
-  CHECK(small.incidence_counts == std::vector<int>{1, 1, 1});
+  CHECK(small.incidence_counts == std::vector<int>{1, 1, 1, 0, 0, 0});
   small.scan();
   FillBuckets{lists, SmallLists::vertices}(0);
   CHECK(bucketed(small) == KeptContacts{{{2, SmallLists::vertices + 5}, {-1, -1}}});
@@ -301,18 +302,19 @@ TEST_CASE("a list that is full counts on and writes nothing beyond its end", "[u
 TEST_CASE("the counts of a detection begin at 0, and nothing beyond them is touched", "[unit]") {
   int overflow = 0, noted_count = 7, contact_count = 7, without_slot = 7, edge_edge_count = 7,
       record[2][3] = {{7, 7, 7}, {7, 7, 7}};
-  int incidence[2][4] = {{7, 7, 7, 7}, {7, 7, 7, 7}};
+  int incidence[2][4] = {{7, 7, 7, 7}, {7, 7, 7, 7}};  // two rows
   ListsView lists{};
   lists.overflow = &overflow, lists.noted_count = &noted_count, lists.contact_count = &contact_count,
   lists.without_slot = &without_slot;
   lists.edge_edge_count = &edge_edge_count;
   lists.buckets = 2, lists.record_counts = record[0], lists.record_filled = record[1];
+  lists.rows = {nullptr, 1};
   lists.incidence_counts = incidence[0], lists.incidence_filled = incidence[1];
-  for (int i = 0; i < 4; ++i) PrepareLists{lists, 3}(i);
+  for (int i = 0; i < 4; ++i) PrepareLists{lists}(i);
   CHECK(noted_count == 0);
   CHECK(contact_count == 0);
   CHECK(without_slot == 0);
   CHECK(edge_edge_count == 0);
   for (const auto& counts : record) CHECK(std::vector<int>(counts, counts + 3) == std::vector<int>{0, 0, 7});
-  for (const auto& counts : incidence) CHECK(std::vector<int>(counts, counts + 4) == std::vector<int>{0, 0, 0, 7});
+  for (const auto& counts : incidence) CHECK(std::vector<int>(counts, counts + 4) == std::vector<int>{0, 0, 7, 7});
 }

@@ -163,9 +163,13 @@ TEST_CASE(
   expected.erase(expected.begin(), expected.lower_bound({0, 0}));
   bool ascending = true;
   for (int v = 0; v < topology.vertex_count; ++v) {
-    for (int k = view.incidence_offsets[v]; k < view.incidence_offsets[v + 1]; ++k) {
-      found.insert({v, view.incidences[k].code});
-      ascending &= k == view.incidence_offsets[v] || view.incidences[k - 1].code < view.incidences[k].code;
+    for (const bool edge_edge : {false, true}) {
+      const int row = view.rows(v, edge_edge), begin = view.incidence_offsets[row];
+      for (int k = begin; k < view.incidence_offsets[row + 1]; ++k) {
+        found.insert({v, view.incidences[k].code});
+        ascending &= (view.incidences[k].code >> 31 != 0) == edge_edge;
+        ascending &= k == begin || view.incidences[k - 1].code < view.incidences[k].code;
+      }
     }
   }
   CHECK(ascending);

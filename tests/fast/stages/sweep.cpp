@@ -68,6 +68,7 @@ struct Fixture {
     control.query_radius = 0.03f;
     detection = std::make_unique<Detection<CpuBackend>>(backend, topology, compare::rigid_groups(scene));
     sweep = std::make_unique<Sweep<CpuBackend>>(backend, rest, colouring, topology, scene);
+    detection->number_rows(sweep->row_places());
     detection->detect(x.data(), 0.02f, &control.query_radius, 0.45f);
     for (int grown = 0; grown < 8 && *detection->overflow() != 0; ++grown) {
       detection->grow();
@@ -108,7 +109,7 @@ struct MadeStream {
     const ContactView view = detection.view();
     return {{at.data(), {previous.data(), view.bound}, previous.data(), &control},
             {&control, detection.overflow()},
-            sweep.contact_rows(view.incidence_offsets, detection.loose_incidences(), detection.overflow()),
+            sweep.contact_rows(view, detection.overflow()),
             sweep.slots(),
             sweep.resolve_contact(view, at.data())};
   }
@@ -267,6 +268,24 @@ TEST_CASE("the stream made within a detection is that of its contacts", "[proper
   CHECK(same_bits(f.fresh, expected));
 }
 
+TEST_CASE("the contact rows of consecutive slots follow each other, for each kind", "[unit]") {
+  Fixture f(true, 4);
+  const SweepView view = f.view();
+  const ContactView contacts = f.detection->view();
+  int vertex_facet = 0, edge_edge = contacts.incidence_offsets[contacts.rows.vertex_count], filled = 0;
+  for (int slot = 0; slot < f.sweep->slots(); ++slot) {
+    const ContactRow row = view.contact_rows[slot];
+    REQUIRE(row.vertex_facet.begin == vertex_facet);
+    REQUIRE(row.edge_edge.begin == edge_edge);
+    vertex_facet += row.vertex_facet.count, edge_edge += row.edge_edge.count;
+    filled += row.vertex_facet.count > 0 && row.edge_edge.count > 0 ? 1 : 0;
+  }
+  CHECK(filled > f.sweep->slots() / 2);
+  // The rows of fixed vertices follow.
+  CHECK(vertex_facet < contacts.incidence_offsets[contacts.rows.vertex_count]);
+  CHECK(edge_edge < contacts.incidence_offsets[contacts.rows.count()]);
+}
+
 TEST_CASE("where models are the usual ones, the sum of any scene has the bits of that of surfaces", "[property]") {
   Fixture f(false, 4);
   const SweepView view = f.view();
@@ -330,6 +349,7 @@ TEST_CASE("that holds without damping, and where triangles and edges have collap
   CHECK(other_bits(f) == 0);
   for (SurfaceMaterial& material : f.rest.materials) material.membrane_damping = material.bending_damping = 0;
   f.sweep = std::make_unique<Sweep<CpuBackend>>(f.backend, f.rest, f.colouring, f.topology, f.scene);
+  f.detection->number_rows(f.sweep->row_places());  // the same numbers; those of the old sweep are gone
   f.sweep->reserve_contacts(f.detection->capacity());
   f.sweep->resolve_contacts(f.detection->view(), f.x.data());
   CHECK(other_bits(f) == 0);

@@ -119,7 +119,8 @@ class Quality(unittest.TestCase):
             step(self.folder, row, 25, [1, 0.5, 0.1])
         *panels, times = quality.picture(quality.watched(self.folder), "smoke").axes
         long = [counts[1] for counts in commands.QUALITY_ITERATIONS.values()]
-        curves = {axes.get_title(): sum(len(line.get_xdata()) in long for line in axes.get_lines()) for axes in panels}
+        curves = {axes.get_title("left"): sum(len(line.get_xdata()) in long for line in axes.get_lines())
+                  for axes in panels}
         self.assertEqual(curves, {"twist": 2, "knot": 1})
         marks = [line.get_marker() for line in times.get_lines() if len(line.get_xdata()) == 1]
         self.assertEqual(sorted(marks), ["o"] * 3 + ["x"] * 3, "a tenth is reached, a hundredth never")

@@ -94,19 +94,6 @@ class Known(unittest.TestCase):
         self.assertIn("ogc_released", [chain[1].name for chain in chains if len(chain) > 1])
         self.assertIn("hanging", [chain[-1].name for chain in chains])
 
-    def test_the_whole_yarn_is_in_the_picture(self):
-        random = np.random.default_rng(1)
-        for scene, size in yarn.SIZE.items():
-            points = random.uniform(-1, 1, (50, 3)) * (0.4, 0.1, 1.3)
-            eye, target, up = map(np.array, yarn.camera_of(scene, points, size))
-            back = (eye - target) / np.linalg.norm(eye - target)
-            right = np.cross(up, back) / np.linalg.norm(np.cross(up, back))
-            seen = points - eye
-            deep = -seen @ back
-            tangent = np.tan(np.radians(yarn.ANGLE / 2))
-            self.assertLess(np.abs(seen @ np.cross(back, right) / deep).max(), tangent)
-            self.assertLess(np.abs(seen @ right / deep).max(), tangent * size[0] / size[1])
-
 
 @dataclass(frozen=True)
 class Asked:

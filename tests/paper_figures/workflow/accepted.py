@@ -24,7 +24,7 @@ try:
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
-from paper_figures.workflow import accept, check, kept, recipes, step_costs  # noqa: E402
+from paper_figures.workflow import accept, captions, check, kept, recipes, step_costs  # noqa: E402
 from paper_figures.workflow.evidence import (RESULTS, Evidence, EvidenceError, RunEvidence, manifest_at,  # noqa: E402
                                              run_at)
 
@@ -319,31 +319,56 @@ class Accepting(Scratch):
         rows = {row["file"] for row in self.accept("fig18", "table1")}
         self.assertEqual({name for name in rows if name.endswith("run.json")}, {"fig18_paper_run.json"})
 
-    def test_pictures_have_a_palette_and_what_is_no_picture_is_refused(self):
+    def test_a_drawing_is_kept_without_loss_and_a_rendering_as_webp(self):
+        """A few flat colours are the same in every pixel; thousands of shades are a tenth as large, and their mean
+        colour is within a level of 255."""
+        flat = Image.new("RGB", (200, 200), "white")
+        flat.paste((0, 114, 178), (20, 20, 180, 24))
+        grey = Image.effect_noise((400, 400), 6)
+        shades = Image.merge("RGB", [Image.linear_gradient("L").resize((400, 400)), grey, grey])
+        for image, suffix in ((flat, ".png"), (shades, ".webp")):
+            out = io.BytesIO()
+            image.save(out, "PNG")
+            found, data = kept.picture(out.getvalue())
+            self.assertEqual(found, suffix)
+            again = Image.open(io.BytesIO(data)).convert("RGB")
+            if suffix == ".png":
+                self.assertEqual(again.tobytes(), image.tobytes())
+            else:
+                self.assertLess(len(data), len(out.getvalue()) / 2)
+                for ours, theirs in zip(ImageStat.Stat(again).mean, ImageStat.Stat(image).mean):
+                    self.assertAlmostEqual(ours, theirs, delta=1)
+
+    def test_what_is_no_picture_is_refused(self):
         self.finished()
-        self.accept("fig18")
-        with Image.open(self.results / "machine/fig18_paper.png") as kept_picture:
-            self.assertEqual(kept_picture.mode, "P")
         (self.runs / "fig18-paper-cuda/fig18.png").write_bytes(b"no picture")
         with self.assertRaisesRegex(accept.AcceptError, "no PNG"):
             self.accept("fig18")
 
-    def test_a_picture_keeps_the_colour_of_what_is_large_and_that_of_what_is_rare(self):
-        """Ground of eight shades and a line beside thousands of colours: entries that k-means refines are means of what
-        they stand for, and change the ground by 1.1 levels of 255, where those of the cover alone change it by 2.9."""
-        grey = Image.linear_gradient("L").resize((200, 200)).point(lambda level: 150 + level // 32)
-        drawn = Image.merge("RGB", [grey.point(lambda level, by=by: level - by) for by in (0, 1, 4)])
-        blot = Image.radial_gradient("L").resize((100, 100))
-        moved = [blot.transform(blot.size, Image.Transform.AFFINE, (1, 0, 30 * turn, 0, 1, 0)) for turn in range(3)]
-        drawn.paste(Image.merge("RGB", moved), (100, 100))
-        drawn.paste((213, 94, 0), (0, 20, 200, 22))
-        out = io.BytesIO()
-        drawn.save(out, "PNG")
-        again = Image.open(io.BytesIO(kept.in_palette(out.getvalue()))).convert("RGB")
-        self.assertLessEqual(len(again.getcolors(2**16)), kept.COLOURS)
-        ground = [ImageStat.Stat(image.crop((0, 30, 90, 200))).mean[0] for image in (again, drawn)]
-        self.assertAlmostEqual(*ground, delta=2)
-        self.assertEqual(again.getpixel((50, 21)), (213, 94, 0))
+    def test_the_caption_that_lies_beside_a_picture_is_kept_with_it(self):
+        self.finished()
+        caption = {"title": "A clause", "alt": "What is seen", "source": "ogc run; commit 1"}
+        (self.runs / "fig18-paper-cuda/fig18.caption.json").write_text(json.dumps(caption))
+        self.accept("fig18")
+        folder = self.results / "machine"
+        self.assertEqual(captions.rows_of(folder), {"fig18_paper.png": {"file": "fig18_paper.png", **caption}})
+        self.assertEqual(captions.alt_of(folder / "fig18_paper.png"), "What is seen")
+
+    def test_pictures_alone_leave_the_runs_that_were_accepted_before(self):
+        self.finished()
+        self.accept("fig18")
+        before = {path.name: path.read_bytes() for path in (self.results / "machine").glob("fig18_paper_*")}
+        shutil.rmtree(self.runs)
+        self.finished(final_hash="another")
+        (self.runs / "fig18-paper-cuda/fig18.png").write_bytes(picture(200))
+        accept.accept([self.BOOK["fig18"]], "paper", "cuda", self.runs, "machine", "no program", self.results,
+                      pictures=True)
+        after = {path.name: path.read_bytes() for path in (self.results / "machine").glob("fig18_paper_*")}
+        self.assertEqual(before, after)
+        rows = {row["file"]: row for row in accept.rows_of(self.results / "machine/provenance.csv")}
+        self.assertEqual(set(rows), {"fig18_paper.png", *before})
+        self.assertEqual(rows["fig18_paper.png"]["sha256"],
+                         hashlib.sha256((self.results / "machine/fig18_paper.png").read_bytes()).hexdigest()[:16])
 
     def test_what_is_no_evidence_is_refused_in_words_and_nothing_is_written(self):
         for changes, words in (({"dirty": True}, "uncommitted changes"),

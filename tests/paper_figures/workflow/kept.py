@@ -18,11 +18,14 @@ try:
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
-from paper_figures.workflow import accept  # noqa: E402
+from paper_figures.workflow import accept, captions  # noqa: E402
 from paper_figures.workflow.evidence import RESULTS, runs_in  # noqa: E402
+from paper_figures.workflow.kept import PICTURES  # noqa: E402
 from ogc_testbed.columns import column_and_unit  # noqa: E402
 
-LIMIT = 10e6  # bytes of all accepted results
+# Bytes of all accepted results: of tables and manifests, and of pictures and movies.
+LIMIT, LIMIT_PICTURES = 10e6, 30e6
+WORDS = 12  # of a text for a picture, at least
 
 
 class Kept(unittest.TestCase):
@@ -36,10 +39,23 @@ class Kept(unittest.TestCase):
             words = (folder / "README.md").read_text()
             there = {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
             unknown = {name for name in there - set(known) if not (name.endswith(".csv") and f"`{name}`" in words)}
-            self.assertLessEqual(unknown, {"README.md", "provenance.csv", "durations.csv"}, folder.name)
+            self.assertLessEqual(unknown, {"README.md", "provenance.csv", "durations.csv", "captions.csv"}, folder.name)
 
     def test_all_of_them_are_small(self):
-        self.assertLess(sum(path.stat().st_size for path in RESULTS.rglob("*") if path.is_file()), LIMIT)
+        sizes = {seen: sum(path.stat().st_size for path in RESULTS.rglob("*") if path.is_file()
+                           and accept.is_picture(path.name) == seen) for seen in (False, True)}
+        self.assertLess(sizes[False], LIMIT)
+        self.assertLess(sizes[True], LIMIT_PICTURES)
+
+    def test_every_picture_has_a_caption_and_words_for_who_does_not_see_it(self):
+        for folder in (path.parent for path in RESULTS.glob("*/provenance.csv")):
+            rows = captions.rows_of(folder)
+            there = {path.name for path in folder.glob("*") if path.suffix in PICTURES}
+            self.assertEqual(there, set(rows), folder.name)
+            for name, row in rows.items():
+                self.assertTrue(row["title"] and row["source"], name)
+                self.assertGreaterEqual(len(row["alt"].split()), WORDS, name)
+                self.assertNotRegex(row["title"], r"commit|[0-9a-f]{10}", name)
 
     def test_no_file_is_there_twice(self):
         """Tables, audits and times apart: those of two runs may agree."""

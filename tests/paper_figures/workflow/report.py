@@ -7,6 +7,7 @@ status 77: skipped, matplotlib is missing.
 
 import base64
 import functools
+import io
 import json
 import re
 import subprocess
@@ -18,8 +19,9 @@ from pathlib import Path
 SOURCE = Path(sys.argv[1])
 sys.path.insert(0, str(SOURCE))
 try:
-    import matplotlib.image
+    import matplotlib  # noqa: F401
     import yaml  # noqa: F401
+    from PIL import Image
 except ImportError as error:
     print(f"SKIPPED: {error}")
     sys.exit(77)
@@ -76,16 +78,16 @@ judged = functools.cache(verdicts.judge_all)
 
 @functools.cache  # the pages are read once for each planted fault
 def png(source):
+    """Whether a picture, PNG or WebP, can be read as what it says it is."""
     kind, _, data = source.partition(",")
-    if kind != "data:image/png;base64":
+    if kind not in ("data:image/png;base64", "data:image/webp;base64"):
         return False
-    with tempfile.NamedTemporaryFile(suffix=".png") as file:
-        file.write(base64.b64decode(data))
-        file.flush()
-        try:
-            return min(matplotlib.image.imread(file.name).shape[:2]) > 50
-        except (SyntaxError, OSError, ValueError):
-            return False
+    try:
+        with Image.open(io.BytesIO(base64.b64decode(data))) as image:
+            image.load()
+            return image.format.lower() in kind and min(image.size) > 50
+    except (SyntaxError, OSError, ValueError):
+        return False
 
 
 def mp4(source):
@@ -135,7 +137,7 @@ def check_faults_are_found(folder):
               (lambda t: t.replace('href="twist.html"', 'href="twists.html"', 1), "leads nowhere"),
               (lambda t: t.replace('src="data:image/png;base64,iVBOR', 'src="data:image/png;base64,AAAAA', 1),
                "can't be read"),
-              (lambda t: t.replace('src="data:image/png', 'src="http://example.org/a.png" title="', 1),
+              (lambda t: t.replace('src="data:image/', 'src="http://example.org/a.png" title="', 1),
                "can't be read"), (lambda t: t.replace("<body>", "<body><script></script>", 1), "holds a script"),
               (lambda t: t.replace("<body>", '<body><video src="data:video/mp4;base64,AAAAAAAAAAAAAAAA"></video>', 1),
                "movie 0 can't be read")]
@@ -158,7 +160,7 @@ def check_just_made(folder):
         manifest.update(scale=scale, dirty=True, scene={**manifest["scene"], "name": scene})
         (run / "run.json").write_text(json.dumps(manifest))
         (run / "steps.csv").write_bytes((report.RESULTS / "h200/sphere_cuda_steps.csv").read_bytes())
-    picture = next(report.RESULTS.glob("h200/fig18_paper.png"))
+    picture = next(report.RESULTS.glob("h200/fig17_paper.png"))
     (runs / "fig18-paper-cuda/fig18.png").write_bytes(picture.read_bytes())
     fresh = report.JustMade(runs, "paper", "cuda", report.Evidence(runs, changed=True))
     claims = {j.claim["id"]: j for j in judged()}

@@ -54,7 +54,7 @@ class Recipes(unittest.TestCase):
         book = recipes.load()
         for recipe in book.values():
             for backend in recipe.backends:
-                made = {recipes.PROGRAM, *(step.output for name in recipe.body.get("of", [])
+                made = {recipes.PROGRAM, *(step.output for name in recipes.shown_of(recipe.body)
                                            for step in recipes.steps(book[name], "smoke", backend, "ogc"))}
                 for step in recipes.steps(recipe, "smoke", backend, "ogc"):
                     self.assertTrue(all(path in made or Path(path).is_file() for path in step.inputs),
@@ -70,7 +70,7 @@ class Recipes(unittest.TestCase):
         self.assertEqual(names(), ["fig18"])
         self.assertEqual(names("twist", "fig07", "fig12"), ["fig12", "fig07"])
         self.assertNotIn("fig18_solvers", names("all", backend="cuda"))
-        self.assertEqual(names("fig01"), ["fig10", "fig11", "fig12", "fig13", "fig14", "fig18", "fig01"])
+        self.assertEqual(names("fig01"), ["fig10", "fig11", "fig12", "fig13", "fig16", "fig19", "fig01"])
         self.assertEqual(names("all")[-1], "fig01")
         studies = [path.stem for path in sorted((recipes.FIGURES / "ablations").glob("*.yaml"))]
         self.assertGreaterEqual(len(studies), 5)
@@ -186,10 +186,10 @@ echo 'median_step: iterations=5 is 2.33 times default' > "$out/ablation_findings
             study.draw({"twist": metrics}, ["median_step", "median_residual", "largest_momentum_lost_end"], "T", "out")
         figure = save.call_args[0][0]
         figure.canvas.draw()
-        self.assertEqual([axes.get_title() for axes in figure.axes],
+        self.assertEqual([axes.get_title("left") for axes in figure.axes],
                          ["twist\nmedian step [ms]", "largest momentum lost end [1]"])
         for axes in figure.axes:
-            for text in (axes.title, *axes.get_yticklabels()):
+            for text in (axes._left_title, *axes.get_yticklabels()):
                 extent = text.get_window_extent()
                 self.assertTrue(0 <= extent.x0 and extent.x1 <= figure.bbox.x1, text.get_text())
 
