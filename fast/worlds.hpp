@@ -40,13 +40,19 @@ class Worlds {
   virtual std::string device() const = 0;
 };
 
-/// Starts one world for each scene. Throws what the start of a single scene throws, and compare::InputError for
-/// `options` with a profile, which worlds do not have. For Backend::cuda also throws compare::ResourceError if the
-/// worlds do not fit into the free memory of the device; the message says how many do.
+/// Starts one world for each scene. Throws what the start of a single scene throws; compare::InputError if there is no
+/// scene, or for `options` with a profile, which worlds do not have; and what expect_room throws for so many worlds of
+/// the first scene.
 std::unique_ptr<Worlds> start_worlds(Backend backend, std::span<const compare::Scene> scenes,
                                      const compare::SimulationOptions& options = {});
 
 /// Returns the memory that a world of this scene needs at its start [B]. Lists that grow need more.
 std::size_t world_bytes(const compare::Scene& scene);
+/// Returns the memory that worlds may take [B]: the free memory of the device, or all memory of the machine. Throws
+/// compare::ResourceError if the device cannot be used.
+std::size_t free_bytes(Backend backend);
+/// Throws compare::ResourceError if so many worlds of this scene do not fit into free_bytes; the message says what they
+/// need, and how many fit.
+void expect_room(Backend backend, const compare::Scene& scene, std::size_t worlds);
 
 }  // namespace ogc::fast

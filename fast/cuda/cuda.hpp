@@ -16,6 +16,9 @@ namespace ogc::fast {
 /// Returns whether a device can run this build; if not, the description says why and what to do.
 BackendInfo cuda_info();
 
+/// Returns the free memory of the device [B]. Throws compare::ResourceError as cuda_contestant does.
+std::size_t cuda_free_bytes();
+
 /// Returns a contestant with all stages on the device. Throws compare::ResourceError if cuda_info() reports no usable
 /// device.
 compare::Contestant cuda_contestant(const LaunchShape& shape = {});

@@ -73,8 +73,6 @@ struct CudaPlace {
   static int threads;
 
   static double run(const WorldJob* jobs, int count);
-  /// Throws compare::ResourceError with the bytes, the free memory and the number of worlds that fit.
-  static void expect_room(std::size_t bytes, std::size_t worlds);
 };
 
 }  // namespace ogc::fast

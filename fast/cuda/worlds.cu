@@ -119,17 +119,6 @@ double CudaPlace::run(const WorldJob* jobs, int count) {
   return static_cast<double>(milliseconds);
 }
 
-void CudaPlace::expect_room(std::size_t bytes, std::size_t worlds) {
-  std::size_t free = 0, total = 0;
-  OGC_CUDA_CHECK(cudaMemGetInfo(&free, &total));
-  if (bytes == 0 || worlds <= 1 || (worlds - 1) * bytes <= free) return;
-  const auto mebibytes = [](std::size_t n) { return std::to_string(n >> 20) + " MiB"; };
-  throw compare::ResourceError(std::to_string(worlds) + " worlds need " + mebibytes(worlds * bytes) +
-                               " of the device's memory, and " + mebibytes(free + bytes) + " are free: run at most " +
-                               std::to_string(1 + free / bytes) +
-                               " worlds, end other programs on the device, or run with --backend cpu");
-}
-
 std::unique_ptr<Worlds> start_cuda_worlds(std::span<const compare::Scene> scenes,
                                           const compare::SimulationOptions& options, int list_capacity) {
   const BackendInfo info = cuda_info();

@@ -9,7 +9,6 @@
 //   Sums                 the sums of the sweep that are compiled (fast/kernels/sweep/sums.hpp)
 //   code<Operation>()    returns the code of an operation
 //   run(jobs)            runs the jobs of some worlds; returns the time [ms]
-//   expect_room(bytes, worlds)   throws if so many worlds, of which the first has taken its bytes, will not fit
 #pragma once
 
 #include <cstddef>

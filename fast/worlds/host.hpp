@@ -86,8 +86,6 @@ struct HostPlace {
     return [](const void* arguments, void*) { (*static_cast<const Operation*>(arguments))(HostBlock{}); };
   }
 
-  static void expect_room(std::size_t, std::size_t) {}
-
   static void run_program(const std::byte* program, int size) {
     for (int at = 0; at < size;) {
       const auto& instruction = *reinterpret_cast<const Instruction*>(program + at);

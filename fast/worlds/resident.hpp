@@ -23,20 +23,15 @@ using WorldSimulation = ResidentSimulation<WorldBackend<Place>>;
 template <class Place>
 class ResidentWorlds : public Worlds {
  public:
-  /// `list_capacity`: see ResidentSimulation. Throws what Place::expect_room throws after the first world.
+  /// `list_capacity`: see ResidentSimulation.
   ResidentWorlds(std::span<const compare::Scene> scenes, const compare::SimulationOptions& options, std::string device,
                  int list_capacity = 0)
       : device_(std::move(device)), worlds_(scenes.size()), has_failed_(scenes.size()) {
-    auto& pool = pool_of<typename Place::Data>();
-    const std::size_t before = pool.taken();
     const auto start = [&](std::size_t w) {
       worlds_[w] = std::make_unique<WorldSimulation<Place>>(WorldBackend<Place>{}, scenes[w], options, device_,
                                                             list_capacity);
     };
-    if (scenes.empty()) return;
-    start(0);
-    Place::expect_room(pool.taken() - before, scenes.size());
-    tbb::parallel_for(std::size_t{1}, scenes.size(), start);
+    tbb::parallel_for(std::size_t{0}, scenes.size(), start);
   }
 
   int count() const override { return static_cast<int>(worlds_.size()); }

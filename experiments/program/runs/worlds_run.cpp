@@ -33,14 +33,14 @@ std::string first_line(const std::string& text) { return text.substr(0, text.fin
 class WorldsSession {
  public:
   WorldsSession(RunRequest request, int count)
-      : request_(checked(std::move(request))), judge_(request_.scene, request_.sources), starts_(count_of(count)) {
+      : request_(checked(std::move(request))), judge_(request_.scene, request_.sources) {
+    expect_memory(static_cast<std::size_t>(count));
+    starts_.resize(static_cast<std::size_t>(count));
     for (std::size_t w = 0; w < starts_.size(); ++w) begin_world(w);
   }
 
   WorldsSummary run() {
-    tell_memory();
-    const std::vector<compare::Scene> scenes(starts_.size(), request_.scene);
-    worlds_ = fast::start_worlds(request_.backend == "cuda" ? fast::Backend::cuda : fast::Backend::cpu, scenes);
+    worlds_ = fast::start_worlds(backend(), std::vector<compare::Scene>(starts_.size(), request_.scene));
     for (std::size_t w = 0; w < starts_.size(); ++w) worlds_->reset(static_cast<int>(w), starts_[w]);
     good_ = starts_;
     summary_.scene = request_.scene.name;
@@ -63,7 +63,7 @@ class WorldsSession {
   }
 
  private:
-  static std::size_t count_of(int count) { return static_cast<std::size_t>(count); }
+  fast::Backend backend() const { return request_.backend == "cuda" ? fast::Backend::cuda : fast::Backend::cpu; }
 
   /// Makes the start of a world, and audits it.
   void begin_world(std::size_t w) {
@@ -91,11 +91,13 @@ class WorldsSession {
                                 judge_.describe(result));
   }
 
-  void tell_memory() {
-    summary_.megabytes = static_cast<double>(fast::world_bytes(request_.scene) * starts_.size()) / 1e6;
-    log_line("ogc: " + counted(starts_.size(), "world") + " of " +
-             std::to_string(request_.scene.mesh.positions.size()) + " vertices need " + number(summary_.megabytes) +
-             " MB of the " + (request_.backend == "cuda" ? "device's" : "machine's") + " memory at the start");
+  /// Says how much memory the worlds need. Throws if it is not there.
+  void expect_memory(std::size_t worlds) {
+    summary_.megabytes = static_cast<double>(fast::world_bytes(request_.scene)) * static_cast<double>(worlds) / 1e6;
+    log_line("ogc: " + counted(worlds, "world") + " of " + std::to_string(request_.scene.mesh.positions.size()) +
+             " vertices need " + number(summary_.megabytes) + " MB of the " +
+             (request_.backend == "cuda" ? "device's" : "machine's") + " memory at the start");
+    fast::expect_room(backend(), request_.scene, worlds);
   }
 
   void simulate() {
