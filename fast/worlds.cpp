@@ -1,7 +1,5 @@
 #include "fast/worlds.hpp"
 
-#include <unistd.h>
-
 #include "compare/problem/error.hpp"
 #include "fast/cpu/cpu.hpp"
 #if defined(OGC_HAS_CUDA)
@@ -15,7 +13,7 @@ std::size_t free_bytes(Backend backend) {
   if (backend == Backend::cuda) return cuda_free_bytes();
 #endif
   if (backend == Backend::cuda) throw compare::ResourceError("backend cuda: " + backend_info(backend).description);
-  return static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  return cpu_bytes();
 }
 
 void expect_room(Backend backend, const compare::Scene& scene, std::size_t worlds) {

@@ -16,6 +16,9 @@ namespace ogc::fast {
 /// Returns the number of threads of the CPU backend.
 BackendInfo cpu_info();
 
+/// Returns the memory of the machine [B].
+std::size_t cpu_bytes();
+
 /// Returns a contestant that runs all stages on the host's threads.
 compare::Contestant cpu_contestant();
 

@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include <unistd.h>
+
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -53,6 +55,10 @@ class CpuWorlds : public Worlds {
 };
 
 }  // namespace
+
+std::size_t cpu_bytes() {
+  return static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
 
 std::unique_ptr<Worlds> start_cpu_worlds(std::span<const compare::Scene> scenes,
                                          const compare::SimulationOptions& options) {

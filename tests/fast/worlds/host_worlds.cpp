@@ -1,6 +1,7 @@
 // Worlds, whose programs a host thread runs, against simulations that run alone.
 #include <stdexcept>
 
+#include "compare/problem/error.hpp"
 #include "fast/cpu/simulation.hpp"
 #include "tests/catch.hpp"
 #include "tests/fast/worlds/start_host.hpp"
@@ -137,6 +138,17 @@ TEST_CASE("worlds on the CPU have the bits of runs alone, and name the world tha
     expect_same(worlds->snapshot(w), single->snapshot());
     CHECK(worlds->has_failed(w) == (w == 3));
   }
+}
+
+TEST_CASE("worlds that do not fit into the machine's memory are refused, and the message says how many fit", "[unit]") {
+  const compare::Scene scene = falling_sheet(5, 0);
+  const std::size_t most = free_bytes(Backend::cpu) / world_bytes(scene);
+  expect_room(Backend::cpu, scene, most);
+  CHECK_THROWS_WITH(expect_room(Backend::cpu, scene, most + 1),
+                    Catch::Contains("run at most " + std::to_string(most) + " worlds"));
+  CHECK_THROWS_AS(expect_room(Backend::cpu, scene, most + 1), compare::ResourceError);
+  CHECK_THROWS_AS(start_worlds(Backend::cpu, {}), compare::InputError);
+  CHECK_THROWS_AS(start_worlds(Backend::cpu, std::span(&scene, 1), {.profile = true}), compare::InputError);
 }
 
 TEST_CASE("the memory of a world grows with its mesh", "[unit]") {

@@ -77,15 +77,30 @@ TEST_CASE("a run of worlds states its memory before the first step, and run.json
   CHECK(manifest.at("status") == "finished");
 }
 
+TEST_CASE("more worlds than the memory holds are refused before the first step, with the number that fits", "[unit]") {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_ogc("run twist --scale small --worlds 1048576 --audit off --out " +
+                                       (folder / "worlds").string());
+  INFO(result.err);
+  CHECK(result.status == 3);
+  CHECK(contains(result.err, {"1048576 worlds of", "1048576 worlds need", "run at most"}));
+  CHECK_FALSE(fs::exists(folder / "worlds"));
+}
+
 TEST_CASE("worlds refuse what belongs to one world, by name", "[unit]") {
   const TemporaryFolder folder;
   for (const std::string option :
-       {"--profile", "--iterations", "--residual", "--ledger", "--tolerate-start", "--solver newton"}) {
+       {"--profile", "--iterations", "--residual", "--ledger", "--tolerate-start", "--solver newton", "--view"}) {
     const ProgramResult result = run_ogc("run twist --scale smoke --worlds 2 " + option + " --out " +
                                          (folder / "out").string());
     INFO(option << ": " << result.err);
     CHECK(result.status == 2);
     CHECK(contains(result.err, {option, "--worlds"}));
   }
-  CHECK(run_ogc("run twist --scale smoke --worlds 0").status == 2);
+  for (const std::string count : {"0", "-1", "1048577", "1e3", "many"}) {
+    const ProgramResult result = run_ogc("run twist --scale smoke --worlds " + count);
+    INFO(count << ": " << result.err);
+    CHECK(result.status == 2);
+    CHECK(contains(result.err, {"--worlds"}));
+  }
 }
