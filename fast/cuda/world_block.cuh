@@ -11,7 +11,9 @@
 
 namespace ogc::fast {
 
-inline constexpr int most_world_threads = 512;  ///< largest number of threads of a block
+inline constexpr int most_world_threads = 256;  ///< largest number of threads of a block
+/// Number of blocks of this size that a multiprocessor runs at once. It limits the registers of a thread.
+inline constexpr int resident_world_blocks = 2;
 
 /// Returns the temporary memory of a block's operations [B].
 constexpr std::size_t world_memory(int threads) {
@@ -64,6 +66,15 @@ struct DeviceBlock {
   __device__ static int threads() { return static_cast<int>(blockDim.x); }
   __device__ static void barrier() { __syncthreads(); }
 
+  /// An operation's functor lies in shared memory. The compiler would read its members before a loop and keep them in
+  /// registers, more than there are; it does not know that this is the same functor in each turn.
+  template <class F>
+  __device__ static const F& reread(const F& f) {
+    auto address = static_cast<unsigned>(__cvta_generic_to_shared(&f));
+    asm volatile("" : "+r"(address));
+    return *static_cast<const F*>(__cvta_shared_to_generic(address));
+  }
+
   /// A warp's teams take neighbouring items. Teams beyond the last item compute the last item and write nothing,
   /// because all threads of a warp call a team's functions together.
   template <int W, class F>
@@ -71,12 +82,12 @@ struct DeviceBlock {
     constexpr int in_warp = 32 / W;
     for (int first = thread() / 32 * in_warp; first < n; first += threads() / W) {
       const int i = first + thread() % 32 / W;
-      f(i < n ? i : n - 1, WorldTeam<W>(i < n));
+      reread(f)(i < n ? i : n - 1, WorldTeam<W>(i < n));
     }
   }
   template <int W, class F>
   __device__ void group_loop(int n, const F& f) const {
-    for (int i = thread() / W; i < n; i += threads() / W) f(i, GroupLanes<W>{});
+    for (int i = thread() / W; i < n; i += threads() / W) reread(f)(i, GroupLanes<W>{});
   }
   template <class F>
   __device__ void row_loop(int n, const int* offsets, const float* values, const F& f) const {

@@ -58,7 +58,7 @@ __device__ void run_program(const std::byte* program, int size, std::byte* instr
 }
 
 /// Runs a world's segments. Each block runs one world.
-__global__ void __launch_bounds__(most_world_threads) run_world(const WorldJob* jobs) {
+__global__ void __launch_bounds__(most_world_threads, resident_world_blocks) run_world(const WorldJob* jobs) {
   extern __shared__ __align__(16) std::byte shared[];
   const WorldJob job = jobs[blockIdx.x];
   for (int s = 0; s < job.count; ++s) {

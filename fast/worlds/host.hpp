@@ -20,6 +20,10 @@ struct HostBlock {
   static int thread() { return 0; }
   static int threads() { return 1; }
   static void barrier() {}
+  template <class F>
+  static const F& reread(const F& f) {
+    return f;
+  }
 
   template <int W, class F>
   void team_loop(int n, const F& f) const {

@@ -5,6 +5,7 @@
 // A block has:
 //   int thread(), threads()                      this thread's number; number of threads
 //   void barrier()                               waits for all threads, whose writes are then visible
+//   const F& reread(const F& f)                  f itself, whose members are read again rather than kept in registers
 //   team_loop<W>(n, f), group_loop<W>(n, f), row_loop(n, offsets, values, f), search(searches), scan(scan)
 //                                                see fast/stages/backend.hpp
 #pragma once
@@ -27,10 +28,11 @@ concept HasAhead = requires(const F& f) {
 template <class F, class Block>
 OGC_HD void loop(const Block& block, int n, const F& f) {
   for (int i = block.thread(); i < n; i += block.threads()) {
+    const F& own = block.reread(f);
     if constexpr (HasAhead<F>)
-      f(i, f.ahead(i));
+      own(i, own.ahead(i));
     else
-      f(i);
+      own(i);
   }
 }
 

@@ -33,7 +33,7 @@ inline compare::Scene falling_sheet(compare::Index n, double speed) {
 inline std::vector<compare::Scene> different_worlds(int count) {
   std::vector<compare::Scene> scenes;
   for (int w = 0; w < count; ++w) {
-    compare::Scene& scene = scenes.emplace_back(falling_sheet(8 + w % 3, 0.3 + 0.02 * w));
+    compare::Scene& scene = scenes.emplace_back(falling_sheet(8 + w % 3, 0.3 + 0.02 * (w % 50)));
     scene.settings.iterations = 6 + w % 4;
     if (w % 4 == 2) scene.settings.bounds = compare::Bounds::planes;
   }
