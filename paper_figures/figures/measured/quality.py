@@ -18,12 +18,13 @@ from pathlib import Path
 
 from paper_figures.workflow import commands
 from paper_figures.workflow.evidence import columns_of, run_at
-from paper_figures.workflow.jobs import RunFailure, options_of_figure
+from paper_figures.workflow.jobs import RunFailure, manifest_of, options_of_figure
 
 SHARES = {"a tenth": 0.1, "a hundredth": 0.01}
 COUNTS = ("few", "the scene's", "most")
 WHY_NOT = {"fifty_layers": "too large for Newton's method", commands.STRETCH: "no moving planes for rods"}
-OTHER_STATE, ABSENT, FAILED = "asked of another state", "not run", "Newton's method did not converge"
+OTHER_STATE, ABSENT = "asked of another state", "not run"
+FAILED, CUT_OFF = "Newton's method did not converge", "Newton's method had no result in time"
 LAGS = "what is prescribed lags"
 ALT = ("A panel for each scene with curves of the residual of one step over its time, for balls and for planes from "
        "three states of the run; dots mark the scene's number of iterations. Below, bars with the time until a tenth "
@@ -98,7 +99,8 @@ def above_minimum(folder, share):
     if scene in WHY_NOT or share not in commands.MINIMUM_SHARES:
         why = WHY_NOT.get(scene, OTHER_STATE)
     elif not by_vbd or not by_newton:
-        why = FAILED if (folder / f"minimum_newton_{share}").is_dir() else ABSENT
+        status = manifest_of(folder / f"minimum_newton_{share}").get("status", "")
+        why = FAILED if status.startswith("failed") else CUT_OFF if status else ABSENT
     elif max(*by_vbd.column("largest_lag"), *by_newton.column("largest_lag")) > 0:
         why = LAGS
     else:

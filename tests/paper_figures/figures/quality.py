@@ -95,8 +95,10 @@ class Quality(unittest.TestCase):
 
         self.assertEqual(row(), ["1", f"{1 / 6:.4g}", "0.25", ""])
         (newton / "run.json").write_text((newton / "run.json").read_text().replace("finished", "failed: Newton"))
-        (newton / ENDED_BY_TIME).touch()
         self.assertEqual(row(), ["", "", "", quality.FAILED])
+        (newton / "run.json").write_text((newton / "run.json").read_text().replace("failed: Newton", "interrupted"))
+        (newton / ENDED_BY_TIME).touch()
+        self.assertEqual(row(), ["", "", "", quality.CUT_OFF])
         shutil.rmtree(newton)
         made_up(newton, energies=[9, 3])
         self.assertEqual(row(), ["1", f"{1 / 6:.4g}", "0", ""], "no contacts were found anew")
