@@ -11,15 +11,15 @@
 
 namespace ogc::fast {
 
-inline constexpr int most_world_threads = 256;  ///< largest number of threads of a block
-/// Number of blocks of this size that a multiprocessor runs at once. It limits the registers of a thread.
+/// Threads of a block. With fewer, more worlds run at once, but each takes longer than that gains
+/// (fast/PERFORMANCE.md).
+inline constexpr int world_threads = 256;
+/// Number of blocks that a multiprocessor runs at once. It limits the registers of a thread.
 inline constexpr int resident_world_blocks = 2;
 
-/// Returns the temporary memory of a block's operations [B].
-constexpr std::size_t world_memory(int threads) {
-  return sizeof(SearchMemory) * static_cast<std::size_t>(threads / 32);
-}
-static_assert(sizeof(SearchMemory) >= sizeof(int) * most_world_threads / 32, "a scan's sums fit");
+/// Temporary memory of a block's operations [B].
+inline constexpr std::size_t world_memory = sizeof(SearchMemory) * world_threads / 32;
+static_assert(sizeof(SearchMemory) >= sizeof(int) * world_threads / 32, "a scan's sums fit");
 
 /// A team of W neighbouring threads that compute the parts of a sum one after the other. It has the terms and the order
 /// of fast/kernels/team.hpp. Teams of a block do not wait for each other.
@@ -60,10 +60,10 @@ class WorldTeam : public NeighbourLanes<W> {
 
 /// The threads of a block.
 struct DeviceBlock {
-  void* memory;  ///< shared memory of world_memory() bytes
+  void* memory;  ///< shared memory of world_memory bytes
 
   __device__ static int thread() { return static_cast<int>(threadIdx.x); }
-  __device__ static int threads() { return static_cast<int>(blockDim.x); }
+  __device__ static constexpr int threads() { return world_threads; }
   __device__ static void barrier() { __syncthreads(); }
 
   /// An operation's functor lies in shared memory. The compiler would read its members before a loop and keep them in

@@ -68,10 +68,6 @@ struct CudaPlace {
     }();
     return code;
   }
-  /// Threads of a block, a power of two from 32 to most_world_threads; 0: chosen from the number of worlds. It changes
-  /// no bit.
-  static int threads;
-
   static double run(const WorldJob* jobs, int count);
 };
 

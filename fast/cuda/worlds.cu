@@ -58,7 +58,7 @@ __device__ void run_program(const std::byte* program, int size, std::byte* instr
 }
 
 /// Runs a world's segments. Each block runs one world.
-__global__ void __launch_bounds__(most_world_threads, resident_world_blocks) run_world(const WorldJob* jobs) {
+__global__ void __launch_bounds__(world_threads, resident_world_blocks) run_world(const WorldJob* jobs) {
   extern __shared__ __align__(16) std::byte shared[];
   const WorldJob job = jobs[blockIdx.x];
   for (int s = 0; s < job.count; ++s) {
@@ -71,46 +71,23 @@ __global__ void __launch_bounds__(most_world_threads, resident_world_blocks) run
   }
 }
 
-}  // namespace
-
-int CudaPlace::threads = 0;
-
-namespace {
-
 /// The stack of a thread: the compiler cannot know its depth, because operations are called by address.
 constexpr std::size_t stack_bytes = 4096;
-
-std::size_t shared_bytes(int threads) { return 2 * largest_instruction + world_memory(threads); }
-
-/// Returns the largest number of threads of a block with which all worlds run at once, but at least `least`: a world
-/// waits for memory most of the time, so worlds beside it cost less than worlds after it.
-int threads_for(int worlds) {
-  constexpr int least = 64;
-  int device = 0, multiprocessors = 0;
-  OGC_CUDA_CHECK(cudaGetDevice(&device));
-  OGC_CUDA_CHECK(cudaDeviceGetAttribute(&multiprocessors, cudaDevAttrMultiProcessorCount, device));
-  for (int threads = most_world_threads; threads > least; threads /= 2) {
-    int blocks = 0;
-    OGC_CUDA_CHECK(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, run_world, threads, shared_bytes(threads)));
-    if (worlds <= blocks * multiprocessors) return threads;
-  }
-  return least;
-}
 
 }  // namespace
 
 double CudaPlace::run(const WorldJob* jobs, int count) {
   static cudaEvent_t begin = nullptr, end = nullptr;
+  constexpr std::size_t shared_bytes = 2 * largest_instruction + world_memory;
   if (begin == nullptr) {
     OGC_CUDA_CHECK(cudaEventCreate(&begin));
     OGC_CUDA_CHECK(cudaEventCreate(&end));
-    OGC_CUDA_CHECK(cudaFuncSetAttribute(run_world, cudaFuncAttributeMaxDynamicSharedMemorySize,
-                                        static_cast<int>(shared_bytes(most_world_threads))));
+    OGC_CUDA_CHECK(
+        cudaFuncSetAttribute(run_world, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(shared_bytes)));
     OGC_CUDA_CHECK(cudaDeviceSetLimit(cudaLimitStackSize, stack_bytes));
   }
-  const int own_threads = threads > 0 ? threads : threads_for(count);
   OGC_CUDA_CHECK(cudaEventRecord(begin));
-  run_world<<<count, own_threads, shared_bytes(own_threads)>>>(jobs);
+  run_world<<<count, world_threads, shared_bytes>>>(jobs);
   OGC_CUDA_CHECK(cudaGetLastError());
   OGC_CUDA_CHECK(cudaEventRecord(end));
   OGC_CUDA_CHECK(cudaEventSynchronize(end));

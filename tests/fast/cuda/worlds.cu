@@ -25,7 +25,7 @@ void expect_alone(const compare::Scene& scene, std::int64_t steps, const std::ve
 
 TEST_CASE("each world on the device has the bits of its run alone, for 1, 3 and 300 worlds, beside one that fails",
           "[gpu]") {
-  for (const int count : {1, 3, 300}) {  // 300 take blocks of fewer threads than one
+  for (const int count : {1, 3, 300}) {  // 300 do not run at once
     CAPTURE(count);
     std::vector<compare::Scene> scenes = different_worlds(count);
     if (count > 1) make_fail(scenes[1]);
