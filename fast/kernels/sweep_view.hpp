@@ -20,10 +20,14 @@
 
 namespace ogc::fast {
 
-/// Bits of the features that a scene may need of the sum over a vertex's stencils. `asks_any_model`: models of bending
-/// or damping other than discrete hinges and damping of strains. `asks_any_activation`: an activation other than `ogc`.
-/// The kinds of elements have the bits from `first_kind_bit` on, in the order of kinds/kinds.hpp.
-inline constexpr unsigned asks_volumes = 1, asks_any_model = 2, asks_any_activation = 4, first_kind_bit = 8;
+/// Bits of the features that a scene may need of the sum over a vertex's stencils. `asks_any_stretch`: damping
+/// other than that of strains. `asks_any_bending`: such damping of hinges, or bending other than that of discrete
+/// hinges. `asks_any_activation`: an activation other than `ogc`. The kinds of elements have the bits from
+/// `first_kind_bit` on, in the order of kinds/kinds.hpp.
+inline constexpr unsigned asks_volumes = 1, asks_any_stretch = 2, asks_any_bending = 4, asks_any_activation = 8,
+                          first_kind_bit = 16;
+/// The bits of all models; a part that no model concerns gives all of them.
+inline constexpr unsigned asks_any_model = asks_any_stretch | asks_any_bending;
 
 /// The incidences of a vertex in the stream of a kind of element.
 struct Row {

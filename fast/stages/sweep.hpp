@@ -62,11 +62,12 @@ inline bool is_moved_to_target(const RestState& rest, const compare::Scene& scen
 
 /// Returns the features that a scene needs in the sum over a vertex's stencils, one bit each (sums.hpp).
 inline unsigned asked_of_sum(const RestState& rest, const compare::Scene& scene) {
-  bool usual_models = true;
+  unsigned models_asked = 0;
   for (const SurfaceModels& models : rest.models)
-    usual_models = usual_models && has_default_membrane(models) && has_default_bending(models);
-  return kinds_of(Kinds{}, rest) | (compare::has_volumes(scene) ? asks_volumes : 0u) |
-         (usual_models ? 0u : asks_any_model) | (rest.activation == ContactActivation::ogc ? 0u : asks_any_activation);
+    models_asked |= (has_default_membrane(models) ? 0u : asks_any_stretch) |
+                    (has_default_bending(models) ? 0u : asks_any_bending);
+  return kinds_of(Kinds{}, rest) | (compare::has_volumes(scene) ? asks_volumes : 0u) | models_asked |
+         (rest.activation == ContactActivation::ogc ? 0u : asks_any_activation);
 }
 
 /// Updates `count` vertices of a colour, each by a team of `lanes` team lanes.

@@ -188,7 +188,7 @@ struct AddAnyHinge {
 /// Makes the part of a vertex's sum that adds discrete hinges with damping of strains.
 struct UsualHinges {
   template <class All>
-  static constexpr unsigned gives = All::template bit<HingeKind>;
+  static constexpr unsigned gives = All::template bit<HingeKind> | asks_any_stretch;
 
   template <class View>
   OGC_HD static Part<LoadFrom<HingeIncidence>, AddDiscreteHinge> part_of(const View& view, int slot,

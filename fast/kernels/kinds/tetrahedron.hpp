@@ -297,7 +297,7 @@ struct AddAnyTetrahedron {
 /// Makes the part of a vertex's sum that adds tetrahedra with damping of strains. The scene must have tetrahedra.
 struct UsualTetrahedra {
   template <class All>
-  static constexpr unsigned gives = All::template bit<TetrahedronKind>;
+  static constexpr unsigned gives = All::template bit<TetrahedronKind> | asks_any_bending;
 
   template <class View>
   OGC_HD static Part<LoadTetrahedron, AddTetrahedron> part_of(const View& view, int slot, const SweepVertex& vertex,

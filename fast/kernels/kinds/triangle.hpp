@@ -161,7 +161,7 @@ struct AddAnyTriangle {
 /// Makes the part of a vertex's sum that adds triangles with any membrane model and damping of strains.
 struct UsualTriangles {
   template <class All>
-  static constexpr unsigned gives = All::template bit<TriangleKind>;
+  static constexpr unsigned gives = All::template bit<TriangleKind> | asks_any_bending;
 
   template <class View>
   OGC_HD static Part<LoadFrom<MembraneIncidence>, AddTriangle> part_of(const View& view, int slot,

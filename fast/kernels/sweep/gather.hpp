@@ -17,7 +17,7 @@ template <class Activation, class... Parts>
 struct Gather {
   /// number of parts of the sum; a block has a warp for each part if teams are spread (fast/cuda/team.cuh)
   static constexpr int parts = sizeof...(Parts) + 2;
-  /// Bits of all features that this sum computes. It has the bit `asks_any_model` only if all of its parts have this
+  /// Bits of all features that this sum computes. It has a bit of `asks_any_model` only if all of its parts have this
   /// bit.
   static constexpr unsigned gives = ((Parts::template gives<Kinds> | ...) & ~asks_any_model) |
                                     (Parts::template gives<Kinds> & ... & asks_any_model) |

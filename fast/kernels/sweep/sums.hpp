@@ -30,14 +30,17 @@ struct SumList {
   }
 };
 
-/// The sum for scenes with only surfaces of the default models, and the sum for scenes with only solids.
+/// The sums for scenes with only surfaces of the default models, with only surfaces that bend by another model, with
+/// only solids.
 using GatherSurfaces = Gather<OgcActivation, UsualTriangles, UsualHinges>;
+using GatherBentSurfaces = Gather<OgcActivation, UsualTriangles, Hinges>;
 using GatherSolids = Gather<OgcActivation, UsualTetrahedra>;
 
 /// Sums that are compiled for a device. There are several, because each part that a scene does not need costs registers
 /// and one warp per block. Each special sum makes some scene at least 5 % faster (fast/PERFORMANCE.md, Sums).
-using DeviceSums = SumList<GatherSurfaces, Gather<OgcActivation, UsualTriangles, UsualHinges, Springs, VolumeContacts>,
-                           GatherSolids, Gather<OgcActivation, Springs, UsualSegments>,
+using DeviceSums = SumList<GatherSurfaces, GatherBentSurfaces,
+                           Gather<OgcActivation, UsualTriangles, UsualHinges, Springs, VolumeContacts>, GatherSolids,
+                           Gather<OgcActivation, Springs, UsualSegments>,
                            Gather<AnyActivation, Triangles, Hinges, Springs, Tetrahedra>,
                            Gather<AnyActivation, Triangles, Hinges, Springs, Tetrahedra, VolumeContacts>, GatherAll>;
 /// Sums that are compiled for the host. One sum suffices, because the host skips the kinds of elements that a vertex

@@ -189,6 +189,9 @@ TEST_CASE("a scene asks of its sum what it has: kinds, volumes, other models, an
   compare::Scene with_volume = drop_scene(true);
   with_volume.bodies.back().contact = compare::BodyContact::volume;
   CHECK((asked(with_volume) & asks_volumes) != 0);
+  compare::Scene bent = drop_scene(true);
+  for (compare::Body& body : bent.bodies) body.material.bending = compare::BendingModel::isometric_quadratic;
+  CHECK(asked(bent) == (Kinds::bit<TetrahedronKind> | sheet | asks_any_bending));
   compare::Scene other = drop_scene(false);
   other.settings.damping = compare::DampingForm::per_vertex;
   CHECK(asked(other) == (Kinds::bit<TetrahedronKind> | asks_any_model));

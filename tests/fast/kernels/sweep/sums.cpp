@@ -36,3 +36,13 @@ TEST_CASE("each sum of a device is one that some scene takes", "[unit]") {
   for (std::size_t number = 0; number < sums.size(); ++number)
     CHECK(DeviceSums::first_that_gives(sums[number]) == static_cast<int>(number));
 }
+
+TEST_CASE("surfaces that bend isometrically take a sum without what they do not have", "[unit]") {
+  const unsigned sheet = Kinds::bit<TriangleKind> | Kinds::bit<HingeKind>;
+  const auto sum_of = [](unsigned asked) {
+    return gives(DeviceSums{}).at(static_cast<std::size_t>(DeviceSums::first_that_gives(asked)));
+  };
+  CHECK(sum_of(sheet) == GatherSurfaces::gives);
+  CHECK(sum_of(sheet | asks_any_bending) == GatherBentSurfaces::gives);
+  CHECK((sum_of(sheet | asks_any_stretch) & Kinds::bit<TetrahedronKind>) != 0);
+}
