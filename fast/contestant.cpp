@@ -2,8 +2,11 @@
 // was built with CUDA.
 #include "fast/contestant.hpp"
 
+#include <stdexcept>
+
 #include "compare/problem/error.hpp"
 #include "fast/cpu/cpu.hpp"
+#include "fast/resident_state.hpp"
 #if defined(OGC_HAS_CUDA)
 #include "fast/cuda/cuda.hpp"
 #endif
@@ -21,6 +24,12 @@ BackendInfo device_info() {
 }
 
 }  // namespace
+
+ResidentState& resident_state(compare::Simulation& simulation) {
+  auto* state = dynamic_cast<ResidentState*>(&simulation);
+  if (state == nullptr) throw std::invalid_argument("resident_state: the simulation is of another library");
+  return *state;
+}
 
 BackendInfo backend_info(Backend backend) { return backend == Backend::cpu ? cpu_info() : device_info(); }
 

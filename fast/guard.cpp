@@ -94,6 +94,10 @@ std::vector<compare::Vec3f> Guard::positions() const { return engine_->positions
 
 const compare::Vec3f* Guard::positions_resident() const { return engine_->positions_resident(); }
 
+int Guard::device_number() const { return engine_->device_number(); }
+
+void Guard::wait_for_device() { engine_->wait_for_device(); }
+
 ContactView Guard::contacts() const { return engine_->contacts(); }
 
 const compare::Vec3f* Guard::detected_at_resident() const { return engine_->detected_at_resident(); }

@@ -81,6 +81,8 @@ class GuardEngine {
                                     compare::Vec3f* out) = 0;
   virtual std::vector<compare::Vec3f> positions() = 0;
   virtual const compare::Vec3f* positions_resident() const = 0;
+  virtual int device_number() const = 0;
+  virtual void wait_for_device() = 0;
   virtual ContactView contacts() = 0;
   virtual const compare::Vec3f* detected_at_resident() const = 0;
 };
@@ -129,8 +131,13 @@ class Guard {
 
   /// Returns the state [m].
   std::vector<compare::Vec3f> positions() const;
-  /// Returns the state [m] in the backend's memory, valid until the next call that is not const.
+  /// Returns the state [m] in the backend's memory, valid until the next call that is not const. That call does not
+  /// wait for what other streams still read: call `wait_for_device` before.
   const compare::Vec3f* positions_resident() const;
+  /// Returns the number of the CUDA device with the memory; −1: it is the host's.
+  int device_number() const;
+  /// Waits for all work that the device has been given, of any stream.
+  void wait_for_device();
 
   /// Returns contacts and bounds of the last detection, at X_prev, in the backend's memory; valid until the next
   /// detection. So a solver whose contact radius is r needs no other detection.

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "compare/problem/error.hpp"
+#include "experiments/python/exchange.hpp"
+#include "experiments/python/state_view.hpp"
 
 namespace ogc::python {
 namespace {
@@ -192,9 +194,13 @@ nb::object capsule_of(nb::handle value) {
 /// buffer without asking whether there are any, and ctypes gives none; none if the object offers neither.
 nb::object source_of(nb::handle value) {
   if (PyCapsule_CheckExact(value.ptr())) return nb::borrow(value);
+  // Why a view of our own refuses, its user must know.
+  if (nb::isinstance<StateView>(value)) return value.attr("__dlpack__")(nb::arg("max_version") = nb::make_tuple(1, 0));
   if (nb::hasattr(value.type(), "__dlpack__") && !nb::isinstance<nb::type_object>(value)) {
-    nb::object capsule = capsule_of(value);
-    if (PyCapsule_CheckExact(capsule.ptr())) return capsule;
+    for (nb::object (*const ask)(nb::handle) : {exchanged, capsule_of}) {
+      nb::object capsule = ask(value);
+      if (PyCapsule_CheckExact(capsule.ptr())) return capsule;
+    }
   }
   nb::object view = nb::steal(PyMemoryView_FromObject(value.ptr()));
   if (view.is_valid()) return view;
@@ -242,6 +248,7 @@ Array checked(nb::handle value, const Wanted& wanted) {
 }
 
 Output checked_output(nb::handle value, const Wanted& wanted) {
+  if (nb::isinstance<StateView>(value)) refuse(wanted, "a StateView, which is read-only,", "an array of your own");
   Output array;
   if (!offers(value, array)) {
     checked(value, wanted);

@@ -104,6 +104,13 @@ nb::object lent_on_device(const void* rows, std::size_t count, nb::handle owner,
   return nb::cast(lent, nb::rv_policy::reference);
 }
 
+/// The same for rows on the host, whose array says by DLPack that it is read-only.
+template <class Number, std::size_t Columns>
+nb::object lent_on_host(const void* rows, std::size_t count, nb::handle owner) {
+  using Lent = nb::ndarray<nb::array_api, const Number, nb::ndim<2>, nb::device::cpu>;
+  return nb::cast(Lent(static_cast<const Number*>(rows), {count, Columns}, owner), nb::rv_policy::reference);
+}
+
 /// Return a NumPy array that owns these rows.
 nb::object owned(std::vector<compare::Vec3f>&& rows);
 nb::object owned(std::vector<std::array<float, 6>>&& rows);

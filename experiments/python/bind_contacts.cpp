@@ -23,7 +23,7 @@ fast::ContactColumns find_in(ContactFinder& finder, nb::handle x, const fast::Co
   const bool has_device = finder.backend() == fast::Backend::cuda;
   const Given<compare::Vec3f> positions = given_positions(x, "x", has_device ? Place::either : Place::host);
   const nb::gil_scoped_release release;
-  return in_terms_of_python([&] {
+  return with_names_of_python([&] {
     return is_on_device(positions.array) ? finder.find_on_device(positions.items, query)
                                          : finder.find(positions.items, query);
   });
@@ -191,7 +191,7 @@ void bind_finder(nb::module_& module) {
       .def(
           "__init__",
           [](ContactFinder* self, const Mesh& mesh, std::string_view backend) {
-            const fast::Backend chosen = parse_backend(backend);
+            const fast::Backend chosen = usable_backend(backend);
             const nb::gil_scoped_release release;
             new (self) ContactFinder(mesh.mesh(), chosen);
           },
@@ -206,7 +206,7 @@ void bind_finder(nb::module_& module) {
   module.def(
       "find_contacts",
       [](Mesh& mesh, nb::handle x, double radius, double query_radius, double relaxation, std::string_view backend) {
-        const fast::Backend chosen = parse_backend(backend);
+        const fast::Backend chosen = usable_backend(backend);
         ContactFinder* finder = nullptr;
         {
           const nb::gil_scoped_release release;
@@ -228,7 +228,7 @@ void bind_contacts(nb::module_& module) {
   module.def(
       "backend_info",
       [](std::string_view backend) {
-        const fast::BackendInfo info = fast::backend_info(parse_backend(backend));
+        const fast::BackendInfo info = backend_info(backend);
         nb::dict facts;
         facts["built"] = info.built;
         facts["usable"] = info.usable;

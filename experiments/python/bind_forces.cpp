@@ -99,7 +99,7 @@ void init_forces(ContactForces* self, const Mesh& mesh, nb::handle rest, double 
   const Given<Vec3f> positions = given_positions(rest, "rest");
   Given<compare::Index> numbers;
   if (!colours.is_none()) numbers = given<compare::Index>(colours, {"colours", "int32", "(V,)", 1});
-  const fast::Backend chosen = parse_backend(backend);
+  const fast::Backend chosen = usable_backend(backend);
   const fast::ContactForceOptions options{.contact_radius = static_cast<float>(radius),
                                           .contact_stiffness = static_cast<float>(contact_stiffness),
                                           .friction = static_cast<float>(friction),
@@ -115,7 +115,7 @@ void find(ContactForces& forces, nb::handle x) {
   const Given<Vec3f> positions = given_positions(x, "x", forces.place());
   expect_vertices("x", positions.items.size(), forces.mesh());
   const nb::gil_scoped_release release;
-  in_terms_of_python([&] { forces.find(positions.items, is_on_device(positions.array)); });
+  with_names_of_python([&] { forces.find(positions.items, is_on_device(positions.array)); });
 }
 
 /// Returns an array of float32 (V, 6) of the library of x: torch's, or one that its type makes, as CuPy's does.
@@ -149,7 +149,7 @@ ContactForceSums evaluate_there(ContactForces& forces, nb::handle x, const Given
   fast::ContactEnergy energy;
   {
     const nb::gil_scoped_release release;
-    in_terms_of_python([&] {
+    with_names_of_python([&] {
       forces.with_contacts(guard, [&](fast::ContactForces& of, const fast::FoundContacts& contacts) {
         energy = of.evaluate_resident(contacts, positions.items.data(), sliding, to);
       });
@@ -173,7 +173,7 @@ ContactForceSums evaluate(ContactForces& forces, nb::handle x, nb::handle start,
   fast::ContactForceSums sums;
   {
     const nb::gil_scoped_release release;
-    in_terms_of_python([&] {
+    with_names_of_python([&] {
       forces.with_contacts(guard, [&](fast::ContactForces& of, const fast::FoundContacts& contacts) {
         sums = of.evaluate(contacts, positions.items, {begin.items, dt});
       });

@@ -30,11 +30,11 @@ compare::Bounds parse_bounds(std::string_view name) {
 void init_guard(Guard* self, const Mesh& mesh, nb::handle x, double query_radius, std::string_view bounds,
                 double radius, double relaxation, double detection_fraction, std::string_view backend) {
   const Given<Vec3f> positions = given_positions(x, "x");
-  const fast::Backend chosen = parse_backend(backend);
+  const fast::Backend chosen = usable_backend(backend);
   const fast::GuardOptions options{static_cast<float>(radius), static_cast<float>(query_radius), parse_bounds(bounds),
                                    static_cast<float>(relaxation), detection_fraction};
   const nb::gil_scoped_release release;
-  in_terms_of_python([&] { return new (self) Guard(mesh.mesh(), positions.items, options, chosen); });
+  with_names_of_python([&] { return new (self) Guard(mesh.mesh(), positions.items, options, chosen); });
 }
 
 nb::object step(Guard& guard, nb::handle x, nb::handle dx, nb::object out) {
@@ -50,7 +50,7 @@ nb::object step(Guard& guard, nb::handle x, nb::handle dx, nb::object out) {
   expect_vertices("out", output.shape(0), guard.mesh());
   {
     const nb::gil_scoped_release release;
-    in_terms_of_python([&] {
+    with_names_of_python([&] {
       if (is_there)
         guard.step_on_device(positions.items.data(), moves.items.data(), written);
       else
@@ -121,7 +121,7 @@ void bind_guard(nb::module_& module) {
             const Given<Vec3f> positions = given_positions(x, "x", guard.place());
             expect_vertices("x", positions.items.size(), guard.mesh());
             const nb::gil_scoped_release release;
-            in_terms_of_python([&] { guard.reset(positions.items, is_on_device(positions.array)); });
+            with_names_of_python([&] { guard.reset(positions.items, is_on_device(positions.array)); });
           },
           nb::arg("x").none(), nb::sig("def reset(self, x: " OGC_VECTORS ") -> None"),
           "Forgets the state and begins anew at x, which must be free of intersections [m].")
@@ -129,16 +129,14 @@ void bind_guard(nb::module_& module) {
            "Detects at the guard's state: each vertex has the whole region about it again.")
       .def_prop_ro(
           "positions",
-          [](Guard& guard) {
-            std::vector<Vec3f> state;
-            {
-              const nb::gil_scoped_release release;
-              state = guard.positions();
-            }
-            return owned(std::move(state));
+          [](nb::handle self) {
+            auto& guard = nb::cast<Guard&>(self);
+            return StateView{nb::borrow(self),      &guard,
+                             StateField::positions, compare::at(guard.mesh().vertex_count()),
+                             guard.device_number(), guard.version()};
           },
-          nb::sig("def positions(self) -> " OGC_LENT("float32", "(None, 3)")),
-          "float32 (V, 3): the guard's state, copied to the host [m]")
+          nb::sig("def positions(self) -> StateView"),
+          "the guard's state [m], not copied; valid until the next step or reset. positions.cpu() is a copy")
       .def_prop_ro(
           "report", [](const Guard& guard) { return guard.report(); }, nb::sig("def report(self) -> GuardReport"),
           "what the last step did")

@@ -138,6 +138,20 @@ Body add_moving_body(compare::Scene& scene, nb::handle frames, nb::handle faces,
   return body_of(scene, body);
 }
 
+/// NumPy's types of a table of metrics. NumPy takes longer to make them than a short step takes.
+struct TableType {
+  nb::object row, table;
+
+  TableType() {
+    nb::list types;
+    for (const MetricColumn& column : metric_columns())
+      types.append(nb::make_tuple(column.name, column.is_whole ? "i8" : "f8"));
+    const nb::module_ numpy = nb::module_::import_("numpy");
+    row = numpy.attr("dtype")(nb::make_tuple(numpy.attr("record"), types));
+    table = numpy.attr("recarray");
+  }
+};
+
 /// Returns rows as a structured array, numpy.recarray.
 nb::object table_of(const std::vector<compare::StepMetrics>& rows) {
   const auto columns = metric_columns();
@@ -158,12 +172,10 @@ nb::object table_of(const std::vector<compare::StepMetrics>& rows) {
   const std::size_t count = cells->size();
   const nb::capsule owner(cells.release(),
                           [](void* all) noexcept { delete static_cast<std::vector<std::int64_t>*>(all); });
-  nb::list types;
-  for (const MetricColumn& column : columns) types.append(nb::make_tuple(column.name, column.is_whole ? "i8" : "f8"));
-  const nb::module_ numpy = nb::module_::import_("numpy");
   const nb::object array = nb::cast(nb::ndarray<nb::numpy, std::int64_t, nb::ndim<1>>(data, {count}, owner),
                                     nb::rv_policy::reference);
-  return array.attr("view")(numpy.attr("dtype")(types)).attr("view")(numpy.attr("recarray"));
+  static const TableType* const type = new TableType;  // kept for good: Python's objects may end before statics do
+  return array.attr("view")(type->row).attr("view")(type->table);
 }
 
 nb::object advance(Simulation& simulation, std::int64_t steps) {
@@ -181,6 +193,13 @@ nb::object advance(Simulation& simulation, std::int64_t steps) {
 Snapshot snapshot_of(const Simulation& simulation) {
   const nb::gil_scoped_release release;
   return simulation.snapshot();
+}
+
+template <StateField field>
+StateView view_of(nb::handle self) {
+  auto& simulation = nb::cast<Simulation&>(self);
+  return {nb::borrow(self),           &simulation,         field, simulation.scene().mesh.positions.size(),
+          simulation.device_number(), simulation.version()};
 }
 
 /// Advances a few steps at a time, and yields the row of each.
@@ -430,14 +449,10 @@ void bind_simulation(nb::module_& module) {
             simulation.restore(snapshot);
           },
           nb::arg("snapshot"), "Goes on from a snapshot, to the same bits; `metrics` begins anew.")
-      .def_prop_ro(
-          "positions", [](const Simulation& simulation) { return owned(snapshot_of(simulation).positions); },
-          nb::sig("def positions(self) -> " OGC_LENT("float32", "(None, 3)")),
-          "float32 (V, 3): positions, copied to the host at each call [m]")
-      .def_prop_ro(
-          "velocities", [](const Simulation& simulation) { return owned(snapshot_of(simulation).velocities); },
-          nb::sig("def velocities(self) -> " OGC_LENT("float32", "(None, 3)")),
-          "float32 (V, 3): velocities, copied to the host at each call [m/s]")
+      .def_prop_ro("positions", &view_of<StateField::positions>, nb::sig("def positions(self) -> StateView"),
+                   "positions [m], not copied; valid until the next step or restore. positions.cpu() is a copy")
+      .def_prop_ro("velocities", &view_of<StateField::velocities>, nb::sig("def velocities(self) -> StateView"),
+                   "velocities [m/s], not copied; valid until the next step or restore. velocities.cpu() is a copy")
       .def_prop_ro(
           "metrics",
           [](const Simulation& simulation) {
@@ -449,7 +464,8 @@ void bind_simulation(nb::module_& module) {
             return table_of(rows);
           },
           nb::sig("def metrics(self) -> numpy.recarray"),
-          "metrics of all steps since the start or the last restore: step, wall_ms [ms], vertex_facet_contacts,\n"
+          "metrics of all steps since the start or the last restore, on the host: step, wall_ms [ms], "
+          "vertex_facet_contacts,\n"
           "edge_edge_contacts, largest_lag [m], smallest_distance [m], energies [J] … as in steps.csv")
       .def_prop_ro(
           "faces",
@@ -468,7 +484,8 @@ void bind_simulation(nb::module_& module) {
           nb::sig("def save(self, path: str | os.PathLike[str], frames: " OGC_GIVEN(
               "float32", "(None, None, 3)") " | None = None) -> None"),
           "Writes a .npz with positions, float32 (F, V, 3) [m], triangles, int32 (T, 3), and metrics, which ogc.load,\n"
-          "numpy.load and `ogc audit` read. frames: states to write, np.stack of sim.positions; without it the present "
+          "numpy.load and `ogc audit` read. frames: states to write, np.stack of sim.positions.cpu(); without it the "
+          "present "
           "one.\n\n"
           "ValueError: another kind of file. TypeError: frames of another dtype or shape.")
       .def_prop_ro("device", &Simulation::device, "\"2 threads\", or the device");

@@ -3,11 +3,22 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "compare/problem/error.hpp"
 
 namespace ogc::python {
 namespace {
+
+constexpr const char* no_cuda =
+    "this package has no CUDA; install ogc-testbed-cu13 in place of ogc-testbed (experiments/python/wheels cuda makes "
+    "it), or, with nvcc, in a checkout: pip install . -C cmake.define.OGC_CUDA=ON";
+
+fast::Backend parse_backend(std::string_view name) {
+  if (name == "cpu") return fast::Backend::cpu;
+  if (name == "cuda") return fast::Backend::cuda;
+  throw compare::InputError("backend: there is no '" + std::string(name) + "'; give \"cpu\" or \"cuda\"");
+}
 
 template <class Primitive>
 compare::Index after_last(compare::Index count, std::span<const Primitive> primitives) {
@@ -22,10 +33,29 @@ compare::Index after_last(compare::Index count, std::span<const Primitive> primi
 
 }  // namespace
 
-fast::Backend parse_backend(std::string_view name) {
-  if (name == "cpu") return fast::Backend::cpu;
-  if (name == "cuda") return fast::Backend::cuda;
-  throw compare::InputError("backend: there is no '" + std::string(name) + "'; give \"cpu\" or \"cuda\"");
+fast::BackendInfo backend_info(std::string_view name) {
+  fast::BackendInfo info = fast::backend_info(parse_backend(name));
+  if (!info.built) info.description = no_cuda;
+  return info;
+}
+
+fast::Backend usable_backend(std::string_view name) {
+  const fast::Backend backend = parse_backend(name);
+  static const bool has_cuda = fast::backend_info(fast::Backend::cuda).built;
+  if (backend == fast::Backend::cuda && !has_cuda) throw compare::ResourceError(std::string("backend: ") + no_cuda);
+  return backend;
+}
+
+std::string in_terms_of_python(std::string message) {
+  for (const auto& [name, ours] : {std::pair<std::string_view, const char*>{"positions: ", "x: "},
+                                   {"moves: ", "dx: "},
+                                   {"time_step ", "dt "},
+                                   {"contact_radius", "radius"},
+                                   {"bounds_relaxation", "relaxation"}}) {
+    const std::size_t at = message.find(name);
+    if (at == 0 || (at != std::string::npos && message[at - 1] == ' ')) message.replace(at, name.size(), ours);
+  }
+  return message;
 }
 
 fast::ContactColumns ContactFinder::find(std::span<const compare::Vec3f> positions, const fast::ContactQuery& query) {

@@ -17,26 +17,25 @@
 
 namespace ogc::python {
 
-/// Returns the backend that a user names. Throws compare::InputError that lists them.
-fast::Backend parse_backend(std::string_view name);
+/// Returns what this package knows of the backend that a user names. Throws compare::InputError that lists them.
+fast::BackendInfo backend_info(std::string_view name);
+/// Returns the backend that a user names. Throws compare::InputError that lists them, and compare::ResourceError if it
+/// is not built in.
+fast::Backend usable_backend(std::string_view name);
 
 /// Throws compare::InputError unless an array has one row for each vertex.
 void expect_vertices(const char* argument, std::size_t count, const fast::Mesh& mesh);
 
-/// Calls `work`; messages of compare::InputError that begin with a name of C++ begin with Python's name instead.
+/// Returns a message in which Python's names of arguments stand for those of C++.
+std::string in_terms_of_python(std::string message);
+
+/// Calls `work`; messages of compare::InputError have Python's names of arguments.
 template <class Work>
-auto in_terms_of_python(Work work) {
+auto with_names_of_python(Work work) {
   try {
     return work();
   } catch (const compare::InputError& error) {
-    const std::string_view text = error.what();
-    for (const auto& [name, ours] : {std::pair<std::string_view, const char*>{"positions: ", "x: "},
-                                     {"moves: ", "dx: "},
-                                     {"time_step ", "dt "},
-                                     {"contact_radius ", "radius "},
-                                     {"bounds_relaxation ", "relaxation "}})
-      if (text.starts_with(name)) throw compare::InputError(ours + std::string(text.substr(name.size())));
-    throw;
+    throw compare::InputError(in_terms_of_python(error.what()));
   }
 }
 

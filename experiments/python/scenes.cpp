@@ -124,13 +124,14 @@ std::span<const MetricColumn> metric_columns() { return all_columns; }
 
 Simulation::Simulation(compare::Scene scene, std::string_view backend, const compare::SimulationOptions& options)
     : scene_(std::move(scene)) {
-  const fast::Backend chosen = parse_backend(backend);
+  const fast::Backend chosen = usable_backend(backend);
   compare::round_to_single(scene_);
   const std::vector<compare::Problem> problems = compare::validate(scene_);
   if (!problems.empty())
     throw compare::InputError("the scene '" + scene_.name + "' cannot be simulated:\n" + compare::describe(problems));
   compare::refuse_unread(scene_.settings, "vbd");
   simulation_ = fast::contestant(chosen).start(scene_, options);
+  state_ = &fast::resident_state(*simulation_);
 }
 
 std::vector<StepMetrics> Simulation::advance(std::int64_t steps, const std::function<void()>& between) {
@@ -141,6 +142,7 @@ std::vector<StepMetrics> Simulation::advance(std::int64_t steps, const std::func
   std::vector<StepMetrics> rows;
   while (steps > 0) {
     const std::int64_t now = std::min(steps, chunk);
+    begin_overwriting();
     const std::vector<StepMetrics> new_rows = simulation_->advance(now);
     rows.insert(rows.end(), new_rows.begin(), new_rows.end());
     rows_.insert(rows_.end(), new_rows.begin(), new_rows.end());
@@ -170,9 +172,23 @@ void Simulation::restore(const compare::Snapshot& snapshot) {
   if (snapshot.positions.size() != scene_.mesh.positions.size())
     throw compare::InputError("snapshot: it has " + std::to_string(snapshot.positions.size()) +
                               " vertices, the scene " + std::to_string(scene_.mesh.positions.size()));
+  begin_overwriting();
   simulation_->restore(snapshot);
   failure_.clear();
   rows_.clear();
+}
+
+const compare::Vec3f* Simulation::lend_rows(StateField field, std::uint64_t version) {
+  const std::lock_guard lock(busy_);
+  expect(version);
+  note_lent();
+  return field == StateField::positions ? state_->positions_resident() : state_->velocities_resident();
+}
+
+std::vector<compare::Vec3f> Simulation::copy_rows(StateField field, std::uint64_t version) {
+  const std::lock_guard lock(busy_);
+  expect(version);
+  return field == StateField::positions ? state_->positions() : state_->velocities();
 }
 
 }  // namespace ogc::python

@@ -13,6 +13,8 @@
 
 #include "compare/contestant.hpp"
 #include "compare/problem/scene.hpp"
+#include "experiments/python/state_view.hpp"
+#include "fast/resident_state.hpp"
 
 namespace ogc::python {
 
@@ -51,7 +53,7 @@ struct MetricColumn {
 std::span<const MetricColumn> metric_columns();
 
 /// A running simulation. Several threads may call it, one after the other is served.
-class Simulation {
+class Simulation : public StateOwner {
  public:
   /// Throws compare::InputError if the scene is not valid or has a setting that the solver does not read, and
   /// compare::ResourceError if the backend is not there.
@@ -67,11 +69,20 @@ class Simulation {
   /// Goes on from a snapshot. Throws compare::InputError if it is of a scene with another number of vertices.
   void restore(const compare::Snapshot& snapshot);
   std::string device() const { return simulation_->device(); }
+  const compare::Vec3f* lend_rows(StateField field, std::uint64_t version) override;
+  std::vector<compare::Vec3f> copy_rows(StateField field, std::uint64_t version) override;
+  int device_number() const { return state_->device_number(); }
   const compare::Scene& scene() const { return scene_; }
 
  private:
+  void begin_overwriting() {
+    if (is_lent()) state_->wait_for_device();
+    note_overwritten();
+  }
+
   compare::Scene scene_;
   std::unique_ptr<compare::Simulation> simulation_;
+  fast::ResidentState* state_ = nullptr;  // of simulation_
   std::vector<compare::StepMetrics> rows_;
   std::string failure_;
   mutable std::mutex busy_;

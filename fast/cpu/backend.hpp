@@ -238,6 +238,7 @@ class CpuBackend {
   std::vector<double> replay_milliseconds() { return std::exchange(replay_milliseconds_, {}); }
 
   void synchronize() {}
+  void synchronize_device() {}
 
  private:
   struct Item {

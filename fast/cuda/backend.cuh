@@ -392,6 +392,8 @@ class CudaBackend {
 
   /// Waits for all enqueued work. Throws if one of its kernels has failed.
   void synchronize() { OGC_CUDA_CHECK(cudaStreamSynchronize(stream_)); }
+  /// Waits for all work on the device, also of other libraries' streams.
+  void synchronize_device() { OGC_CUDA_CHECK(cudaDeviceSynchronize()); }
 
  private:
   /// Launches CompactTeams if F has them, the launch has more than two waves of blocks, and one thread can do the work

@@ -68,6 +68,12 @@ struct CudaPlace {
     }();
     return code;
   }
+  static int device() {
+    int number = 0;
+    OGC_CUDA_CHECK(cudaGetDevice(&number));
+    return number;
+  }
+  static void synchronize() { OGC_CUDA_CHECK(cudaDeviceSynchronize()); }
   static double run(const WorldJob* jobs, int count);
 };
 

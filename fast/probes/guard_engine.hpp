@@ -86,6 +86,8 @@ class BackendGuardEngine : public GuardEngine {
   const compare::Vec3f* positions_resident() const override {
     return reinterpret_cast<const compare::Vec3f*>(state_.data());
   }
+  int device_number() const override { return backend_.device(); }
+  void wait_for_device() override { backend_.synchronize_device(); }
   ContactView contacts() override { return detection_.view(); }
   const compare::Vec3f* detected_at_resident() const override {
     return reinterpret_cast<const compare::Vec3f*>(previous_.data());

@@ -59,8 +59,10 @@
 //   replay_milliseconds()
 //         returns the time of each repetition of all replays since the last call [ms]; after synchronize
 //   synchronize()                        host only, once per frame
+//   synchronize_device()                 host only; waits for the work of everybody on the device, not of this backend
+//                                        alone
 //
-// Calls are enqueued in order and may return before the work is done. Only synchronize and the Buffer copies wait.
+// Calls are enqueued in order and may return before the work is done. Only synchronize… and the Buffer copies wait.
 // Functors get raw pointers and values, never a Buffer. Atomics are those of fast/kernels/arithmetic/atomic.hpp; their
 // result does not depend on the order.
 #pragma once

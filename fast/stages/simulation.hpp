@@ -15,6 +15,7 @@
 #include "compare/contestant.hpp"
 #include "compare/way.hpp"
 #include "fast/kernels/frame.hpp"
+#include "fast/resident_state.hpp"
 #include "fast/stages/step.hpp"
 #include "fast/stages/way.hpp"
 
@@ -22,7 +23,7 @@ namespace ogc::fast {
 
 /// The simulation of one scene.
 template <class Backend>
-class ResidentSimulation : public compare::Simulation, public compare::WayTeller {
+class ResidentSimulation : public compare::Simulation, public compare::WayTeller, public ResidentState {
  public:
   /// `device` is the result of device(). `list_capacity`: number of contacts for which the lists have room at first; 0:
   /// estimated from the size of the mesh. Lists grow by themselves.
@@ -96,9 +97,9 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
   compare::Snapshot snapshot() override {
     compare::Snapshot result;
     result.step = step_number_;
-    download(state_.start, result.positions);
-    download(state_.velocity, result.velocities);
-    download(state_.previous, result.previous);
+    result.positions = positions();
+    result.velocities = velocities();
+    result.previous = downloaded(state_.previous);
     result.bounds = last_bounds();
     result.query_radius = query_radius_;
     result.capacities = detection_.capacities();
@@ -123,6 +124,13 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     detection_.put_search_limits(snapshot.search_limits);
     lists_moved();
   }
+
+  const compare::Vec3f* positions_resident() const override { return rows_of(state_.start); }
+  const compare::Vec3f* velocities_resident() const override { return rows_of(state_.velocity); }
+  std::vector<compare::Vec3f> positions() const override { return downloaded(state_.start); }
+  std::vector<compare::Vec3f> velocities() const override { return downloaded(state_.velocity); }
+  int device_number() const override { return backend_.device(); }
+  void wait_for_device() override { backend_.synchronize_device(); }
 
   std::vector<std::string> stage_names() const override {
     return clock_.on() ? step_stage_names() : std::vector<std::string>{};
@@ -170,10 +178,14 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     for (const compare::Vec3f& a : from) to.push_back({a.x, a.y, a.z});
     return to;
   }
-  static void download(const typename Backend::template Buffer<Vec>& buffer, std::vector<compare::Vec3f>& to) {
-    static_assert(sizeof(Vec) == sizeof(compare::Vec3f) && std::is_standard_layout_v<Vec>, "copied, not converted");
-    to.resize(buffer.size());
+  static_assert(sizeof(Vec) == sizeof(compare::Vec3f) && std::is_standard_layout_v<Vec>, "read as each other");
+  static const compare::Vec3f* rows_of(const typename Backend::template Buffer<Vec>& buffer) {
+    return reinterpret_cast<const compare::Vec3f*>(buffer.data());
+  }
+  static std::vector<compare::Vec3f> downloaded(const typename Backend::template Buffer<Vec>& buffer) {
+    std::vector<compare::Vec3f> to(buffer.size());
     buffer.download(reinterpret_cast<Vec*>(to.data()), to.size());
+    return to;
   }
 
   std::vector<std::uint8_t> fixed_vertices() const {
@@ -218,6 +230,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     const std::vector<Vec> x = vectors(positions);
     for (auto* buffer : {&state_.start, &state_.position, &state_.previous}) upload(*buffer, x);
     upload(state_.velocity, vectors(velocities));
+    backend_.synchronize_device();  // a copy to a device may return before its end, which other streams do not wait for
   }
 
   void upload_targets(int count) {

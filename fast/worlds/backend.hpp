@@ -9,6 +9,7 @@
 //   Sums                 the sums of the sweep that are compiled (fast/kernels/sweep/sums.hpp)
 //   code<Operation>()    returns the code of an operation
 //   run(jobs)            runs the jobs of some worlds; returns the time [ms]
+//   device(), synchronize()   device and synchronize_device of the backend
 #pragma once
 
 #include <cstddef>
@@ -179,6 +180,8 @@ class WorldBackend {
     return std::vector<double>(static_cast<std::size_t>(std::exchange(repetitions_, 0)), milliseconds_);
   }
 
+  int device() const { return Place::device(); }
+  void synchronize_device() { Place::synchronize(); }
   /// Runs what is enqueued, for this world alone.
   void synchronize() {
     WorldBackend* const self[] = {this};

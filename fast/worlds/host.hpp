@@ -90,6 +90,9 @@ struct HostPlace {
     return [](const void* arguments, void*) { (*static_cast<const Operation*>(arguments))(HostBlock{}); };
   }
 
+  static int device() { return -1; }
+  static void synchronize() {}
+
   static void run_program(const std::byte* program, int size) {
     for (int at = 0; at < size;) {
       const auto& instruction = *reinterpret_cast<const Instruction*>(program + at);

@@ -11,6 +11,7 @@ from ._fast import (
     Scene as Scene,
     Simulation as Simulation,
     Snapshot as Snapshot,
+    StateView as StateView,
     Steps as Steps,
     backend_info as backend_info,
     find_contacts as find_contacts,

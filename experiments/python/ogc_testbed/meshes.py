@@ -63,11 +63,11 @@ def save(path: str | Path, simulation: Any, frames: Any = None) -> None:
     path, faces = Path(path), simulation.faces
     if path.suffix != ".npz":
         raise ValueError(f"{path}: a simulation is saved as .npz; give {str(path.with_suffix('.npz'))!r}")
-    states = np.asarray(simulation.positions[None] if frames is None else frames)
+    states = simulation.positions.cpu()[None] if frames is None else np.asarray(frames)
     shape = len(simulation.positions), 3
     if states.dtype != np.float32 or states.ndim != 3 or states.shape[1:] != shape:
         raise TypeError(f"frames: float32 (F, {shape[0]}, 3) is needed, but {states.dtype} {states.shape} came; pass "
-                        "np.stack of states, each sim.positions")
+                        "np.stack of states, each sim.positions.cpu()")
     with path.open("wb") as file:
         np.savez(file, positions=states, triangles=faces, metrics=np.asarray(simulation.metrics))
 

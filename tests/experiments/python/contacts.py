@@ -19,6 +19,8 @@ from package import counts_during, grid, main, prepare, two_layers
 _, (PROGRAM,) = prepare(__doc__)
 import numpy as np  # noqa: E402
 
+from device_array import ExchangeApi, Tensor, VersionedTensor, capsule_of  # noqa: E402
+
 import ogc_testbed as ogc  # noqa: E402
 
 KINDS = ["vertex", "edge", "triangle"]
@@ -42,6 +44,44 @@ def by_program(x, faces):
         return json.loads(subprocess.check_output(
             [PROGRAM, "contacts", str(mesh), "--engine", "cpu", "--radius", str(RADIUS), "--query-radius", str(QUERY),
              "--json"], stderr=subprocess.DEVNULL))
+
+
+def exchanging(x, major=1, fails=False, requires_grad=False, device=1, stream=0):
+    """Returns an object with DLPack's C interface to x, whose `calls` say what it was asked for."""
+    calls, shape = [], (ctypes.c_int64 * 2)(*x.shape)
+
+    @ExchangeApi.GIVE
+    def give(_, tensor):
+        calls.append("give")
+        if fails:
+            return -1
+        tensor[0] = ctypes.pointer(managed)
+        return 0
+
+    @ExchangeApi.STREAM
+    def current_stream(_, __, found):
+        calls.append("stream")
+        found[0] = stream or None
+        return 0
+
+    @VersionedTensor.DELETER
+    def let_go(_):
+        calls.append("let go")
+
+    managed = VersionedTensor(1, 1, None, let_go, 0,
+                              Tensor(x.ctypes.data, device, 0, 2, 2, 32, 1, shape, (ctypes.c_int64 * 2)(3, 1), 0))
+    api = ExchangeApi(major, 3, None, None, give, None, None, current_stream)
+
+    class Offers:
+        __dlpack_c_exchange_api__ = capsule_of(ctypes.addressof(api), b"dlpack_exchange_api")
+
+        def __dlpack__(self, **_):
+            calls.append("dlpack")
+            return x.__dlpack__()
+
+    offers = Offers()
+    offers.calls, offers.requires_grad, offers.kept = calls, requires_grad, (managed, api, shape)
+    return offers
 
 
 class Bits(unittest.TestCase):
@@ -282,6 +322,21 @@ class Errors(unittest.TestCase):
             with self.assertRaises((TypeError, ValueError)):
                 ogc.find_contacts(self.mesh, there, RADIUS, QUERY)
         self.assertEqual(asked, [{"stream": 1, "max_version": (1, 0)}] * 2 + [{"stream": 1}])
+
+    def test_the_c_interface_of_dlpack_is_asked_first(self):
+        """As torch's tensors offer it. Where it cannot serve, __dlpack__ is asked."""
+        expected = ogc.find_contacts(self.mesh, self.x, RADIUS, QUERY).bound.tobytes()
+        for change, calls in (({}, ["give", "let go"]), ({"major": 2}, ["dlpack"]),
+                              ({"fails": True}, ["give", "dlpack"]), ({"requires_grad": True}, ["dlpack"]),
+                              ({"device": 2, "stream": 7}, ["give", "stream", "let go", "dlpack"])):
+            with self.subTest(change):
+                offers = exchanging(self.x, **change)
+                self.assertEqual(ogc.find_contacts(self.mesh, offers, RADIUS, QUERY).bound.tobytes(), expected)
+                self.assertEqual(offers.calls, calls)
+        there = exchanging(self.x, device=2, stream=0)
+        self.expect(TypeError, ("on the host is needed", "on a device"), ogc.find_contacts, self.mesh, there, RADIUS,
+                    QUERY)
+        self.assertEqual(there.calls, ["give", "stream", "let go"])
 
     def test_of_numbers_name_them(self):
         find = ogc.find_contacts

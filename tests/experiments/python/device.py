@@ -147,7 +147,7 @@ class Device(unittest.TestCase):
         right, liar.address = liar.address, self.x.ctypes.data
         try:
             for name, call in (("x", lambda: ogc.find_contacts(self.mesh, liar, RADIUS, QUERY, backend="cuda")),
-                               ("x", lambda: guard.step(liar, DeviceArray(self.x))),
+                               ("x", lambda: guard.step(liar, DeviceArray(self.x), out=DeviceArray(self.x))),
                                ("dx", lambda: guard.step(DeviceArray(self.x), liar, out=DeviceArray(self.x))),
                                ("out", lambda: guard.step(DeviceArray(self.x), DeviceArray(self.x), out=liar))):
                 with self.assertRaisesRegex(ValueError, f"^{name}: it is not in the memory of a CUDA device"):
@@ -156,13 +156,70 @@ class Device(unittest.TestCase):
             liar.address = right
         self.assertGreater(len(ogc.find_contacts(self.mesh, self.x, RADIUS, QUERY, backend="cuda").vertex_facet), 0)
 
+    def test_a_state_is_read_where_it_lies(self):
+        scene = ogc.scene("cloth_on_sphere", scale="smoke")
+        sim = scene.start(backend="cuda")
+        for _ in range(2):
+            sim.advance(5)
+            state = sim.snapshot()
+            for name in ("positions", "velocities"):
+                view = getattr(sim, name)
+                exported, expected = Exported(view), getattr(state, name)
+                self.assertEqual((view.device, view.shape, view.__dlpack_device__()), (0, expected.shape, (CUDA, 0)))
+                self.assertEqual((exported.device, exported.shape), ((CUDA, 0), expected.shape))
+                self.assertEqual(exported.numbers.tobytes(), expected.tobytes(), name)
+                self.assertEqual(view.cpu().tobytes(), expected.tobytes(), name)
+                self.assertEqual(Exported(getattr(sim, name)).address, exported.address, "it is not copied")
+                with self.assertRaisesRegex(TypeError, r"on a CUDA device; call view.cpu\(\)"):
+                    np.asarray(view)
+        view, mesh = sim.positions, ogc.Mesh(scene.faces)
+        self.assertEqual(ogc.find_contacts(mesh, view, RADIUS, QUERY, backend="cuda").cpu().bound.tobytes(),
+                         ogc.find_contacts(mesh, view.cpu(), RADIUS, QUERY).bound.tobytes())
+        sim.advance(1)
+        for read in (view.cpu, view.__dlpack__,
+                     lambda: ogc.find_contacts(mesh, view, RADIUS, QUERY, backend="cuda")):
+            with self.assertRaisesRegex(BufferError, "overwritten"):
+                read()
+
+    def test_a_view_keeps_its_simulation(self):
+        sim = ogc.scene("cloth_on_sphere", scale="smoke").start(backend="cuda")
+        sim.advance(5)
+        alone = sys.getrefcount(sim)
+        capsule = sim.positions.__dlpack__()
+        self.assertEqual(sys.getrefcount(sim), alone + 1)
+        del capsule
+        self.assertEqual(sys.getrefcount(sim), alone)
+
+    def test_simulations_are_let_go(self):
+        scene, before = ogc.scene("cloth_on_sphere", scale="smoke"), 0
+        for call in range(30):
+            sim = scene.start(backend="cuda")
+            sim.advance(1)
+            Exported(sim.positions)
+            del sim
+            if call == 5:
+                before = free_memory()
+        self.assertLess(before - free_memory(), 8 * 2**20)
+
+    def test_a_guard_lends_its_state(self):
+        guard = ogc.Guard(self.mesh, self.x, QUERY, backend="cuda")
+        dx, out = DeviceArray(np.full_like(self.x, 1e-6)), DeviceArray(self.x)
+        view = guard.positions
+        self.assertEqual((view.device, Exported(view).numbers.tobytes()), (0, self.x.tobytes()))
+        self.assertIs(guard.step(view, dx, out=out), out)
+        self.assertEqual(guard.positions.cpu().tobytes(), (self.x + np.float32(1e-6)).tobytes())
+        with self.assertRaisesRegex(BufferError, "overwritten"):
+            guard.step(view, dx, out=out)
+        with self.assertRaisesRegex(TypeError, "out: .*read-only"):
+            guard.step(guard.positions, dx, out=guard.positions)
+
     def test_a_simulation_runs_there(self):
         scene = ogc.scene("cloth_on_sphere", scale="smoke")
         sim = scene.start(backend="cuda")
-        states = [sim.positions]
+        states = [sim.positions.cpu()]
         for _ in range(3):
             sim.advance(10)
-            states.append(sim.positions)
+            states.append(sim.positions.cpu())
         groups = np.zeros(len(states[0]), np.int32) - 1
         groups[scene.bodies[1].vertices] = 0
         self.assertTrue(ogc.audit(np.stack(states), scene.faces, groups=groups).clean)
@@ -176,7 +233,7 @@ class Device(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             words = "run cloth_on_sphere --scale smoke --backend cuda --json --out".split()
             done = subprocess.run([*PROGRAM, *words, Path(folder) / "run"], stdout=subprocess.PIPE, check=True)
-        ours = functools.reduce(lambda hash, byte: (hash ^ byte) * 0x100000001B3 % 2**64, sim.positions.tobytes(),
+        ours = functools.reduce(lambda hash, byte: (hash ^ byte) * 0x100000001B3 % 2**64, sim.positions.cpu().tobytes(),
                                 0xCBF29CE484222325)  # FNV-1a
         self.assertEqual(f"{ours:016x}", json.loads(done.stdout)["final_hash"])
 

@@ -25,6 +25,31 @@ ManagedTensor._fields_ = [("tensor", Tensor), ("context", ctypes.c_void_p), ("de
 CUDA, FLOAT = 2, 2
 
 
+class VersionedTensor(ctypes.Structure):
+    """DLManagedTensorVersioned of dlpack.h."""
+
+    DELETER = ctypes.CFUNCTYPE(None, ctypes.c_void_p)
+    _fields_ = [("major", ctypes.c_uint32), ("minor", ctypes.c_uint32), ("context", ctypes.c_void_p),
+                ("deleter", DELETER), ("flags", ctypes.c_uint64), ("tensor", Tensor)]
+
+
+class ExchangeApi(ctypes.Structure):
+    """DLPackExchangeAPI of dlpack.h. Its functions hold the interpreter's lock."""
+
+    GIVE = ctypes.PYFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.POINTER(ctypes.POINTER(VersionedTensor)))
+    STREAM = ctypes.PYFUNCTYPE(ctypes.c_int, ctypes.c_int32, ctypes.c_int32, ctypes.POINTER(ctypes.c_void_p))
+    _fields_ = [("major", ctypes.c_uint32), ("minor", ctypes.c_uint32), ("older", ctypes.c_void_p),
+                ("allocate", ctypes.c_void_p), ("give", GIVE), ("take", ctypes.c_void_p), ("show", ctypes.c_void_p),
+                ("current_stream", STREAM)]
+
+
+def capsule_of(address, name):
+    """Returns a capsule of an address; the name must live as long as the capsule."""
+    new = ctypes.pythonapi.PyCapsule_New
+    new.restype, new.argtypes = ctypes.py_object, [ctypes.c_void_p, ctypes.c_char_p, ctypes.c_void_p]
+    return new(address, name, None)
+
+
 @DELETER
 def let_go(tensor):
     KEPT_ALIVE.pop(ctypes.addressof(tensor.contents))
@@ -77,9 +102,7 @@ class DeviceArray:
         managed = ManagedTensor(Tensor(self.address, CUDA, 0, len(self.shape), FLOAT, 32, 1, shape, None, 0), None,
                                 let_go)
         KEPT_ALIVE[ctypes.addressof(managed)] = managed, shape, self
-        new = ctypes.pythonapi.PyCapsule_New
-        new.restype, new.argtypes = ctypes.py_object, [ctypes.c_void_p, ctypes.c_char_p, ctypes.c_void_p]
-        return new(ctypes.addressof(managed), b"dltensor", None)
+        return capsule_of(ctypes.addressof(managed), b"dltensor")
 
 
 class Exported:

@@ -42,7 +42,7 @@ class Guards(unittest.TestCase):
         y = guard.step(x, dx)
         self.assertEqual(y.tobytes(), (x + dx).tobytes())
         self.assertEqual((guard.report.cut, guard.lost, guard.most_restricted), (0, 0, -1))
-        self.assertEqual(guard.positions.tobytes(), y.tobytes())
+        self.assertEqual(guard.positions.cpu().tobytes(), y.tobytes())
 
     def test_a_report_is_of_these_moves(self):
         _, x, _, guard = begin()
@@ -56,6 +56,24 @@ class Guards(unittest.TestCase):
         # sums in double of vectors of single precision: 2⁻²⁴ of each coordinate
         self.assertAlmostEqual(guard.lost, lost, delta=3 * 2.0**-24)
         self.assertAlmostEqual(report.most_lost, lost, delta=3 * 2.0**-24)
+
+    def test_lend_their_state_until_it_is_overwritten(self):
+        _, x, _, guard = begin()
+        dx = np.full_like(x, 1e-5)
+        view = guard.positions
+        self.assertEqual(np.shares_memory(np.asarray(view), np.asarray(guard.positions)), True)
+        guard.detect()
+        self.assertEqual(view.cpu().tobytes(), x.tobytes())
+        y = guard.step(view, dx)  # from the guard's own state
+        self.assertEqual(y.tobytes(), (x + dx).tobytes())
+        for overwrite in (lambda: guard.step(y, dx), lambda: guard.reset(x)):
+            view = guard.positions
+            overwrite()
+            with self.assertRaisesRegex(BufferError, "overwritten"):
+                np.asarray(view)
+            with self.assertRaisesRegex(BufferError, "overwritten"):
+                guard.step(view, dx)
+        self.assertEqual(guard.positions.cpu().tobytes(), x.tobytes())
 
     def test_write_where_they_are_asked_to(self):
         _, x, _, guard = begin()
@@ -81,7 +99,7 @@ class Guards(unittest.TestCase):
         guard.reset(x)
         self.assertEqual(guard.step(x, dx).tobytes(), first.tobytes())
         guard.detect()
-        self.assertEqual(guard.positions.tobytes(), first.tobytes())
+        self.assertEqual(guard.positions.cpu().tobytes(), first.tobytes())
         self.assertEqual(ogc.Guard(mesh, x, QUERY).step(x, dx).tobytes(), first.tobytes())
 
     def test_errors_name_what_came(self):
@@ -90,6 +108,7 @@ class Guards(unittest.TestCase):
         frozen.setflags(write=False)
         nan = x.copy()
         nan[2, 0] = np.nan
+        view = guard.positions
         for kind, words, call in (
                 (TypeError, r"dx: float32 \(V, 3\).*dx.astype", lambda: guard.step(x, x.astype(float))),
                 (TypeError, "x: float32", lambda: guard.step(x[:, ::-1], x)),
@@ -102,10 +121,12 @@ class Guards(unittest.TestCase):
                 (ValueError, "bounds.*'dat'", lambda: ogc.Guard(mesh, x, QUERY, bounds="dat")),
                 (ValueError, "'plane'.*planes", lambda: ogc.Guard(mesh, x, QUERY, bounds="plane")),
                 (ValueError, "query_radius", lambda: ogc.Guard(mesh, x, -1)),
+                (ValueError, "query_radius is .*at least radius", lambda: ogc.Guard(mesh, x, QUERY, radius=2 * QUERY)),
                 (ValueError, "backend", lambda: ogc.Guard(mesh, x, QUERY, backend="gpu"))):
             with self.assertRaisesRegex(kind, words):
                 call()
-        self.assertEqual(guard.positions.tobytes(), x.tobytes())
+        self.assertEqual(guard.positions.cpu().tobytes(), x.tobytes())
+        self.assertEqual(view.cpu().tobytes(), x.tobytes(), "what is refused overwrites nothing")
 
 
 if __name__ == "__main__":

@@ -171,8 +171,43 @@ class OfArrays:
             ogc.find_contacts(self.mesh, self.arrays.array(self.x[:, :2]), RADIUS, QUERY, backend=self.backend)
 
 
+    def test_a_state_is_read_where_it_lies(self):
+        sim = ogc.scene("cloth_on_sphere", scale="smoke").start(backend=self.backend)
+        sim.advance(2)
+        view, expected = sim.positions, sim.snapshot().positions
+        there, again = self.arrays.view(view), self.arrays.view(sim.positions)
+        self.assertEqual(self.arrays.numpy(there).tobytes(), expected.tobytes())
+        self.assertEqual(self.arrays.address(there), self.arrays.address(again))
+        del again
+        sim.advance(1)
+        with self.assertRaisesRegex(BufferError, "overwritten"):
+            self.arrays.view(view)
+        there = self.arrays.view(sim.positions)
+        expected = sim.positions.cpu().tobytes()
+        del sim, view
+        gc.collect()
+        ogc.scene("cloth_on_sphere", scale="smoke").start(backend=self.backend).advance(3)
+        self.assertEqual(self.arrays.numpy(there).tobytes(), expected, "it keeps its simulation")
+
+
 class OnDevice(OfArrays):
     backend = "cuda"
+
+    def test_a_state_that_another_stream_still_reads_is_not_overwritten(self):
+        sim = ogc.scene("cloth_on_sphere", scale="smoke").start(backend="cuda")
+        guard = ogc.Guard(ogc.Mesh(sim.faces), sim.positions.cpu(), QUERY, backend="cuda")
+        dx = self.arrays.array(np.full_like(sim.positions.cpu(), 1e-6))
+        out, start = self.arrays.array(sim.positions.cpu()), sim.snapshot()
+        # A guard has two states in turn, so the second step overwrites the first one's start.
+        for owner, overwrite in ((sim, lambda: sim.advance(5)), (sim, lambda: sim.restore(start)),
+                                 (guard, lambda: [guard.step(guard.positions, dx, out=out) for _ in range(2)])):
+            expected = owner.positions.cpu()
+            copy = self.arrays.array(np.zeros_like(expected))
+            with self.arrays.stream():
+                self.arrays.late(copy, self.arrays.view(owner.positions))
+                overwrite()
+            self.assertEqual(self.arrays.numpy(copy).tobytes(), expected.tobytes())
+            self.assertNotEqual(owner.positions.cpu().tobytes(), expected.tobytes())
 
     def test_views_lie_where_the_contacts_do_and_outlive_them(self):
         finder = ogc.ContactFinder(self.mesh, backend="cuda")
@@ -209,6 +244,13 @@ class OnDevice(OfArrays):
             out = guard.step(x, late_dx)
         self.assertEqual(sets.cpu().edge_edge.tobytes(), expected.edge_edge.tobytes())
         self.assertEqual(self.arrays.numpy(out).tobytes(), moved.tobytes())
+
+    def test_what_the_default_stream_still_writes_is_waited_for(self):
+        expected = ogc.find_contacts(self.mesh, self.x, RADIUS, QUERY).edge_edge.tobytes()
+        x, late = self.arrays.array(self.x), self.arrays.array(np.zeros_like(self.x))
+        self.arrays.late(late, x)
+        self.assertEqual(ogc.find_contacts(self.mesh, late, RADIUS, QUERY, backend="cuda").cpu().edge_edge.tobytes(),
+                         expected)
 
     def test_what_another_stream_still_reads_is_not_overwritten(self):
         x, dx = self.arrays.array(self.x), self.arrays.array(self.dx)

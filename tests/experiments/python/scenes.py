@@ -5,9 +5,11 @@ package is missing.
 """
 
 import csv
+import gc
 import signal
 import sys
 import tempfile
+import threading
 import unittest
 from pathlib import Path
 
@@ -51,7 +53,7 @@ class Bits(unittest.TestCase):
             state = sim.snapshot()
             self.assertEqual(state.step, len(rows))
             for found, name in ((state.positions, "positions"), (state.velocities, "velocities"),
-                                (state.bound, "bounds"), (sim.positions, "positions")):
+                                (state.bound, "bounds"), (sim.positions.cpu(), "positions")):
                 self.assertEqual(found.tobytes(), frame[name][:].tobytes(), name)
 
     def test_a_scene_of_its_arrays_is_the_same_scene(self):
@@ -69,26 +71,121 @@ class Bits(unittest.TestCase):
         sims = [built_in.start(), scene.start()]
         for sim in sims:
             sim.advance(15)
-        self.assertEqual(sims[0].positions.tobytes(), sims[1].positions.tobytes())
+        self.assertEqual(sims[0].positions.cpu().tobytes(), sims[1].positions.cpu().tobytes())
 
     def test_division_into_calls_changes_no_bit(self):
         scene, _ = falling()
         one, two = scene.start(bounds="planes"), scene.start(bounds="planes")
         one.advance(20)
         self.assertEqual([step.step for step in two.run(seconds=0.2, every=3)], list(range(1, 21)))
-        self.assertEqual(one.positions.tobytes(), two.positions.tobytes())
+        self.assertEqual(one.positions.cpu().tobytes(), two.positions.cpu().tobytes())
 
     def test_a_snapshot_goes_on_to_the_same_bits(self):
         sim = falling()[0].start()
         sim.advance(10)
         state = sim.snapshot()
         sim.advance(10)
-        end = sim.positions
+        end = sim.positions.cpu()
         sim.restore(state)
-        self.assertEqual(sim.positions.tobytes(), state.positions.tobytes())
+        self.assertEqual(sim.positions.cpu().tobytes(), state.positions.tobytes())
         self.assertEqual(sim.advance(10).step.tolist(), list(range(11, 21)))
-        self.assertEqual(sim.positions.tobytes(), end.tobytes())
+        self.assertEqual(sim.positions.cpu().tobytes(), end.tobytes())
         self.assertEqual(len(sim.metrics), 10)
+
+
+class Views(unittest.TestCase):
+    def setUp(self):
+        self.sim = falling()[0].start()
+        self.sim.advance(3)
+
+    def test_lie_where_the_simulation_computes(self):
+        sim, state = self.sim, self.sim.snapshot()
+        for name in ("positions", "velocities"):
+            view = getattr(sim, name)
+            self.assertEqual((view.shape, len(view)), ((67, 3), 67))
+            self.assertEqual((view.device, view.__dlpack_device__()), (None, (1, 0)))
+            here, again, there = np.asarray(view), np.asarray(getattr(sim, name)), np.from_dlpack(view)
+            for array in (here, there, view.cpu()):
+                self.assertEqual((array.dtype, array.tobytes()), (np.float32, getattr(state, name).tobytes()), name)
+            self.assertEqual(len({array.__array_interface__["data"][0] for array in (here, again, there)}), 1)
+            self.assertFalse(here.flags.writeable or there.flags.writeable)
+            self.assertFalse(np.shares_memory(view.cpu(), here))
+        self.assertNotEqual(np.asarray(sim.positions).ctypes.data, np.asarray(sim.velocities).ctypes.data)
+
+    def test_are_read_by_our_own_calls(self):
+        x, mesh = self.sim.positions, ogc.Mesh(self.sim.faces)
+        self.assertEqual(ogc.find_contacts(mesh, x, 5e-3, 1e-2).bound.tobytes(),
+                         ogc.find_contacts(mesh, x.cpu(), 5e-3, 1e-2).bound.tobytes())
+        guard = ogc.Guard(mesh, x, 1e-2)
+        before = x.cpu()
+        with self.assertRaisesRegex(TypeError, "out: .*a StateView, which is read-only"):
+            guard.step(before, np.zeros_like(before), out=x)
+        self.assertEqual(x.cpu().tobytes(), before.tobytes())
+
+    def test_refuse_what_a_later_call_has_overwritten(self):
+        sim, state = self.sim, self.sim.snapshot()
+        for overwrite in (lambda: sim.advance(1), lambda: sim.restore(state), lambda: next(sim.run(steps=1))):
+            views = [sim.positions, sim.velocities]
+            kept = [view.cpu().tobytes() for view in views]
+            sim.advance(0)
+            self.assertEqual([view.cpu().tobytes() for view in views], kept, "no step, nothing is overwritten")
+            overwrite()
+            for view in views:
+                for read in (view.cpu, view.__dlpack__, lambda: np.asarray(view), lambda: np.from_dlpack(view),
+                             lambda: np.stack([view]), lambda: ogc.Guard(ogc.Mesh(sim.faces), view, 1e-2)):
+                    with self.assertRaisesRegex(BufferError, r"overwritten.*cpu\(\)"):
+                        read()
+                self.assertIn("overwritten", repr(view))
+                self.assertEqual(view.shape, (67, 3))
+            self.assertNotIn("overwritten", repr(sim.positions))
+        self.assertEqual(sim.positions.cpu().tobytes(), sim.snapshot().positions.tobytes())
+
+    def test_keep_their_simulation(self):
+        alone, expected = sys.getrefcount(self.sim), self.sim.positions.cpu().tobytes()
+        self.assertEqual(sys.getrefcount(self.sim), alone, "a copy does not")
+        for hold in (lambda: self.sim.positions, lambda: np.asarray(self.sim.positions),
+                     lambda: self.sim.positions.__dlpack__(), lambda: np.from_dlpack(self.sim.positions)):
+            held = hold()
+            self.assertEqual(sys.getrefcount(self.sim), alone + 1)
+            del held
+            self.assertEqual(sys.getrefcount(self.sim), alone)
+        here = np.asarray(self.sim.positions)
+        del self.sim
+        gc.collect()
+        falling()[0].start().advance(5)
+        self.assertEqual(here.tobytes(), expected)
+
+    def test_are_cast_or_copied_only_where_that_is_asked(self):
+        view = self.sim.positions
+        here = np.asarray(view)
+        self.assertTrue(np.shares_memory(view.__array__(np.float32, copy=False), here))
+        self.assertFalse(np.shares_memory(view.__array__(copy=True), here))
+        self.assertEqual(view.__array__(float).tolist(), here.tolist())
+        with self.assertRaisesRegex(ValueError, "float32"):
+            view.__array__(float, copy=False)
+        with self.assertRaisesRegex(BufferError, "copy"):
+            view.__dlpack__(copy=True)
+
+    def test_wait_for_a_step_of_another_thread(self):
+        """Each view that is not refused has the state after a whole step."""
+        sim = ogc.scene("cloth_on_sphere", "smoke").start()
+        states, found, done = {sim.positions.cpu().tobytes()}, [], threading.Event()
+
+        def read():
+            while not done.is_set() or not found:
+                try:
+                    found.append(sim.positions.cpu().tobytes())
+                except BufferError:
+                    pass
+
+        thread = threading.Thread(target=read)
+        thread.start()
+        for _ in range(20):
+            sim.advance(1)
+            states.add(sim.positions.cpu().tobytes())
+        done.set()
+        thread.join()
+        self.assertEqual(set(found) - states, set())
 
 
 class Scenes(unittest.TestCase):
@@ -111,10 +208,10 @@ class Scenes(unittest.TestCase):
         sim = scene.start()
         sim.advance(5)
         # half of the way, by the same rounding: 0.5 · 0.25 is a number of single precision
-        self.assertLess(np.abs(sim.positions[body.vertices] - (body_x + np.float32([0, 0.125, 0]))).max(), 1e-7)
+        self.assertLess(np.abs(sim.positions.cpu()[body.vertices] - (body_x + np.float32([0, 0.125, 0]))).max(), 1e-7)
         sim.advance(10)
-        self.assertEqual(sim.positions[body.vertices].tolist(), frames[1].tolist())
-        self.assertEqual(len(sim.positions[cloth.vertices]), 64)
+        self.assertEqual(sim.positions.cpu()[body.vertices].tolist(), frames[1].tolist())
+        self.assertEqual(len(sim.positions.cpu()[cloth.vertices]), 64)
 
     def test_held_vertices_stay(self):
         scene, cloth = falling(gravity=(0, 0, -9.81))
@@ -123,8 +220,8 @@ class Scenes(unittest.TestCase):
         scene.move(corners)
         sim = scene.start()
         sim.advance(10)
-        self.assertEqual(sim.positions[corners].tolist(), x[corners].tolist())
-        self.assertNotEqual(sim.positions[20].tolist(), x[20].tolist())
+        self.assertEqual(sim.positions.cpu()[corners].tolist(), x[corners].tolist())
+        self.assertNotEqual(sim.positions.cpu()[20].tolist(), x[20].tolist())
 
     def test_rest_and_velocities_are_used(self):
         x, faces = grid(4, 0.1)
@@ -138,13 +235,13 @@ class Scenes(unittest.TestCase):
         sim.advance(1)
         # A free flight moves by h v = 1 mm. Positions below 2⁻³ m are rounded by at most 2⁻²⁸ m; the start of the step
         # and each of its 20 sweeps round them once.
-        self.assertLess(np.abs(sim.positions[:16, 0] - x[:, 0] - 1e-3).max(), 21 * 2.0**-28)
-        self.assertLess(np.ptp(sim.positions[16:, 0]), 0.1, "the stretched cloth draws together")
+        self.assertLess(np.abs(sim.positions.cpu()[:16, 0] - x[:, 0] - 1e-3).max(), 21 * 2.0**-28)
+        self.assertLess(np.ptp(sim.positions.cpu()[16:, 0]), 0.1, "the stretched cloth draws together")
 
     def test_the_handler_of_a_signal_may_read_the_simulation(self):
         sim = falling()[0].start()
         seen = []
-        before = signal.signal(signal.SIGALRM, lambda *_: seen.append(len(sim.positions)))
+        before = signal.signal(signal.SIGALRM, lambda *_: seen.append(len(sim.positions.cpu())))
         signal.setitimer(signal.ITIMER_REAL, 0.01, 0.01)
         try:
             while len(seen) < 3:
@@ -160,10 +257,10 @@ class Scenes(unittest.TestCase):
 
     def test_it_is_saved_and_read(self):
         sim = falling()[0].start()
-        states = [sim.positions]
+        states = [sim.positions.cpu()]
         for _ in range(3):
             sim.advance(5)
-            states.append(sim.positions)
+            states.append(sim.positions.cpu())
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "mine.npz"
             sim.save(path, np.stack(states))

@@ -68,6 +68,9 @@ class Wheel(unittest.TestCase):
         program = program_with("find_contacts")
         place = run(home / "bin" / "python", "-c", program + "\nprint(ogc.__file__)", cwd=FOLDER).strip()
         self.assertTrue(place.startswith(str(home)), place)
+        on_cuda = program.replace("query_radius", "backend='cuda', query_radius")
+        with self.assertRaisesRegex(AssertionError, "RuntimeError: backend: this package has no CUDA; .*-cu13"):
+            run(home / "bin" / "python", "-c", on_cuda, cwd=FOLDER)
         self.judge(home / "bin" / "python", Path(place).parents[1])
 
     def judge(self, python, packages):

@@ -6,6 +6,7 @@
 #include <tbb/global_control.h>
 
 #include "compare/record/steps_csv.hpp"
+#include "fast/resident_state.hpp"
 #include "tests/catch.hpp"
 #include "tests/fast/scenes.hpp"
 
@@ -449,6 +450,38 @@ TEST_CASE("before the first step a simulation is at the start of its scene, and 
   CHECK(same_bits(state.positions, compare::to_single(scene.mesh.positions)));
   CHECK(same_bits(state.velocities, compare::to_single(scene.velocities)));
   CHECK(same_bits(state.previous, state.positions));
+}
+
+TEST_CASE("the resident state is the snapshot's, at one address, and other libraries' simulations have none",
+          "[unit]") {
+  const auto simulation = start_cpu(drop_scene(), {});
+  ResidentState& state = resident_state(*simulation);
+  const compare::Snapshot start = simulation->snapshot();
+  const compare::Vec3f *x = state.positions_resident(), *v = state.velocities_resident();
+  const auto check = [&] {
+    const compare::Snapshot now = simulation->snapshot();
+    const std::size_t count = now.positions.size();
+    CHECK(same_bits({x, x + count}, now.positions));
+    CHECK(same_bits({v, v + count}, now.velocities));
+    CHECK(same_bits(state.positions(), now.positions));
+    CHECK(same_bits(state.velocities(), now.velocities));
+    CHECK(state.positions_resident() == x);
+    return now;
+  };
+  CHECK(state.device_number() == -1);
+  check();
+  simulation->advance(3);
+  CHECK(!same_bits(check().positions, start.positions));
+  simulation->restore(start);
+  CHECK(same_bits(check().positions, start.positions));
+
+  struct Other : compare::Simulation {
+    Rows advance(std::int64_t) override { return {}; }
+    compare::Snapshot snapshot() override { return {}; }
+    void restore(const compare::Snapshot&) override {}
+    std::string device() const override { return {}; }
+  } other;
+  CHECK_THROWS_AS(resident_state(other), std::invalid_argument);
 }
 
 TEST_CASE("capacities of other lists and search limits of other meshes are refused", "[unit]") {

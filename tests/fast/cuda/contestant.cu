@@ -21,6 +21,7 @@
 #include "fast/cpu/simulation.hpp"
 #include "fast/cuda/buffer.cuh"
 #include "fast/cuda/cuda.hpp"
+#include "fast/resident_state.hpp"
 
 using namespace ogc;
 using compare::Vec3f;
@@ -218,6 +219,41 @@ TEST_CASE("a simulation on the device that is replaced by a new one after each s
       for (compare::StepMetrics& row : *each) row.wall_ms = 0;
     CHECK(compare::step_lines(rows, 0) == compare::step_lines(expected, 0));
   }
+}
+
+TEST_CASE("the resident state is the snapshot's, and other streams read it before it is overwritten", "[gpu]") {
+  const auto simulation = fast::start_cuda(experiments::make_scene("cloth_on_sphere", experiments::Scale::smoke), {});
+  fast::ResidentState& state = fast::resident_state(*simulation);
+  const compare::Snapshot start = simulation->snapshot();
+  const std::size_t count = start.positions.size(), bytes = count * sizeof(Vec3f), large = 1 << 28;
+  CHECK(state.device_number() == 0);
+  fast::CudaBuffer<Vec3f> copies[2];
+  for (auto& copy : copies) copy.resize(count);
+  fast::CudaBuffer<std::byte> from, to;
+  from.resize(large), to.resize(large);
+  cudaStream_t stream = nullptr;
+  REQUIRE(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking) == cudaSuccess);
+  for (int round = 0; round < 2; ++round) {
+    const compare::Snapshot before = simulation->snapshot();
+    // Some 30 ms of copies, before those of the state.
+    for (int k = 0; k < 200; ++k) cudaMemcpyAsync(to.data(), from.data(), large, cudaMemcpyDeviceToDevice, stream);
+    cudaMemcpyAsync(copies[0].data(), state.positions_resident(), bytes, cudaMemcpyDeviceToDevice, stream);
+    cudaMemcpyAsync(copies[1].data(), state.velocities_resident(), bytes, cudaMemcpyDeviceToDevice, stream);
+    CHECK(cudaStreamQuery(stream) == cudaErrorNotReady);
+    state.wait_for_device();
+    CHECK(cudaStreamQuery(stream) == cudaSuccess);
+    simulation->advance(5);
+    std::vector<Vec3f> found(count);
+    copies[0].download(found.data(), count);
+    CHECK(same_bits(found, before.positions));
+    copies[1].download(found.data(), count);
+    CHECK(same_bits(found, before.velocities));
+    CHECK(!same_bits(state.positions(), before.positions));
+    CHECK(same_bits(state.velocities(), simulation->snapshot().velocities));
+  }
+  simulation->restore(start);
+  CHECK(same_bits(state.positions(), start.positions));
+  REQUIRE(cudaStreamDestroy(stream) == cudaSuccess);
 }
 
 TEST_CASE("a lists' growth is reported and every step is timed", "[gpu]") {
