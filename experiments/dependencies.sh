@@ -12,7 +12,7 @@ packages=(
 )
 # Used only if the Python package index can't be reached: curves are drawn with these packages, pictures of meshes are
 # left out.
-fallback_packages=(python3-matplotlib python3-numpy python3-h5py python3-jsonschema)
+fallback_packages=(python3-matplotlib python3-numpy python3-h5py python3-jsonschema python3-jinja2 python3-markdown-it)
 
 say() { printf '%s\n' "$*" >&2; }
 

@@ -61,10 +61,13 @@ def dead_names(files, kept=()):
 
 
 def dead_functions(files):
-    """Returns functions and classes of Python that nothing names, including tests; `files`: {path: text}."""
+    """Returns functions and classes of Python that nothing names, including tests and templates; `files`: {path:
+    text}."""
     uses, defined = collections.Counter(), {}
     for path, text in files.items():
         uses.update(WORD.findall(text))
+        if not path.endswith(".py"):
+            continue
         kinds = (ast.FunctionDef, ast.ClassDef)
         defined.update({node.name: path for node in ast.walk(ast.parse(text)) if isinstance(node, kinds)})
     called_by_name = re.compile(r"__\w+__|test_\w+|setUp(Class)?|tearDown|handle_\w+")
@@ -94,7 +97,8 @@ def self_test():
             wrong.append(f"{words} is not found: {dead_names({**used, **files})[0]}")
     if dead_names(used, {"used": "", "gone": ""})[1] != ["gone"]:
         wrong.append("an entry of KEPT whose name is gone is not found")
-    python = {"m.py": "def used():\n    return 1\n\n\ndef idle():\n    return used()\n",
+    python = {"m.py": "def used():\n    return 1\n\n\ndef idle():\n    return used()\n\n\ndef shown():\n    pass\n",
+              "t.html": "{{ shown() }}",
               "tests/t.py": "class Cases:\n    pass\n"}
     if dead_functions(python) != ["idle"]:
         wrong.append(f"Python: {dead_functions(python)}")
@@ -107,7 +111,8 @@ def findings(root):
     words = "nothing but tests uses it: remove it, or say in KEPT (tests/dead_code.py) what it is for"
     yield from (f"{name}: {words}" for name in dead)
     yield from (f"{name}: in KEPT, but gone: remove it there" for name in stale)
-    yield from (f"{name}: nothing names this function: remove it" for name in dead_functions(tracked(root, "*.py")))
+    named = dead_functions(tracked(root, "*.py", "*.html"))
+    yield from (f"{name}: nothing names this function: remove it" for name in named)
     if not files:
         yield f"{root}: no source files there"
 

@@ -26,7 +26,8 @@ STATED = {
     **dict.fromkeys(("libegl1", "libgl1", "libgl1-mesa-dri", "libxrender1"),
                     ("PyVista draws without a screen", r"import pyvista")),
 }
-IMPORTED_AS = {"PyYAML": "yaml", "pillow": "PIL", "vtk": "vtkmodules"}
+IMPORTED_AS = {"PyYAML": "yaml", "pillow": "PIL", "vtk": "vtkmodules", "Jinja2": "jinja2",
+               "markdown-it-py": "markdown_it"}
 INCLUDE = re.compile(r"#\s*include\s*<([^>]+)>")
 IMPORT = re.compile(r"^\s*(?:import|from)\s+(\w+)|-m (\w+)", re.M)
 EXECUTOR = re.compile(r"^executor: (\w+)", re.M)
@@ -93,7 +94,8 @@ def unused(dependencies, requirements, tree, files=files_of):
     imports = imported(tree)
     executors = {f"snakemake_executor_plugin_{name}" for text in tree.values() for name in EXECUTOR.findall(text)}
     for package in lists.get("fallback_packages", []):
-        found += [] if package.removeprefix("python3-") in imports else [f"{package} (experiments/dependencies.sh)"]
+        name = package.removeprefix("python3-").replace("-", "_")
+        found += [] if name in imports else [f"{package} (experiments/dependencies.sh)"]
     for path, text in requirements.items():
         for package in re.findall(r"^([\w-]+)==", text, re.M):
             name = IMPORTED_AS.get(package, package.replace("-", "_"))

@@ -16,21 +16,29 @@ def rows_of(folder):
         return {row["file"]: row for row in csv.DictReader(file)}
 
 
-def alt_of(path):
-    """Returns the text of a kept picture; its name if there is none."""
-    return rows_of(path.parent).get(path.name, {}).get("alt", path.stem)
+def kept(path):
+    """Returns the caption of a kept picture; that of a movie is its picture's. Empty if there is none."""
+    rows = rows_of(path.parent)
+    return next((rows[name] for name in (path.name, f"{path.stem}.webp", f"{path.stem}.png") if name in rows), {})
+
+
+def just_made(path):
+    """Returns the caption that a script wrote beside a picture; that of a movie is its picture's. Empty if there is
+    none."""
+    from plots.style import CAPTION  # imported here, because it needs matplotlib
+
+    caption = path.with_suffix(CAPTION)
+    return json.loads(caption.read_text(encoding="utf-8")) if caption.is_file() else {}
 
 
 def keep(folder, drawn, outdated=()):
     """Keeps the captions of pictures, and drops those of `outdated`. `drawn`: name of the kept file -> the picture that
     the script wrote, beside which its caption lies; without one nothing changes."""
-    from plots.style import CAPTION  # imported here, because it needs matplotlib
-
     rows = {name: row for name, row in rows_of(folder).items() if name not in outdated}
     for name, path in drawn.items():
-        caption = path.with_suffix(CAPTION)
-        if caption.is_file() and not name.endswith(".mp4"):
-            rows[name] = {"file": name, **json.loads(caption.read_text(encoding="utf-8"))}
+        caption = just_made(path)
+        if caption and not name.endswith(".mp4"):
+            rows[name] = {"file": name, **caption}
     if rows:
         write(folder, rows)
 

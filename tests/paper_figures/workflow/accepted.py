@@ -352,7 +352,7 @@ class Accepting(Scratch):
         self.accept("fig18")
         folder = self.results / "machine"
         self.assertEqual(captions.rows_of(folder), {"fig18_paper.png": {"file": "fig18_paper.png", **caption}})
-        self.assertEqual(captions.alt_of(folder / "fig18_paper.png"), "What is seen")
+        self.assertEqual(captions.kept(folder / "fig18_paper.mp4")["alt"], "What is seen")
 
     def test_pictures_alone_leave_the_runs_that_were_accepted_before(self):
         self.finished()

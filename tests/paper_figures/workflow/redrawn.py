@@ -63,7 +63,7 @@ class Kept(unittest.TestCase):
                 self.assertEqual({path.name for path in results.iterdir()}, {kept, "provenance.csv", "captions.csv"})
                 row, = accept.rows_of(results / "provenance.csv")
                 self.assertEqual((row["file"], row["redo"], row["commit"]), (kept, "a command", ORIGIN["commit"]))
-                self.assertEqual(captions.alt_of(results / kept), "what is seen")
+                self.assertEqual(captions.kept(results / kept)["alt"], "what is seen")
 
 
 class Table1(unittest.TestCase):

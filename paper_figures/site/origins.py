@@ -1,0 +1,74 @@
+"""What stands behind accepted files: the command, the time that it took, the hardware, the commit; from the provenance
+and durations beside them, and from the manifests of runs."""
+
+import csv
+import re
+from dataclasses import dataclass
+from datetime import datetime
+
+from paper_figures.workflow import recipes
+from paper_figures.workflow.evidence import RESULTS
+
+QUOTIENT = " / "  # between the two sources of a ratio
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Holds what is known of a file below the results. `seconds`: how long its run or figure took, None if nobody
+    measured it; `command` is empty where the README beside the file names it."""
+
+    file: str
+    command: str
+    seconds: float
+    hardware: str
+    commit: str
+
+    @property
+    def time(self):
+        return "not measured" if self.seconds is None else recipes.in_words(self.seconds)
+
+    @property
+    def machine(self):
+        """Returns the folder of the results, whose README describes the machine."""
+        return self.file.partition("/")[0]
+
+
+def seconds_between(manifest):
+    """Returns how long a run took [s], or None if its manifest does not say."""
+    if not (manifest.get("started") and manifest.get("ended")):
+        return None
+    begun, ended = (datetime.fromisoformat(manifest[key]) for key in ("started", "ended"))
+    return (ended - begun).total_seconds()
+
+
+class Origins:
+    """Knows the origins of all accepted files."""
+
+    def __init__(self, runs, folder=RESULTS):
+        self.folder, self.runs = folder, {run.source: run for run in runs}
+        self.rows, self.times = {}, recipes.measured_times()
+        for path in sorted(folder.glob("*/provenance.csv")):
+            with path.open(newline="", encoding="utf-8") as file:
+                self.rows.update({f"{path.parent.name}/{row['file']}": row for row in csv.DictReader(file)})
+
+    def of_file(self, name):
+        """Returns the origin of a file, named as below the results."""
+        row, run = self.rows.get(name, {}), self.runs.get(name)
+        seconds = seconds_between(run.manifest) if run else None
+        took = self.times.get((row.get("figure"), row.get("scale"), row.get("backend")))
+        if run is None and took and took[1] == name.partition("/")[0]:
+            seconds = took[0]
+        device = run.manifest["device"] if run else row.get("device", "")
+        return Origin(name, row.get("redo", ""), seconds, device, row.get("commit", "")[:10])
+
+    def of(self, measured):
+        """Returns the origins of a measured number: of a ratio those of both runs."""
+        found = [self.of_file(name) for name in measured.source.split(QUOTIENT)]
+        return [each if each.hardware not in ("", "rows say") else
+                Origin(each.file, each.command, each.seconds, measured.device, each.commit or measured.commit)
+                for each in found]
+
+    def title_of_machine(self, machine):
+        """Returns the machine in words: the title of the README of its results."""
+        found = re.match(r"# [^:\n]*: (.*)", (self.folder / machine / "README.md").read_text(encoding="utf-8"))
+        return found[1]
