@@ -281,29 +281,49 @@ def causes(options):
             "seed": int(passed["seed"])} for (d, through), cell in cells.items() if cell[0]], options.out)
 
 
+NAMES = {"ipctk": "IPC Toolkit's spheres", "ipctk_planar": "IPC Toolkit's planes", "newton": "Newton's rule",
+         "ball": "our balls", "planes": "our planes"}
+WHERE = {"flat": "Pairs about z = 0", "turned": "The same, turned and moved by up to 1 m"}
+ALT = ("Two plots of the share of pairs of triangles that pass through one another in one step, over the gap between "
+       "them, for pairs about z = 0 and for pairs turned and moved by up to 1 m. {said}.")
+
+
+def shares(rows, name, place):
+    """Returns the share of a filter's pairs that pass through [%] in each decade; not-a-number without pairs."""
+    found = []
+    for decade in DECADES:
+        cell = [r for r in rows if (r["filter"], r["place"], r["gap_from_m"]) == (name, place, f"1e{decade}")]
+        pairs, passed = (sum(int(r[key]) for r in cell) for key in ("pairs", "pass_through"))
+        found.append(100 * passed / pairs if pairs else np.nan)
+    return np.array(found)
+
+
 def draw(options):
     """Draws the share of pairs that pass through, by decade; Python's path needs the root of the source tree."""
     from plots import style
 
-    plt = style.use()
-    figure, axes = plt.subplots(1, len(PLACES), figsize=(7, 2.6), sharey=True)
+    style.use()
     with open(options.inputs[0], encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    for axis, place in zip(axes, PLACES):
-        for index, name in enumerate(FILTERS):
-            shares = []
-            for decade in DECADES:
-                cell = [r for r in rows if (r["filter"], r["place"], r["gap_from_m"]) == (name, place, f"1e{decade}")]
-                pairs = sum(int(r["pairs"]) for r in cell)
-                passed = sum(int(r["pass_through"]) for r in cell)
-                shares.append(100 * passed / pairs if pairs else np.nan)
-            axis.semilogx([10.0 ** (d + 0.5) for d in DECADES], shares, style.DASHES[index % 4], marker="os^vD"[index],
-                          markersize=3, label=name)
-        axis.set_title({"flat": "pairs about z = 0", "turned": "pairs turned and moved by up to 1 m"}[place])
-        axis.set_xlabel("gap [m]")
-    axes[0].set_ylabel("pairs that pass through [%]")
-    axes[1].legend()
-    style.save(figure, options.out)
+    there = [name for name in NAMES if any(row["filter"] == name for row in rows)]
+    leaks = [name for name in there if any(np.nanmax(shares(rows, name, place)) > 0 for place in PLACES)]
+    tight = [NAMES[name] for name in there if name not in leaks]
+    said = (f"{' and '.join(NAMES[name] for name in leaks) or 'No filter'} let near pairs pass through"
+            + (f", {' and '.join(tight)} none" if leaks and tight else ""))
+    below = (f"{sum(int(row['pairs']) for row in rows) // len(there):,} random pairs a filter, one step each of up to "
+             "1000 gaps; the way of each is judged exactly")
+    figure, (panels,) = style.page([(2.9, [(0.5, "plot")] * 2)], said, below)
+    colours = (style.BASELINE, style.COLOURS[1])
+    for axes, place in zip(panels, PLACES):
+        middles = [10.0 ** (decade + 0.5) for decade in DECADES]
+        for name, colour, marker in zip(leaks, colours, "os"):
+            axes.semilogx(middles, shares(rows, name, place), color=colour, marker=marker, markersize=4,
+                          label=NAMES[name])
+        if tight:
+            axes.semilogx(middles, 0 * np.array(middles), color=style.OURS, linewidth=2, label=" and ".join(tight))
+        axes.set(title=WHERE[place], xlabel="gap [m]", ylabel="pairs that pass through [%]", ylim=(-2, None))
+    panels[1].legend(loc="upper right")
+    style.save(figure, options.out, said, ALT.format(said=said), "peers_gaps.csv")
 
 
 def main():

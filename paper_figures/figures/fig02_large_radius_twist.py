@@ -16,7 +16,7 @@ from ogc_testbed.runs import Run, RunError
 
 SCENE = commands.TWIST
 SIZE, NEAR, MIDDLE = (960, 560), (960, 480), 0.16  # pixels; what is shown from near, around the middle [m]
-TITLE = "Fig. 2. Half a turn with a contact radius of one edge: {ends}"
+TITLE = "Fig. 2. {turned} with a contact radius of one edge: {ends}"
 ALIKE = 1.25  # quotient of the roughness by two methods up to which they are called about equally rough
 ALT = ("Renderings of a square cloth after half a turn, by IPC on the left and by OGC on the right, whole and from "
        "near: a sheet, blue in front and sand behind, wound once about its middle, with folds that run towards the "
@@ -86,15 +86,16 @@ def rows_of(runs):
     return rows
 
 
-def title_of(ends):
-    """Returns the title, which says whose cloth ends rougher. `ends`: name -> roughness at the end."""
+def title_of(ends, turned="Half a turn"):
+    """Returns the title, which says whose cloth is rougher. `ends`: name -> roughness at the last common time;
+    `turned`: what both runs have done until then."""
     if not {"IPC", "VBD-OGC"} <= set(ends):
-        return TITLE.format(ends="OGC's cloth, IPC not run")
+        return TITLE.format(turned=turned, ends="OGC's cloth, and IPC's in a window")
     ratio = ends["IPC"] / ends["VBD-OGC"]
     if 1 / ALIKE <= ratio <= ALIKE:
-        return TITLE.format(ends="IPC's cloth and OGC's end about equally rough")
+        return TITLE.format(turned=turned, ends="IPC's cloth and OGC's are about equally rough")
     rougher, smoother = ("IPC's", "OGC's") if ratio > 1 else ("OGC's", "IPC's")
-    return TITLE.format(ends=f"{rougher} cloth ends rougher than {smoother}")
+    return TITLE.format(turned=turned, ends=f"{rougher} cloth is rougher than {smoother}")
 
 
 def whole(run):
@@ -102,22 +103,41 @@ def whole(run):
     return run is not None and run.column("step")[0] == 1
 
 
-def draw_pair(axes, runs, edges, reach=None):
-    """Draws the last common state of IPC's run and OGC's, side by side; `reach` [m]: of what is shown."""
-    there = [run for run in runs if whole(run)]
-    last = min((int(run.column("step")[-1]) for run in there), default=0)
-    for place, run, letter, name in zip(axes, runs, "ab", ("IPC", "OGC")):
+def size_of(run):
+    """Returns the vertices along both sides of the cloth in words."""
+    side = round(run.bodies()[0]["vertex_count"] ** 0.5)
+    return f"{side} × {side} vertices"
+
+
+def frames_of(runs):
+    """Returns a frame of each run: of whole runs the last that both stored; of a window of IPC's its last, beside the
+    state of OGC's run from which it began."""
+    ipc, ogc = runs
+    if ipc is None or not whole(ipc):
+        begins = ipc and int(ipc.column("step")[0]) - 1
+        return ipc and ipc.frame(ipc.frames[-1]), ogc and ogc.frame_at_step(begins or ogc.column("step")[-1])
+    steps = [{int(path.stem.removeprefix("frame_")) for path in run.frames} for run in runs if run]
+    last = max(set.intersection(*steps))
+    return ipc.frame_at_step(last), ogc and ogc.frame_at_step(last)
+
+
+def draw_pair(axes, runs, edges, reach=None, sizes=False):
+    """Draws states of IPC's run and OGC's, side by side; `reach` [m]: of what is shown; `sizes`: titles name them."""
+    frames, camera = frames_of(runs), None
+    if reach and runs[1]:  # both from the same place
+        points = subject(runs[1], frames[1])
+        camera = around(points, np.median(points, axis=0), reach, runs[1], size=NEAR)
+    for place, run, frame, letter, name in zip(axes, runs, frames, "ab", ("IPC", "OGC")):
         title = f"({letter}) {name}, r = {edges}" + (", from near" if reach else "")
-        if not whole(run):
-            style.not_run(place, "not run from the start" if run else "not run")
+        if run is None:
+            style.not_run(place)
             place.set_title(title)
             continue
-        frame = run.frame_at_step(last)
-        points = subject(run, frame)
         size = NEAR if reach else SIZE
-        camera = (around(points, np.median(points, axis=0), reach, run, size=size) if reach
-                  else fitted(run, [frame], size))
-        show(place, run, frame, camera, f"{title}, {moment(frame)}", size)
+        begins = int(run.column("step")[0]) - 1
+        title += f", {frame.step - begins} steps from OGC's state" if begins else ""
+        title += f", {size_of(run)}" if sizes else ""
+        show(place, run, frame, camera or fitted(run, [frame], size), f"{title}, {moment(frame)}", size)
 
 
 def draw(runs, out, wide=(None, None)):
@@ -134,18 +154,22 @@ def draw(runs, out, wide=(None, None)):
     curves, lines = [(f"{label(run).split(',')[0]}", run) for run in (ipc, ogc) if run], []
     curves += [(f"{label(run).split(',')[0]}, ten edges", run) for run in wide if run]
     found = {name: history(run, rest) for name, run in curves}
-    ends = {name: rough[-1] for name, (_, rough, _) in found.items()}
+    until = min((found[name][0][-1] for name, run in curves if whole(run) and "edges" not in name), default=0)
+    ends = {name: rough[np.searchsorted(time, until + 1e-6) - 1] for name, (time, rough, _) in found.items()
+            if time[0] == 0}
     scale = ogc.manifest["scale"]
-    side = round(len(rest) ** 0.5)
-    below = (f"{side} × {side} vertices{'' if scale == 'paper' else f' (scale {scale}; the paper has 200 × 200)'}; "
-             "roughness at the end [edge lengths]: " + ", ".join(f"{name} {rough:.2g}" for name, rough in ends.items())
-             + ("; IPC's curve: windows of 20 steps from OGC's states" if ipc and not whole(ipc) else ""))
-    title = title_of(ends if whole(ipc) else {})
+    below = (f"{size_of(ogc)}{'' if scale == 'paper' else f' (scale {scale}; the paper has 200 × 200)'}; "
+             f"roughness at {until:.3g} s [edge lengths]: "
+             + ", ".join(f"{name} {rough:.2g}" for name, rough in ends.items())
+             + (f"; IPC's curve: a window of {len(ipc.column('step'))} steps from OGC's state"
+             if ipc and not whole(ipc) else ""))
+    all_done = until >= 0.99 * ogc.column("step")[-1] * ogc.setting("time_step")
+    title = title_of(ends if whole(ipc) else {}, "Half a turn" if all_done else f"{until:.2g} s of half a turn")
     figure, axes = style.page([*rows, (2.4, third)], title, below)
     draw_pair(axes[0], (ipc, ogc), "one edge")
     draw_pair(axes[1], (ipc, ogc), "one edge", MIDDLE)
     if any(wide):
-        draw_pair(axes[2], wide, "ten edges")
+        draw_pair(axes[2], wide, "ten edges", sizes=True)
     rough_axes, stretch_axes, energy_axes = axes[-1]
     for (name, run), colour in zip(curves, (style.BASELINE, style.OURS, style.COLOURS[1], style.COLOURS[4])):
         time, rough, stretched = found[name]
@@ -161,6 +185,8 @@ def draw(runs, out, wide=(None, None)):
     rough_axes.set(xlabel="time [s]", ylabel="edge lengths", title="Out-of-plane roughness", ylim=(0, None))
     stretch_axes.set(xlabel="time [s]", ylabel="length / rest length", title="Stretch of edges, median, 1 % to 99 %")
     energy_axes.set(xlabel="time [s]", ylabel="energy [J]", title="Kinetic energy", yscale="log")
+    if any(wide):
+        stretch_axes.set_yscale("log")
     for place in axes[-1]:
         style.label_ends(place)
     said = ", ".join(f"{name} {rough:.2g}" for name, rough in ends.items())

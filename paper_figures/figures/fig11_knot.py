@@ -1,5 +1,6 @@
-"""Fig. 11: a long strip with four overhand knots, pulled at both ends, with planes. Draws four moments, the knots from
-near when they are small and when they have merged, a cut through the layers of the last state, time and distances."""
+"""Fig. 11: a long strip with four overhand knots, pulled at both ends, with planes. Draws the strip at two moments, its
+middle at three, a small knot and the tight knot from near, a cut through the layers of the last state, time and
+distances."""
 
 import numpy as np
 from matplotlib.collections import LineCollection
@@ -7,17 +8,18 @@ from matplotlib.collections import LineCollection
 from paper_figures.workflow.common import claims_of, draw_a_run, scaled
 from plots import render, style
 from plots.camera import around, densest, subject, view_of
-from plots.scene_figure import (PLOTS, beside_paper, draw_contacts, draw_distance, draw_time, frames_at,
+from plots.scene_figure import (MOVIE, PLOTS, beside_paper, draw_contacts, draw_distance, draw_time, frames_at,
                                 moment, show, source_of)
 
-SCENE, STEPS = "knot", (0, 3550, 7100, 10650)
+SCENE, WHOLE, MIDDLE = "knot", (0, 3550), (4970, 8520, 10650)  # steps
 REACH, SEEN, CUT = 0.06, 0.11, 0.05  # neighbourhood of the tightest place; parts shown from near and in the cut [m]
-TITLE = "Fig. 11. Four knots in a strip are pulled into one tight knot of many layers"
+HEART, AROUND = 0.15, 0.42  # neighbourhood of the most crowded part, and what is shown of the strip's middle [m]
+TITLE = "Fig. 11. Four knots in a strip are pulled small, run together and become tight"
 ALT = ("Renderings of a long ribbon, blue in front and sand behind. At first it has four loose loops; pulled at both "
        "ends it straightens, the loops become small knots and run together. Two close views show a knot before and "
        "after they merge, and a drawing shows the cut through it: {layers} layers of the ribbon beside one another, "
        "none of which crosses another.")
-WIDE, CLOSE = 1280, (960, 600)
+WIDE, CLOSE, PART = 1280, (960, 600), (640, 380)
 
 
 def section(points, triangles, centre, normal):
@@ -65,18 +67,33 @@ def draw_cut(axes, run, frame):
     return layers
 
 
+def middle_of(run):
+    """Returns the movie's camera: it shows all that is between the places where the strip's ends are at the start, and
+    the ends leave the picture."""
+    sampled = run.frames[::max(1, len(run.frames) // 12)]
+    points = np.concatenate([subject(run, run.frame(path)) for path in sampled])
+    across = points @ view_of(SCENE).axes()[0]
+    low, high = np.sort(subject(run, run.frame(run.frames[0])) @ view_of(SCENE).axes()[0])[[0, -1]]
+    return view_of(SCENE).fit(points[(low <= across) & (across <= high)], MOVIE)
+
+
 def draw(run, out):
     run.require_finished()
     style.use()
-    frames = frames_at(run, scaled(run, STEPS))
+    frames = frames_at(run, scaled(run, (*WHOLE, *MIDDLE)))
+    start, small, *middle = frames
     view, end = view_of(SCENE), run.frame(run.frames[-1])
-    size = render.shape_of(view, subject(run, end), WIDE, 0.24)
+    size = render.shape_of(view, subject(run, start or end), WIDE, 0.24, 0.34)
     near = style.pictures(2, CLOSE, 0.7)
-    rows = [style.pictures(2, size), style.pictures(2, size), (near[0], [*near[1], (0.3, "plot")]), PLOTS]
+    rows = [style.pictures(2, size), style.pictures(3, PART), (near[0], [*near[1], (0.3, "plot")]), PLOTS]
     figure, axes = style.page(rows, TITLE, beside_paper(run, claims_of(run)))
-    for place, frame in zip((*axes[0], *axes[1]), frames):
+    for place, frame in zip(axes[0], (start, small)):
         show(place, run, frame, frame and view.fit(subject(run, frame), size), moment(frame), size)
-    for place, frame, words in zip(axes[2], (frames[1], end), ("a small knot", "the tight knot")):
+    for place, frame in zip(axes[1], middle):
+        points = subject(run, frame or end)
+        camera = around(points, densest(points, HEART), AROUND, run, view, PART)
+        show(place, run, frame, camera, f"its middle, {moment(frame)}", PART)
+    for place, frame, words in zip(axes[2], (small, end), ("a small knot", "the tight knot")):
         points = subject(run, frame or end)
         camera = around(points, densest(points, REACH), SEEN, run, view, CLOSE)
         show(place, run, frame, camera, f"{words}, {moment(frame)}", CLOSE)
@@ -88,4 +105,4 @@ def draw(run, out):
 
 
 if __name__ == "__main__":
-    draw_a_run(SCENE, draw)
+    draw_a_run(SCENE, draw, seen=middle_of)

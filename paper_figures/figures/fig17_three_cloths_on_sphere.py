@@ -36,11 +36,10 @@ MARKS = (50, 500)  # last iteration of the paper's curves of Newton and of VBD
 BELOW = 1e-4  # residual below which the paper's curves end
 MARKED = {46: "paper: Newton, 46", 500: "paper: VBD, 500"}
 LEFT_TO_TABLE = ("ε_v", "pair by pair", "half-spaces", "γ_p", "VBD, double")
-TITLE = "Fig. 17. VBD reaches in milliseconds the residual that Newton's method reaches in minutes"
-ALT = ("Two plots of the relative force residual in one step of three cloths on a sphere. Over iterations Newton's "
-       "method falls faster than Vertex Block Descent at first; over time VBD on the GPU is at the same residual after "
-       "tens of milliseconds, Newton's method on two cores after minutes. Stars mark where the paper's curves end, "
-       "below 1e-4 after 46 iterations of Newton and 500 of VBD; ours with the printed γ_e stay above.")
+ALT = ("Plots of the relative force residual in one step of three cloths on a sphere. Over iterations Newton's "
+       "method falls faster than Vertex Block Descent at first; over measured time VBD is there long before Newton's "
+       "method. Stars mark where the paper's curves end, below 1e-4 after 46 iterations of Newton and 500 of VBD; ours "
+       "with the printed γ_e stay above.")
 
 
 def label_of(name):
@@ -105,7 +104,7 @@ def draw_curve(axes, rows, abscissa, label, colour, dash):
 
 def kept_newton(path, table):
     """Returns (label, rows, share of detection) of Newton's curves kept as two tables: iterations, and a row for each
-    curve. Times of iterations were not measured: each has an equal share of the step's."""
+    curve. Times of their iterations were not measured, so that they have no `wall`."""
     with Path(path).open(newline="") as file:
         found = list(csv.DictReader(file))
     with Path(table).open(newline="") as file:
@@ -114,7 +113,6 @@ def kept_newton(path, table):
         own = [row for row in found if row["curve"] == label]
         columns = {name.partition(" [")[0]: np.array([float(row[name] or "nan") for row in own])
                    for name in own[0] if name != "curve"}
-        columns["wall"] = columns["iteration"] * float(about[label]["step [ms]"]) / columns["iteration"][-1]
         yield label, Iterations(columns), float(about[label]["detection_share_of_time [1]"])
 
 
@@ -126,34 +124,72 @@ def shown(runs, newton):
     return [curve for curve in found if "step" not in curve[0] and not any(word in curve[0] for word in LEFT_TO_TABLE)]
 
 
-def draw(runs, newton, left_out, step, scale, out):
-    """Draws the curves and the paper's numbers. `newton`: curves of kept_newton; `left_out`: names of curves that were
-    not run."""
-    style.use()
-    curves_shown = shown(runs, newton)
+def draw_kind(panels, curves_shown, abscissas):
+    """Draws curves into panels, one for each abscissa; curves without measured times only over iterations."""
     colours = {"VBD": iter((style.OURS, style.COLOURS[4], style.COLOURS[2], style.COLOURS[5])),
                "Newton": iter((style.BASELINE, style.COLOURS[1]))}
-    shares = "; ".join(f"{label} {100 * share:.2g} %" for label, _, share in curves_shown)
-    below = (f"step {step}{'' if scale == 'paper' else f' (scale {scale})'}; share of detection in the time: {shares} "
-             "(paper: VBD 10 %, Newton 3 %)" + (f"; not run: {'; '.join(left_out)}" if left_out else ""))
-    figure, ((left, right),) = style.page([(3.9, [(0.5, "plot")] * 2)], TITLE, below)
     for label, rows, _ in curves_shown:
         colour, dash = next(colours[label.partition(",")[0]], "0.6"), "-" if "γ_e" not in label else "--"
         name = label.replace(", single, ", ",\n").replace(", double", "").replace(", γ_e", ",\nγ_e")
-        draw_curve(left, rows, "iteration", name, colour, dash)
-        draw_curve(right, rows, "wall", name, colour, dash)
-    for at, words in MARKED.items():
-        left.plot([at], [BELOW], "*", color=style.PAPER, markersize=9, zorder=5)
-        left.annotate(words, (at, BELOW), xytext=(5, -11), textcoords="offset points", fontsize=7.5)
-    left.axhline(BELOW, color=style.PAPER, linewidth=0.8, linestyle=":")
-    right.axhline(BELOW, color=style.PAPER, linewidth=0.8, linestyle=":")
+        for axes, abscissa in zip(panels, abscissas):
+            if abscissa in rows.columns:
+                draw_curve(axes, rows, abscissa, name, colour, dash)
+
+
+def draw(runs, newton, left_out, step, scale, out, beside=()):
+    """Draws the curves and the paper's numbers. `newton`: curves of kept_newton; `left_out`: names of curves that were
+    not run; `beside`: (label, run) of another scale, whose times are all measured on the same cores."""
+    style.use()
+    curves_shown, others = shown(runs, newton), shown(beside, ())
+    shares = "; ".join(f"{label} {100 * share:.2g} %" for label, _, share in curves_shown)
+    below = (f"step {step}{'' if scale == 'paper' else f' (scale {scale})'}; share of detection in the time: {shares} "
+             "(paper: VBD 10 %, Newton 3 %)" + (f"; not run: {'; '.join(left_out)}" if left_out else ""))
+    timed = [label for label, rows, _ in curves_shown if "wall" in rows.columns]
+    count = 3 if others else 2
+    about = beside[0][1].manifest if others else None
+    title = title_of(curves_shown, others, f" (at {about['scale']}, {about['device']})" if about else "")
+    figure, (panels,) = style.page([(3.9, [(1 / count, "plot")] * count)], title, below)
+    draw_kind(panels[:2], curves_shown, ("iteration", "wall"))
+    draw_kind(panels[2:], others, ("wall",))
+    for (at, words), higher in zip(MARKED.items(), (6, -12)):
+        panels[0].plot([at], [BELOW], "*", color=style.PAPER, markersize=9, zorder=5)
+        panels[0].annotate(words, (at, BELOW), xytext=(5, higher), textcoords="offset points", fontsize=7.5)
     floor = min(np.nanmin(rows["residual"]) for _, rows, _ in curves_shown)
-    for axes in (left, right):
+    for axes in panels:
+        axes.axhline(BELOW, color=style.PAPER, linewidth=0.8, linestyle=":")
         axes.set(yscale="log", ylim=(min(floor, BELOW) / 4, 3), ylabel="residual (Eq. 29) [1]")
+    panels[0].set(xlabel="iteration", title="Over iterations; stars: the paper's last points")
+    there = list(dict.fromkeys(run.manifest["device"] for _, run in runs))
+    panels[1].set(xscale="log", xlabel="time [ms]", title=f"Over measured time, {' and '.join(there)}")
+    for axes in panels[2:]:
+        axes.set(xscale="log", xlabel="time [ms]", title=f"The same at {about['scale']}, both on {about['device']}")
+    for axes in panels:
         style.label_ends(axes, 7)
-    left.set(xlabel="iteration", title="Over iterations; dots: contacts detected anew; stars: the paper's last points")
-    right.set(xscale="log", xlabel="time [ms]", title="Over the step's time, shared out among its iterations")
-    style.save(figure, out, TITLE, ALT, source_of([run for _, run in runs]))
+    if not any(label.startswith("Newton") for label in timed):
+        panels[1].annotate("Newton's method: not timed at this size", (0.03, 0.03), xycoords="axes fraction",
+                           fontsize=7.5, color=style.BASELINE)
+    style.save(figure, out, title, ALT, source_of([run for _, run in (*runs, *beside)]))
+
+
+def time_to(curves_shown, kind, level=1e-3):
+    """Returns the shortest measured time in which curves of a kind reach a residual [ms]; None if none does."""
+    times = [first_below(rows, level, "wall") for label, rows, _ in curves_shown
+             if label.startswith(kind) and "wall" in rows.columns]
+    return min((time for time in times if np.isfinite(time)), default=None)
+
+
+def in_words(ms):
+    return f"{ms:.3g} ms" if ms < 1e3 else f"{ms / 1e3:.3g} s"
+
+
+def title_of(curves_shown, others, of_others):
+    """Returns the title: after what time both methods have brought the residual down to a thousandth."""
+    for found, where in ((curves_shown, ""), (others, of_others)):
+        ours, theirs = time_to(found, "VBD"), time_to(found, "Newton")
+        if ours and theirs:
+            return (f"Fig. 17. VBD brings the residual to a thousandth in {in_words(ours)}, Newton's method in "
+                    f"{in_words(theirs)}{where}")
+    return "Fig. 17. Newton's method takes fewer iterations than VBD at first, and each takes far longer"
 
 
 def main(folder, ogc, scale="small", backends=("cpu",), single_only=False, start_iterations=None, without=(),
@@ -171,13 +207,20 @@ def main(folder, ogc, scale="small", backends=("cpu",), single_only=False, start
 
 def drawn_as_made(arguments):
     """Draws the runs that are there, without a table, and returns the picture's path."""
-    folder = Path(arguments.folder)
-    single, double = commands.three_cloths(arguments.scale, list(dict.fromkeys(arguments.backend or ["cpu"])))
-    names = [job.name for job in (*single[1:], *double)]
-    there = [(label_of(name), Run(folder / name)) for name in names if (folder / name / "run.json").is_file()]
+    folder, backends = Path(arguments.folder), list(dict.fromkeys(arguments.backend or ["cpu"]))
     newton = list(kept_newton(*arguments.newton)) if arguments.newton else []
-    draw(there, newton, [], STEPS[arguments.scale], arguments.scale, folder / "fig17.png")
+    beside = made(arguments.beside, ["cpu"], "small") if arguments.beside else []
+    draw(made(folder, backends, arguments.scale), newton, [], STEPS[arguments.scale], arguments.scale,
+         folder / "fig17.png", beside)
     return folder / "fig17.png"
+
+
+def made(folder, backends, scale):
+    """Returns (label, run) of the curves whose runs lie in a folder and have iterations."""
+    single, double = commands.three_cloths(scale, backends)
+    names = [job.name for job in (*single[1:], *double)]
+    return [(label_of(name), Run(Path(folder) / name)) for name in names
+            if (Path(folder) / name / "iterations.csv").is_file()]
 
 
 if __name__ == "__main__":
@@ -196,6 +239,7 @@ if __name__ == "__main__":
     parser.add_argument("--newton", nargs=2, default=(), metavar=("ITERATIONS", "TABLE"),
                         help="kept curves of Newton (CSV) to draw beside the runs")
     parser.add_argument("--made", action="store_true", help="draw the curves whose runs are there, and make none")
+    parser.add_argument("--beside", metavar="FOLDER", help="with --made: runs at small, whose times stand beside")
     arguments = parser.parse_args()
     try:
         if arguments.made:

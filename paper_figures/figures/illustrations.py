@@ -17,16 +17,15 @@ from matplotlib.colors import BoundaryNorm, ListedColormap  # imported after the
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection  # noqa: E402
 
 TITLES = {
-    "fig02_models": "Fig. 2c to e: what IPC and OGC offset, and the forces that it gives (dashed: boundaries in the "
-                    "colour of their facet)",
-    "fig03": "Fig. 3: contact face sets and the forces that they give",
-    "fig04": "Fig. 4: a curve, its offset, and its offset that knows its layers",
-    "fig05": "Fig. 5: vertices, their blocks (green) and spherical indicatrices",
-    "fig06": "Fig. 6: normals of a triangle and of an edge",
-    "fig07": "Fig. 7: blocks of the surface; dashed boundaries are open",
-    "fig08": "Fig. 8: Gauss maps and blocks of the edge-only manifold; dashed boundaries are open",
-    "fig09": "Fig. 9: a single iteration, cut as a whole and cut vertex by vertex",
-    "fig22": "Fig. 22: limitations",
+    "fig02_models": "Fig. 2c to e. IPC's offsets push a sheet's own neighbours apart; OGC's blocks do not",
+    "fig03": "Fig. 3. OGC's contact face sets give forces along the normals of the faces",
+    "fig04": "Fig. 4. OGC's offset of a curve knows its layers where they overlap",
+    "fig05": "Fig. 5. A vertex has the normals inside its indicatrix: all, a part, or none",
+    "fig06": "Fig. 6. A triangle has two opposite normals, an edge an arc of them",
+    "fig07": "Fig. 7. Each face has its block of the offset; dashed boundaries are open",
+    "fig08": "Fig. 8. Without faces an edge has a cylinder, a vertex a cut ball",
+    "fig09": "Fig. 9. Cut vertex by vertex, an iteration keeps most of its step; cut as a whole, little",
+    "fig22": "Fig. 22. Limitations: the force jumps at an open boundary, and a fast fall needs many rounds",
 }
 ALTS = {
     "fig02_models": "Three drawings of a bent line with a point near it. IPC offsets each segment by a capsule, so "
@@ -50,6 +49,7 @@ ALTS = {
     "fig22": "Left: a point's way past a corner along which the direction of the contact force jumps. Right: two "
              "triangles that fall beside each other, and the number of rounds they need over their speed.",
 }
+ROOM_OF_TITLE = 0.5  # [inches]
 SEGMENT_COLOURS = [style.COLOURS[0], style.COLOURS[3], style.COLOURS[2], style.COLOURS[5], style.COLOURS[1]]
 
 
@@ -175,12 +175,11 @@ def draw_path(figure, left, right, panels):
     path = xy(layers(panels[0], "path")[0])
     left.annotate("", path[-1], path[0], arrowprops={"arrowstyle": "-|>", "color": "black", "linewidth": 1.5,
                                                      "shrinkA": 0, "shrinkB": 0})
-    for layer, dash in zip(panels[1]["layers"], style.DASHES):
-        right.plot(*xy(layer).T, dash, label=layer["name"])
+    for layer, colour, dash in zip(panels[1]["layers"], style.COLOURS, style.DASHES):
+        right.plot(*xy(layer).T, dash, color=colour, label=layer["name"].replace("force of the ", ""))
     right.set(xlabel="way along the path (0: its start, 1: its end)", ylabel="force / $k_c$ [lengths of the drawing]",
               title=wrapped(panels[1]["caption"], 60))
-    right.set_ylim(top=1.25 * right.get_ylim()[1])
-    right.legend(loc="upper center", ncols=2)
+    right.legend(loc="upper center")
 
 
 # Truncated steps. Lengths are in metres and drawn in millimetres ---
@@ -262,8 +261,8 @@ def draw_rounds(axes, panel):
     limit = xy(layers(panel, "guess_rounds")[0])
     axes.plot(*limit.T, "--", color=style.COLOURS[3], label=f"default limit, guess_rounds = {limit[0][1]:g}")
     axes.axhline(1, color="grey", linewidth=0.8, linestyle=":", label="a line search with CCD: 1")
-    axes.set(xlabel="speed at the start of the step [m/s]", ylabel="rounds", ylim=(0, 26), yticks=range(0, 26, 4),
-             title=panel["caption"])
+    axes.set(xlabel="speed at the start of the step [m/s]", ylabel="rounds", ylim=(0, 30), yticks=range(0, 30, 4),
+             title=wrapped(panel["caption"], 60))
     axes.legend(loc="upper left")
 
 
@@ -414,7 +413,9 @@ def draw(path):
     drawer, size = DRAWERS[data["figure"]]
     figure = plt.figure(figsize=size)
     drawer(figure, data["panels"])
-    figure.suptitle(TITLES[data["figure"]])
+    high = size[1]
+    figure.get_layout_engine().set(rect=(0, 0, 1, 1 - ROOM_OF_TITLE / high))
+    figure.text(style.EDGE / size[0], 1 - 0.1 / high, TITLES[data["figure"]], va="top", fontsize=12, fontweight="bold")
     out = Path(path).with_suffix(".png")
     name = data["figure"]
     style.save(figure, out, TITLES[name], ALTS[name], f"ogc illustrate {name}")
@@ -426,7 +427,7 @@ def main():
     parser.add_argument("folder", help="folder that `ogc illustrate --out` wrote to")
     parser.add_argument("figures", nargs="*", help="fig03 … (default: all that lie there)")
     arguments = parser.parse_args()
-    files = sorted(Path(arguments.folder).glob("fig*.json"))
+    files = sorted(path for path in Path(arguments.folder).glob("fig*.json") if not path.name.endswith(style.CAPTION))
     if arguments.figures:
         files = [path for path in files if path.stem in arguments.figures]
     if not files:

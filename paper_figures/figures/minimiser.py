@@ -34,17 +34,20 @@ def row_of(folder, scene):
 
 
 def draw(rows, scale, out):
-    plt = style.use()
-    figure, axes = plt.subplots(figsize=(7, 4))
-    places = range(len(rows))
-    for (column, label), marker in zip(DISTANCES.items(), "ox."):
-        axes.plot(places, [row[column] for row in rows], marker, label=label, linestyle="none", markersize=8)
-    names = [f"{row['scene']}\nstep {row['step [1]']}, {row['vertices [1]']} vertices" for row in rows]
-    axes.set(yscale="log", xlim=(-0.5, len(rows) - 0.5), xticks=places, xticklabels=names, ylabel="distance [m]")
-    axes.tick_params(axis="x", labelsize=7)
-    axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1, 0.5))
-    where = f"{scale}, {rows[0]['backend']}, {rows[0]['device']}"
-    figure.suptitle(f"{TITLE}\n{where}", fontsize=9)
+    style.use()
+    below = f"scale {scale}; VBD on {rows[0]['backend']}, {rows[0]['device']}; Newton's method in double on the CPU"
+    figure, ((axes,),) = style.page([(1.2 + 0.5 * len(rows), [(1.0, "plot")])], TITLE, below)
+    colours = (style.OURS, style.COLOURS[1], style.PAPER)
+    for (column, label), marker, colour in zip(DISTANCES.items(), "oD|", colours):
+        axes.plot([row[column] for row in rows], range(len(rows)), marker, label=label, color=colour,
+                  linestyle="none", markersize=8, markeredgewidth=2 if marker == "|" else 1)
+    names = [f"{row['scene'].replace('_', ' ')}, step {row['step [1]']}\n{int(row['vertices [1]']):,} vertices"
+             for row in rows]
+    axes.set(xscale="log", ylim=(len(rows) - 0.5, -0.5), yticks=range(len(rows)), yticklabels=names,
+             xlabel="distance between the ends of both steps [m]")
+    place = axes.get_position()
+    axes.set_position([0.2, place.y0, 0.55, place.height])
+    axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5))
     style.save(figure, out, TITLE, ALT, ", ".join(sorted({row["commit"] for row in rows})))
 
 

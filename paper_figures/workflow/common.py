@@ -41,9 +41,10 @@ def ipc_windows(arguments, scene, whole, starts, steps=20):
     return [run_job(arguments.ogc, job, arguments.folder) for job in jobs]
 
 
-def draw_a_run(scene, draw_it, profiled=False):
+def draw_a_run(scene, draw_it, profiled=False, seen=None):
     """Draws the figure of the run of `scene` that the command line names, by draw_it(run, out), or its movie.
-    `profiled`: draw_it gets a third argument, the run of the option --profiled, or None."""
+    `profiled`: draw_it gets a third argument, the run of the option --profiled, or None. `seen`: camera of the movie as
+    a function of the run; None: one that shows all."""
     parser = argparse.ArgumentParser(description=f"Draws the figure of a run of {scene}.")
     parser.add_argument("run", help="run folder, made by: ogc run " + scene)
     parser.add_argument("--out", help="picture to write (default: SCENE.png in the run folder)")
@@ -55,7 +56,7 @@ def draw_a_run(scene, draw_it, profiled=False):
     try:
         run = run_of(arguments.run, scene)
         if arguments.movie:
-            draw_movie(run, arguments.movie)
+            draw_movie(run, arguments.movie, seen and seen(run))
             sys.exit()
         out = Path(arguments.out or Path(arguments.run) / f"{scene}.png")
         more = (Run(arguments.profiled) if arguments.profiled else None,) if profiled else ()

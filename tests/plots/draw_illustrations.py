@@ -72,6 +72,8 @@ def main(source, program):
         assert {Path(path).stem for path in drawn} == FIGURES, drawn
         for path in drawn:
             check_picture(Path(path))
+        again = run(sys.executable, "-m", "paper_figures.figures.illustrations", folder, "fig06", cwd=source).split()
+        assert [Path(path).stem for path in again] == ["fig06"], "captions beside pictures are no illustrations"
         check_numbers(folder)
     print(f"{len(FIGURES)} figures computed and drawn")
 

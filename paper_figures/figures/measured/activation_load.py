@@ -32,6 +32,7 @@ SEEDS = {"smoke": 1, "small": 1}  # solved to convergence, so one seed suffices
 JITTER = 1e-6  # [m]
 OTHERS = ("quadratic", "cubic")
 WAYS = ("contact stiffness", "curvature at the load", "smallest distance")
+TITLE = "At one smallest distance OGC's activation needs about as many iterations as IPC's"
 ALT = ("A panel for each load with curves: iterations of the last step over the smallest distance, for IPC's "
        "logarithm at several stiffnesses, and stars for OGC's activation.")
 
@@ -176,26 +177,32 @@ def equal(rows):
 
 def draw(rows, out):
     plt = style.use()
-    figure, grid = plt.subplots(1, len(STIFFNESSES), figsize=(4.2 * len(STIFFNESSES), 3.6))
-    for axes, stiffness in zip(grid, STIFFNESSES):
+    below = ("lines: IPC's logarithm, numbers: κ, its stiffness over OGC's; stars: OGC's activation; iterations of VBD "
+             "in double until the residual of the last step is at most the number beside the line")
+    figure, (panels,) = style.page([(3.1, [(1 / len(STIFFNESSES), "plot")] * len(STIFFNESSES))], TITLE, below)
+    for axes, stiffness in zip(panels, STIFFNESSES):
         mine = [row for row in rows if row["k_c [N/m]"] == f"{stiffness:g}"]
         for place, level in enumerate(LEVELS):
             name = f"iterations to {level} [1]"
             logs = [row for row in mine if row["activation"] == "ipc_log" and row[name] != "never"]
             apart, counts = ([float(row[key]) for row in logs] for key in ("smallest distance [mm]", name))
-            axes.plot(apart, counts, "o-", color=style.COLOURS[place], markersize=3, label=f"ipc_log to {level}")
+            axes.plot(apart, counts, "o-", color=style.COLOURS[place], markersize=3, label=f"{level}")
             ours = next(row for row in mine if row["activation"] == "ogc")
             if ours[name] != "never":
                 axes.plot([float(ours["smallest distance [mm]"])], [float(ours[name])], "*", markersize=11,
-                          color=style.COLOURS[place], label=f"ogc to {level}")
+                          color=style.COLOURS[place])
             if place == 0:
                 for row, x, y in zip(logs, apart, counts):
-                    axes.annotate(row["kappa [1]"], (x, y), fontsize=6, textcoords="offset points", xytext=(2, 3))
+                    axes.annotate(row["kappa [1]"], (x, y), fontsize=6.5, textcoords="offset points", xytext=(2, 4))
         load = next(row for row in mine if row["activation"] == "ogc")["load, median force [k_c r]"]
         axes.set(xscale="log", yscale="log", xlabel="smallest distance [mm]", ylabel="iterations of the last step",
-                 title=f"k_c = {stiffness:g} N/m, load {float(load):.2g} k_c r; numbers: κ")
-        axes.legend(fontsize=6)
-    style.save(figure, out, "OGC's activation and IPC's under three loads", ALT, "rows: activation_load_small.csv")
+                 title=f"k_c = {stiffness:g} N/m, load {float(load):.2g} k_c r")
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_locator(plt.matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
+            axis.set_major_formatter(lambda value, _: f"{value:g}")
+            axis.set_minor_formatter(plt.matplotlib.ticker.NullFormatter())
+        style.label_ends(axes)
+    style.save(figure, out, TITLE, ALT, f"{NAME}; " + ", ".join(sorted({row["commit"] for row in rows})))
 
 
 def main():

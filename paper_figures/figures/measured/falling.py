@@ -30,6 +30,10 @@ LEFT = array("d", (-0.025, 0, 0, -0.005, 0, 0, -0.015, 0.015, 0))  # as in Fig. 
 POLICIES = {"ball": (), "ball, one round": ("--set", "guess_rounds=1"), "planes": ("--set", "bounds=planes"),
             "planes, nothing slides": ("--set", "bounds=dat"), "off": ("--set", "bounds=off"),
             "ipc": ("--solver", "ipc")}
+NAMES = {"ball": "balls", "ball, one round": "balls, one round", "planes": "planes",
+         "planes, nothing slides": "planes, nothing slides", "off": "no bounds", "ipc": "IPC"}
+KINDS_SAID = {"triangles": "Two triangles", "sheets": "Two sheets"}
+TITLE = "Bounds hold back what falls fast beside something near; IPC's line search does not"
 ALT = ("Plots over the speed of a fall, for several bounds: the way that is made over that of a free fall, "
        "and the detections a step.")
 
@@ -113,19 +117,25 @@ def row_of(case, run):
 
 def draw(rows, out):
     plt = style.use()
-    figure, grid = plt.subplots(2, len(KINDS), figsize=(9, 6.5), squeeze=False)
+    below = (f"falls of {STEPS * TIME_STEP:g} s, {APART * 1e3:g} mm apart, r = {RADIUS * 1e3:g} mm; a way of 1 is that "
+             "of a free fall")
+    figure, grid = style.page([(2.5, [(0.5, "plot")] * len(KINDS))] * 2 + [(0.3, [(1.0, "picture")])], TITLE, below)
     for column, kind in enumerate(KINDS):
-        for axes, name in zip(grid[:, column], ("way over that of a free fall [1]", "detections a step [1]")):
+        for line, name in zip(grid, ("way over that of a free fall [1]", "detections a step [1]")):
             for number, policy in enumerate(POLICIES):
                 mine = [row for row in rows if (row["what"], row["bounds"]) == (kind, policy)]
                 speed, value = ([float(row[key]) for row in mine] for key in ("speed at the start [m/s]", name))
-                axes.plot(speed, value, "o^svDx"[number] + "-", color=style.COLOURS[number], label=policy, alpha=0.7)
-            axes.set(xlabel="speed at the start [m/s]", xscale="symlog", title=kind, ylabel=name)
-            axes.legend(fontsize=6)
-        grid[1, column].set_yscale("log")
-    figure.suptitle(f"falling for {STEPS * TIME_STEP:g} s, {APART * 1e3:g} mm apart, r = {RADIUS * 1e3:g} mm",
-                    fontsize=9)
-    style.save(figure, out, "How far bounds hold back what falls fast", ALT, "rows: falling.csv")
+                line[column].plot(speed, value, "o^svDx"[number] + "-", color=style.COLOURS[number], alpha=0.7,
+                                  label=NAMES[policy])
+            line[column].set(xlabel="speed at the start [m/s]", xscale="symlog", ylabel=name.partition(" [")[0],
+                             title=f"{KINDS_SAID[kind]}: {name.partition(' [')[0]}")
+            line[column].xaxis.set_major_locator(plt.FixedLocator(SPEEDS))
+            line[column].xaxis.set_major_formatter(lambda value, _: f"{value:g}")
+        grid[1][column].set_yscale("log")
+    grid[2][0].axis("off")
+    handles, labels = grid[0][0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="lower center", ncols=len(labels))
+    style.save(figure, out, TITLE, ALT, f"{NAME}; " + ", ".join(sorted({row["commit"] for row in rows})))
 
 
 def main():

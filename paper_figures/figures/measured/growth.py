@@ -87,42 +87,42 @@ def in_words(rows):
 
 def draw(rows, out):
     from plots import style  # imported here, so that runs and table need no matplotlib
-    plt = style.use()
+    style.use()
     alone = [row for row in rows if row["over"] == "threads"]
-    widths = [1.6, 1] + [1.2] * bool(alone)
-    figure, panels = plt.subplots(1, len(widths), figsize=(3.2 * sum(widths), 4), width_ratios=widths)
+    shares = (0.42, 0.27, 0.31) if alone else (0.6, 0.4)
+    lines = in_words(rows)
+    figure, (panels,) = style.page([(3.2, [(share, "plot") for share in shares])], TITLE, "; ".join(lines))
     time, density = panels[:2]
-    for backend, colour in zip(("cuda", "cpu"), style.COLOURS):
+    for backend, colour in (("cuda", style.OURS), ("cpu", style.BASELINE)):
         line = [row for row in rows if row["over"] == "vertices" and row["backend"] == backend]
         if line:
             x = [row["vertices"] for row in line]
-            time.plot(x, [row["median [ms]"] for row in line], "o", color=colour,
-                      label=f"{backend} ({line[-1]['device']})")
-            density.plot(x, [row["contacts a vertex"] for row in line], "o-", color=colour, label=backend)
+            time.plot(x, [row["median [ms]"] for row in line], "o", color=colour, label=line[-1]["device"])
+            density.plot(x, [row["contacts a vertex"] for row in line], "o-", color=colour)
         if len(line) > 1:
             slope, factor = exponent(line)
             time.plot(x, [factor * n**slope for n in x], "--", color=colour, linewidth=1,
                       label=f"∝ vertices^{slope:.3f}")
     time.set(xscale="log", yscale="log", xlabel="free vertices", ylabel="median time a step [ms]",
              title="Time a step at one contact density")
+    time.legend(loc="upper left")
     density.set(xscale="log", xlabel="free vertices", ylabel="contacts a vertex", title="The density, measured")
     density.set_ylim(0, 1.1 * density.get_ylim()[1])
     if alone:
-        cores = panels[2]
-        cores.set(xlabel="threads", ylabel="median time a step [ms]", title=f"CPU, {alone[0]['vertices']:,} vertices")
-        numbers, times = [row["threads"] for row in alone], [row["median [ms]"] for row in alone]
-        best = times[0] * numbers[0]
-        cores.plot(numbers, times, "o-", label="measured")
-        cores.plot(numbers, [best / n for n in numbers], ":", color="black", label="shared out perfectly")
-        cores.set(xscale="log", yscale="log", xticks=numbers, xticklabels=numbers, yticks=times,
-                  yticklabels=[f"{t:.3g}" for t in times])
-        cores.minorticks_off()
-    for axes in panels:
-        if axes.has_data():
-            axes.legend(fontsize=7)
-    lines = in_words(rows)
-    figure.suptitle("\n".join([TITLE, *lines]), fontsize=8)
+        draw_threads(panels[2], alone, style)
     style.save(figure, out, TITLE, f"{ALT} {'; '.join(lines)}.", ", ".join(sorted({row["commit"] for row in rows})))
+
+
+def draw_threads(axes, rows, style):
+    numbers, times = [row["threads"] for row in rows], [row["median [ms]"] for row in rows]
+    axes.plot(numbers, times, "o-", color=style.BASELINE, label="measured")
+    axes.plot(numbers, [times[0] * numbers[0] / n for n in numbers], ":", color=style.PAPER,
+              label="shared out\nperfectly")
+    axes.set(xscale="log", yscale="log", xlabel="threads", ylabel="median time a step [ms]",
+             title=f"CPU, {rows[0]['vertices']:,} vertices", xticks=numbers, xticklabels=numbers, yticks=times,
+             yticklabels=[f"{t:.3g}" for t in times])
+    axes.minorticks_off()
+    style.label_ends(axes)
 
 
 def main():

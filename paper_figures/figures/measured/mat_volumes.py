@@ -16,10 +16,10 @@ from paper_figures.figures.table1 import contacts, times
 from paper_figures.workflow import commands
 from paper_figures.workflow.jobs import Limit, RunFailure, parser_of_figure
 from paper_figures.workflow.runs import provenance, write_table
-from plots import camera, render, style
-from plots.scene_figure import MOVIE, source_of
+from plots import style
+from plots.camera import fitted
+from plots.scene_figure import moment, show, source_of
 from ogc_testbed.runs import Run, RunError
-from plots.bodies import bodies_of
 
 NAME = "mat_volumes"
 ROWS = {commands.MAT_VOLUMES: "volume", commands.MAT: "balls", commands.MAT_PLANES: "planes"}
@@ -27,8 +27,11 @@ SHARES = (25, 50, 75, 100)  # of the run [%]
 EARLY = 2.75  # [s]: before this time few vertices are inside
 FROM_AUDIT = {"most vertices inside [1]": "most_vertices_inside", "deepest [m]": "deepest_m",
               "most edges through [1]": "most_edges_meeting_volumes"}
-ALT = ("Plots of the time a step and of vertices inside their own body over time, and renderings of the "
-       "twisted mat as a volume, with balls and with planes at several moments.")
+COLOURS = {"volume": style.BASELINE, "balls": style.COLOURS[4], "planes": style.OURS}
+SIZE = (640, 400)  # pixels
+TITLE = "A mat that is a volume lets itself be entered where bounds hold it apart"
+ALT = ("Renderings of the twisted mat as a volume, with balls and with planes, at the same four moments; curves over "
+       "time of the time a step, the vertices inside their own body, and the inverted tetrahedra.")
 
 
 def runs_of(options):
@@ -60,45 +63,44 @@ def row_of(kind, run):
             "status": run.status, **provenance(run)}
 
 
-def frame_at(run, share):
-    """Returns the stored state nearest to this percentage of the run's steps."""
-    wanted = share * int(run.column("step")[-1]) / 100
-    return min(run.frames, key=lambda path: abs(int(path.stem.removeprefix("frame_")) - wanted))
+def frame_at(run, step):
+    """Returns the stored state nearest to this step."""
+    return min(run.frames, key=lambda path: abs(int(path.stem.removeprefix("frame_")) - step))
+
+
+def draw_curves(panels, runs):
+    over_time, inside, inverted = panels
+    for row, kind in ROWS.items():
+        run, colour = runs[row], COLOURS[kind]
+        seconds = run.setting("time_step") * run.column("step")
+        over_time.plot(seconds, run.column("wall"), color=colour, linewidth=0.6, label=kind)
+        inverted.plot(seconds, run.column("inverted_tetrahedra"), color=colour, linewidth=1, label=kind)
+        if kind == "volume":
+            inside.plot(seconds, run.column("vertices_inside"), color=colour, linewidth=1, label=kind)
+        else:
+            inside.plot(seconds, 0 * seconds, color=colour, linewidth=1, label=f"{kind}: none")
+    over_time.set(title="Time a step", ylabel="time [ms]", yscale="log")
+    inside.set(title="Vertices inside their own body", ylabel="vertices")
+    inverted.set(title="Inverted tetrahedra", ylabel="tetrahedra")
+    for axes in panels:
+        axes.set_xlabel("time [s]")
+        style.label_ends(axes)
 
 
 def draw(runs, out):
-    plt = style.use()
-    figure, grid = plt.subplots(1 + len(ROWS), len(SHARES), figsize=(13, 3 * (1 + len(ROWS))))
-    over_time, inside, depth, inverted = grid[0]
-    for number, (row, kind) in enumerate(ROWS.items()):
+    """Draws the mat with each kind of contact at the same four moments, and curves."""
+    style.use()
+    last = min(int(run.column("step")[-1]) for run in runs.values())
+    below = f"scale {runs[commands.MAT].manifest['scale']}, {runs[commands.MAT].manifest['device']}"
+    rows = [*[style.pictures(len(SHARES), SIZE)] * len(ROWS), (2.4, [(1 / 3, "plot")] * 3)]
+    figure, axes = style.page(rows, TITLE, below)
+    for line, (row, kind) in zip(axes, ROWS.items()):
         run = runs[row]
-        seconds, colour = run.setting("time_step") * run.column("step"), style.COLOURS[number]
-        over_time.plot(seconds, run.column("wall"), color=colour, linewidth=0.6, label=kind)
-        inverted.plot(seconds, run.column("inverted_tetrahedra"), color=colour, linewidth=0.8, label=kind)
-        if kind == "volume":
-            inside.plot(seconds, run.column("vertices_inside"), color=colour, linewidth=0.8)
-            depth.plot(seconds, 1e3 * run.column("deepest"), color=colour, linewidth=0.8)
-    over_time.set(title="time a step [ms]", yscale="log", xlabel="time [s]")
-    inside.set(title="vertices inside, by the solver", xlabel="time [s]")
-    depth.set(title="deepest [mm], by the solver", xlabel="time [s]")
-    inverted.set(title="inverted tetrahedra", xlabel="time [s]")
-    for axes in (over_time, inverted):
-        axes.legend(fontsize=7)
-    usable, reason = render.available()
-    for line, (row, kind) in zip(grid[1:], ROWS.items()):
-        run = runs[row]
-        for axes, share in zip(line, SHARES):
-            axes.axis("off")
-            frame = run.frame(frame_at(run, share))
-            axes.set_title(f"{kind}, {frame.time:.3g} s")
-            if usable:
-                axes.imshow(render.picture(bodies_of(run, frame), camera.of_ends(run, MOVIE)))
-            else:
-                axes.text(0.5, 0.5, reason, ha="center", va="center", wrap=True, transform=axes.transAxes)
-    about = runs[commands.MAT].manifest
-    title = "A mat that is a volume lets itself be entered where bounds hold it apart"
-    figure.suptitle(f"{title} ({about['scale']}, {about['device']})", fontsize=9)
-    style.save(figure, out, title, ALT, source_of(list(runs.values())))
+        for place, share in zip(line, SHARES):
+            frame = run.frame(frame_at(run, share * last / 100))
+            show(place, run, frame, fitted(run, [frame], SIZE), f"{kind}, {moment(frame)}", SIZE)
+    draw_curves(axes[-1], runs)
+    style.save(figure, out, TITLE, ALT, source_of(list(runs.values())))
 
 
 def arguments():

@@ -26,9 +26,11 @@ WHY_NOT = {"fifty_layers": "too large for Newton's method", commands.STRETCH: "n
 OTHER_STATE, ABSENT = "asked of another state", "not run"
 FAILED, CUT_OFF = "Newton's method did not converge", "Newton's method had no result in time"
 LAGS = "what is prescribed lags"
-ALT = ("A panel for each scene with curves of the residual of one step over its time, for balls and for planes from "
-       "three states of the run; dots mark the scene's number of iterations. Below, bars with the time until a tenth "
-       "and a hundredth of the force is left.")
+COLOURS_OF = {"ball": lambda style: style.COLOURS[4], "ball, r_q = r": lambda style: style.COLOURS[1],
+              "planes": lambda style: style.OURS}
+ALT = ("Three plots with a line for each scene and dots for balls, balls with a query radius of r, and planes: the "
+       "time until a tenth of a step's force is left, until a hundredth is left, with a cross where it never is, and "
+       "the share of the force that the scene's number of iterations leaves.")
 
 
 def finished(folder):
@@ -62,10 +64,6 @@ class Watched:
         low, high = counts[upper - 1], counts[upper]
         slope = (self.timed[high] - self.timed[low]) / (high - low)
         return max(self.timed[low] + slope * (iteration - low), self.timed[low] * min(1, iteration / low))
-
-    @property
-    def times(self):
-        return [self.time_at(k) for k in range(len(self.residuals))]
 
     def first_at(self, limit):
         """Returns the time until the residual is at most `limit` [ms]; None if it never is."""
@@ -160,67 +158,57 @@ def write(out, rows):
         table.writerows(rows)
 
 
-def curves(axes, steps, style, kinds):
-    """Draws the residuals of one scene: a colour for each kind of bounds, a dash for each state."""
-    from matplotlib.ticker import LogLocator, NullFormatter  # imported here, as in `picture`
-    for step in steps:
-        axes.plot(step.times[1:], step.residuals[1:], style.DASHES[commands.QUALITY_SHARES.index(step.share)],
-                  color=style.COLOURS[kinds.index(commands.bounds_of(step.row))], linewidth=1.2)
-        own = commands.QUALITY_ITERATIONS[commands.scene_of(step.row)][1]
-        axes.plot(step.time_at(own), step.residuals[own], "o", markersize=4,
-                  color=style.COLOURS[kinds.index(commands.bounds_of(step.row))])
-    for limit in SHARES.values():
-        axes.axhline(limit, color="black", linewidth=0.5)
-    axes.set(xscale="log", yscale="log", title=commands.scene_of(steps[0].row), xlabel="time into the step [ms]",
-             ylabel="residual [1]")
-    # a panel often spans less than a decade, where the usual labels overlap
-    axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-    axes.xaxis.set_major_formatter(lambda time, _: f"{time:g}")
+def draw_panel(axes, rows, column, style, scenes, kinds):
+    """Draws one number of each state, a line a scene; numbers that a step never reaches stand at the right as ×."""
+    from matplotlib.ticker import LogLocator, NullFormatter  # imported here, as in `draw`
+    known = [float(row[column]) for row in rows if row[column]]
+    never = 2.2 * max(known, default=1)
+    for row in rows:
+        kind = kinds.index(row["bounds"])
+        states = sorted({int(r["state after step"]) for r in rows if r["scene"] == row["scene"]})
+        place = scenes.index(row["scene"]) + 0.26 * (kind - (len(kinds) - 1) / 2)
+        place += 0.06 * (states.index(int(row["state after step"])) - 1)
+        value = float(row[column]) if row[column] else never
+        axes.plot([value], [place], "o" if row[column] else "x", color=COLOURS_OF[row["bounds"]](style), markersize=4)
+    if any(not row[column] for row in rows):
+        axes.axvline(never / 1.4, color="0.7", linewidth=0.8)
+        axes.annotate("never", (never, 1), xycoords=("data", "axes fraction"), xytext=(0, 2), ha="center", fontsize=7.5,
+                      textcoords="offset points")
+    axes.set(xscale="log", yticks=range(len(scenes)), ylim=(len(scenes) - 0.5, -0.6))
+    axes.set_yticklabels([scene.replace("_", " ") for scene in scenes])
+    axes.xaxis.set_major_locator(LogLocator(subs=(1, 3)))
+    axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
     axes.xaxis.set_minor_formatter(NullFormatter())
 
 
-def bars(axes, steps, style, kinds, scenes):
-    """Draws the times to a tenth and to a hundredth of all scenes, bounds side by side. What is never reached stands
-    above the line."""
-    times = [step.first_at(limit) for step in steps for limit in SHARES.values()]
-    never = 4 * max([time for time in times if time is not None], default=1)
-    for step in steps:
-        kind = kinds.index(commands.bounds_of(step.row))
-        place = scenes.index(commands.scene_of(step.row)) + 0.25 * (kind - (len(kinds) - 1) / 2)
-        place += 0.05 * (commands.QUALITY_SHARES.index(step.share) - 1)
-        for limit, fill in zip(SHARES.values(), (style.COLOURS[kind], "none")):
-            time = step.first_at(limit)
-            axes.plot(place, never * (1 if limit == 0.1 else 1.6) if time is None else time,
-                      "x" if time is None else "o", color=style.COLOURS[kind], markerfacecolor=fill, markersize=5)
-    axes.axhline(never / 1.6, color="black", linewidth=0.5)
-    axes.set(yscale="log", xticks=range(len(scenes)), xticklabels=scenes, ylabel="time to quality [ms]",
-             title="time to a tenth (filled) and to a hundredth (hollow); × above the line: never")
-    axes.tick_params(axis="x", labelsize=7)
-
-
-def picture(steps, scale):
-    """Draws a panel for each scene, and one with the times of all."""
+def draw(rows, scale, out):
+    """Draws, for each scene and each kind of bounds, the time to a tenth and to a hundredth of the force, and the share
+    of it that the scene's iterations leave."""
     from plots import style  # imported here, so that runs and tables need no matplotlib
     plt = style.use()
-    scenes = list(dict.fromkeys(commands.scene_of(step.row) for step in steps))
-    kinds = [kind for kind in ("ball", "planes", "ball, r_q = r")
-             if any(commands.bounds_of(step.row) == kind for step in steps)]
-    columns = min(3, len(scenes))
-    lines = -(-len(scenes) // columns)
-    figure = plt.figure(figsize=(max(6, 4.2 * columns), 2.8 * (lines + 1)))
-    grid = figure.add_gridspec(lines + 1, columns)
-    for number, scene in enumerate(scenes):
-        curves(figure.add_subplot(grid[number // columns, number % columns]),
-               [step for step in steps if commands.scene_of(step.row) == scene], style, kinds)
-    bars(figure.add_subplot(grid[lines, :]), steps, style, kinds, scenes)
-    entries = [plt.Line2D([], [], color=style.COLOURS[k], label=kind) for k, kind in enumerate(kinds)]
-    entries += [plt.Line2D([], [], color="grey", linestyle=dash, label=f"from {share} % of the run")
-                for share, dash in zip(commands.QUALITY_SHARES, style.DASHES)]
-    figure.legend(handles=entries, loc="outside lower center", ncols=len(entries), fontsize=7)
-    about = origin(steps[0].run)
-    figure.suptitle(f"Residual of a step against its time; dots: the scene's iterations ({scale}, {about['backend']}, "
-                    f"{about['device']})", fontsize=9)
-    return figure
+    scenes = list(dict.fromkeys(row["scene"] for row in rows))
+    kinds = [kind for kind in COLOURS_OF if any(row["bounds"] == kind for row in rows)]
+    reached = {name: sum(bool(row[f"to {name} [ms]"]) for row in rows) for name in SHARES}
+    title = (f"{reached['a tenth']} of {len(rows)} steps come down to a tenth of their force, "
+             f"{reached['a hundredth']} to a hundredth")
+    below = (f"scale {scale}, {rows[0]['device']}; steps from three states of each run, with two or four times the "
+             "scene's iterations")
+    figure, (panels,) = style.page([(0.95 + 0.5 * len(scenes), [(1 / 3, "plot")] * 3)], title, below)
+    columns = {f"to {name} [ms]": f"Time to {name} of the force [ms]" for name in SHARES}
+    columns["residual after the scene's [1]"] = "Share of the force after the scene's iterations"
+    for number, (axes, (column, words)) in enumerate(zip(panels, columns.items())):
+        draw_panel(axes, rows, column, style, scenes, kinds)
+        axes.set_title(words, pad=14)
+        place = axes.get_position()
+        axes.set_position([0.16 + 0.28 * number, place.y0, 0.26, place.height - 0.03])
+        if number:
+            axes.set_yticklabels([])
+    for limit in SHARES.values():
+        panels[-1].axvline(limit, color="0.4", linewidth=0.8, linestyle=":")
+    entries = [plt.Line2D([], [], color=COLOURS_OF[kind](style), marker="o", linestyle="", markersize=5, label=kind)
+               for kind in kinds]
+    figure.legend(handles=entries, loc="lower left", ncols=1, fontsize=8)
+    style.save(figure, out, title, ALT, ", ".join(sorted({row["commit"] for row in rows})))
 
 
 def main():
@@ -236,14 +224,12 @@ def main():
     if not steps or not whole:
         sys.exit(f"quality: {root} holds no step with its time and its residual")
     options.folder.mkdir(parents=True, exist_ok=True)
-    for name, rows in (("quality.csv", [row_of(step) for step in steps]), ("quality_whole.csv", whole)):
-        write(options.folder / name, rows)
+    rows = [row_of(step) for step in steps]
+    for name, table in (("quality.csv", rows), ("quality_whole.csv", whole)):
+        write(options.folder / name, table)
         print(options.folder / name)
     if not options.no_picture:
-        from plots import style
-        commits = ", ".join(sorted({origin(step.run)["commit"] for step in steps}))
-        style.save(picture(steps, options.scale), options.folder / "quality.png",
-                   "Residual of a step against its time, by bounds", ALT, commits)
+        draw(rows, options.scale, options.folder / "quality.png")
 
 
 if __name__ == "__main__":

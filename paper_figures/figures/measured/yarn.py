@@ -20,9 +20,9 @@ from paper_figures.workflow.first_meeting import FirstMeeting
 from paper_figures.workflow.jobs import Limit, RunFailure
 from paper_figures.workflow.runs import provenance, write_table
 from plots import render, style  # noqa: F401  tests replace render.available
-from plots.camera import around, densest, fitted, view_of
+from plots.camera import around, densest, of_ends, view_of
 from plots.render import View
-from plots.scene_figure import audit_in_words, draw_movie, moment, show, source_of, times
+from plots.scene_figure import MOVIE, audit_in_words, draw_movie, moment, show, source_of, times
 from ogc_testbed.runs import Run, RunError
 
 FIGURE = {commands.STRETCH: "fig15", commands.YARN_TWIST: "fig16"}
@@ -221,9 +221,9 @@ def draw_pictures(axes, scene, found, words):
 
 
 def draw_near(place, scene, run, frame, words):
-    """Draws a close view of the cloth's middle."""
+    """Draws a close view of where the yarn is densest."""
     points = frame.positions.astype(float)
-    centre = densest(points, NEAR_REACH) if scene == commands.YARN_TWIST else np.median(points, axis=0)
+    centre = densest(points, NEAR_REACH)
     show(place, run, frame, around(points, centre, NEAR_REACH, run, NEAR_VIEW[scene], NEAR_SIZE), words, NEAR_SIZE)
 
 
@@ -237,15 +237,25 @@ def drawn_over_time(runs):
             if commands.WINDOW_OF not in name and run.column("step")[0] == 1 and name != "hanging"}
 
 
-def draw_tension(axes, runs):
+def first_pull(name, run, runs, rows):
+    """Returns (time [s], tension [N]) at the first meeting of a run, from itself and its windows or else from its row;
+    None if threads never met."""
+    part, first = first_among([run, *windows_of(name, runs)])
+    if first is not None:
+        return seconds(part)[first], tension(part)[first]
+    row = next((row for row in rows if row["run"] == name and row["first meeting at step"]), None)
+    return row and (run.setting("time_step") * int(row["first meeting at step"]), float(row["mean tension there [N]"]))
+
+
+def draw_tension(axes, runs, rows):
     for name, run in drawn_over_time(runs).items():
         weaker = commands.YARN_STIFFNESS.index(round(material(run)[1]))
         colour = (style.OURS if kind_of(run) == "ogc" else style.BASELINE)
         axes.plot(seconds(run), tension(run), (style.DASHES)[weaker], color=colour, linewidth=1,
                   label=label(run).replace(", k_c = ", ",\n"))
-        part, first = first_among([run, *windows_of(name, runs)])
-        if first is not None:
-            axes.plot(seconds(part)[first], tension(part)[first], "x", color=colour, markersize=8, markeredgewidth=2)
+        first = first_pull(name, run, runs, rows)
+        if first:
+            axes.plot(*first, "x", color=colour, markersize=8, markeredgewidth=2)
     axes.set(xlabel="time [s]", ylabel="k_s · mean stretch [N]",
              title="Mean tension of the yarn; ×: threads pass through one another", ylim=(0, None))
     style.label_ends(axes)
@@ -288,7 +298,7 @@ def draw(scene, runs, rows, out):
     for place, (kind, found) in zip(axes[2], pictures.items()):
         run, frame = found[len(SHOWN[scene]) - 1]
         draw_near(place, scene, run, frame, f"{KINDS[kind]}, {moment(frame)}, from near")
-    draw_tension(axes[3][0], runs)
+    draw_tension(axes[3][0], runs, rows)
     draw_rows(axes[3][1], scene, rows)
     style.save(figure, out, TITLES[scene], ALTS[scene], source_of([runs[name] for name in main_runs(scene).values()]))
 
@@ -310,8 +320,7 @@ def make(options):
     scene, folder = options.scene, Path(options.folder)
     if options.movie:
         run = Run(folder / main_runs(scene)["ogc"])
-        ends = [run.frame(run.frames[0]), run.frame(run.frames[-1])]
-        return draw_movie(run, options.movie, fitted(run, ends, (1280, 720)))
+        return draw_movie(run, options.movie, of_ends(run, MOVIE))
     runs = runs_of(options)
     if options.rows:
         with open(options.rows, newline="", encoding="utf-8") as file:

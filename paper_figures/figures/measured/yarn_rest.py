@@ -17,12 +17,11 @@ from pathlib import Path
 
 import numpy as np
 
-from paper_figures.figures.measured.yarn import distances, seconds
+from paper_figures.figures.measured.yarn import distances
 from paper_figures.workflow import commands
 from paper_figures.workflow.jobs import Limit, RunFailure, parser_of_figure
 from paper_figures.workflow.runs import provenance, write_table
 from plots import style
-from plots.scene_figure import source_of
 from ogc_testbed.runs import Run, RunError
 
 NAME, PICTURE = "fig16_rest", "fig16_rest.png"
@@ -31,8 +30,9 @@ SHARES = {"median": 50, "nine vertices in ten within": 90, "largest": 100}  # of
 STILL = 50  # percentage of the vertices; sweeps that circulate move loops at the rim by a millimetre about their places
 THREAD = 12  # vertices that are farther apart along the yarn belong to different threads
 TOUCHING, HALF_ROW = 3.5e-3, 5e-3  # [m] between centre lines: the yarn is 3 mm thick, rows are 10 mm apart
-ALT = ("Two plots: the kinetic energy of the hanging cloths until they are at rest, and the share of "
-       "vertices within a distance of the cloth that was never twisted.")
+FRICTIONLESS = commands.FRICTIONLESS
+ALT = ("A plot of how far vertices of the hanging knit that was twisted end from the knit that was never twisted, with "
+       "and without friction between threads: their median, nine in ten, and the largest.")
 
 
 def runs_of(options):
@@ -128,27 +128,54 @@ def row_of(name, runs):
             **provenance(run)}
 
 
-def draw(runs, out):
-    plt = style.use()
-    figure, (over_time, spread) = plt.subplots(1, 2, figsize=(9, 3.4))
-    for number, (name, run) in enumerate(runs.items()):
-        begun = run.setting("time_step") * (run.column("step")[0] - 1)
-        over_time.plot(seconds(run) - begun, run.column("kinetic_energy"), style.DASHES[number % 2],
-                       color=style.COLOURS[number // 2], linewidth=1, label=name.replace("_", ", "))
-    over_time.set(xlabel="time since it is braked [s]", ylabel="kinetic energy [J]", yscale="log",
-                  title="Until they are at rest")
-    for number, (name, beside) in enumerate(commands.AT_REST.items()):
-        of = np.sort(distances(runs[name], last_frame(runs[beside]).positions))
-        spread.plot(of, 100 * np.arange(1, len(of) + 1) / len(of), color=style.COLOURS[number],
-                    label=name.replace("_", ", "))
-    spread.set(xlabel="distance from the cloth that was never twisted [m]", xscale="log", ylabel="vertices within [%]",
-               title="At the end")
-    for axes in (over_time, spread):
-        axes.legend(fontsize=7)
-    about = runs["released"].manifest
-    title = "Whether the twisted knit, let go, hangs as one that was never twisted"
-    figure.suptitle(f"{title} ({about['scale']}, {about['device']})", fontsize=9)
-    style.save(figure, out, title, ALT, source_of(list(runs.values())))
+def cell_of(row, words):
+    """Returns a distance of a row [m], of cloths at rest or, if they are not, while one moves; not-a-number without
+    one."""
+    return float(row[f"distance, {words} [m]"] or row.get(f"distance while it moves, {words} [m]", "") or "nan")
+
+
+def draw_distances(axes, rows, names):
+    """Draws a line for each row: the median of the vertices' distances, and ranges up to nine in ten and the
+    largest."""
+    for place, row in enumerate(rows):
+        median, ninth, largest = (1e3 * cell_of(row, words) for words in SHARES)
+        rests = row["at rest"] == "yes"
+        colour = style.OURS if rests else "0.6"
+        axes.plot([median, largest], [place] * 2, color=colour, linewidth=1.2)
+        axes.plot([median, ninth], [place] * 2, color=colour, linewidth=5, alpha=0.45, solid_capstyle="butt")
+        axes.plot([median], [place], "o", color=colour, markersize=5)
+        if not rests:
+            axes.annotate("still moves", (largest, place), xytext=(5, -2.5), textcoords="offset points", fontsize=7,
+                          color="0.4")
+    for at, words in ((3, "yarn's\nthickness"), (10, "a row")):
+        axes.axvline(at, color=style.PAPER, linewidth=0.8, linestyle=":")
+        axes.annotate(words, (at, 1.0), xycoords=("data", "axes fraction"), xytext=(3, -2), fontsize=7, va="top",
+                      textcoords="offset points")
+    axes.set(xscale="log", yticks=range(len(rows)), yticklabels=names, ylim=(len(rows) - 0.5, -1.2),
+             xlabel="distance from the cloth that was never twisted [mm]")
+
+
+def title_of(rows):
+    """Returns the title: how far the cloth without friction ends from its place."""
+    row = next(row for row in rows if row["run"] == f"released{FRICTIONLESS}")
+    far = 1e3 * cell_of(row, "nine vertices in ten within")
+    return f"Let go and braked, nine in ten vertices of the twisted knit end within {far:.2g} mm of the untwisted one"
+
+
+def draw(rows, out):
+    style.use()
+    shown = [row for row in rows if row["beside"]]
+    rested = {row["run"]: row for row in rows}
+    names = ["without friction" if FRICTIONLESS in row["run"] else "with friction" for row in shown]
+    stills = "; ".join(f"{name}: {'both' if row['at rest'] == rested[row['beside']]['at rest'] == 'yes' else 'not'} "
+                       "at rest" for name, row in zip(names, shown))
+    below = f"dot: median of the vertices; bar: up to nine in ten; line: up to the largest; {stills}"
+    title = title_of(rows)
+    figure, ((axes,),) = style.page([(0.9 + 0.45 * len(shown), [(1.0, "plot")])], title, below)
+    draw_distances(axes, shown, names)
+    left = axes.get_position()
+    axes.set_position([0.13, left.y0, 0.83, left.height])
+    style.save(figure, out, title, ALT, ", ".join(sorted({row["commit"] for row in rows})))
 
 
 def arguments():
@@ -159,8 +186,9 @@ def arguments():
 
 def make(options):
     runs = runs_of(options)
-    write_table(options.folder / f"{NAME}.csv", [row_of(name, runs) for name in runs])
-    draw(runs, options.folder / PICTURE)
+    rows = [row_of(name, runs) for name in runs]
+    write_table(options.folder / f"{NAME}.csv", rows)
+    draw(rows, options.folder / PICTURE)
 
 
 if __name__ == "__main__":

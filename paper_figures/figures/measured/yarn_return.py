@@ -15,12 +15,11 @@ from pathlib import Path
 import numpy as np
 
 from paper_figures.figures.measured.yarn import distances
-from paper_figures.figures.measured.yarn_rest import at_rest, kept_threads, last_frame, way
+from paper_figures.figures.measured.yarn_rest import at_rest, draw_distances, kept_threads, last_frame, way
 from paper_figures.workflow import commands, release
 from paper_figures.workflow.jobs import Job, Limit, RunFailure, parser_of_figure
 from paper_figures.workflow.runs import provenance, write_table
 from plots import style
-from plots.scene_figure import source_of
 from ogc_testbed.runs import Run, RunError
 
 NAME = "yarn_return"
@@ -28,8 +27,10 @@ TURNS = {"smoke": (0.01, 0.02), "small": (1, 2, 5), "paper": (1, 2, 3, 5)}
 HELD = {"smoke": 0.01, "small": 1, "paper": 1}  # time for which the twist is held before the release [s]
 LONGER = 3  # factor on the steps that brake a twisted cloth of stiffer yarn
 COARSE = ("--set", "time_step=4e-4", "--set", "iterations=4")  # the scene's own settings
-ALT = ("A small picture for each variant of the yarn of the hanging cloth at rest, seen from the front; "
-       "threads are coloured by their distance from the cloth that was never twisted.")
+STIFFNESS, PACE = "stiffness of the scene's yarn [1]", "pace of the scene's [1]"
+ROW = 0.01  # m between two rows of the knit
+ALT = ("A plot with a line for each variant of twist, yarn and start: how far the vertices of the hanging knit end "
+       "from the knit that was never twisted, their median, nine in ten, and the largest.")
 
 
 @dataclass(frozen=True)
@@ -140,38 +141,33 @@ def row_of(case, run, beside):
             "status": run.manifest["status"].splitlines()[0], "ended": run.manifest["ended"], **provenance(run)}
 
 
-def draw(runs, out):
-    """Draws the hanging cloths from the front, coloured by each vertex's distance from its place in the untwisted
-    cloth."""
-    from matplotlib.collections import LineCollection
+def in_words(row):
+    """Returns a case in words: how far it was turned, and what differs from the scene."""
+    words = [f"{row['turns [1]']} turn{'' if row['turns [1]'] == '1' else 's'}"]
+    words += ["small steps"] if row["twisted with"] == " ".join(commands.FINE[1::2]) else []
+    words += [f"yarn {row[STIFFNESS]} times as stiff"] if row[STIFFNESS] != "1" else []
+    words += [f"{row[PACE]} of the pace"] if row[PACE] != "1" else []
+    words += ["no friction"] if row["friction until it is braked"] == "no" else []
+    words += ["swings first"] if row["swings until it is braked"] == "yes" else []
+    words += [f"jittered start {row['seed']}"] if str(row["seed"]) != "0" else []
+    return ", ".join(words)
 
-    plt = style.use()
-    named = {case.name: run for case, run in runs.items()}
-    shown = {case: run for case, run in runs.items() if case.beside in named}
-    columns = min(8, len(shown))
-    lines = -(-len(shown) // columns)
-    figure, grid = plt.subplots(lines, columns, squeeze=False, figsize=(1.2 * columns, 1.9 * lines), sharex=True,
-                                sharey=True)
-    for axes in grid.flat[len(shown):]:
-        axes.set_axis_off()
-    for axes, (case, run) in zip(grid.flat, shown.items()):
-        points = last_frame(run).positions.astype(float)
-        apart = distances(run, last_frame(named[case.beside]).positions)
-        segments = np.stack((points[:-1, :2], points[1:, :2]), axis=1)
-        drawn = LineCollection(segments, linewidths=0.3, cmap="viridis", norm=plt.Normalize(0, 0.02), rasterized=True)
-        drawn.set_array(apart[1:])
-        axes.add_collection(drawn)
-        axes.autoscale_view()
-        axes.set_aspect("equal")
-        axes.grid(False)
-        rests = at_rest(run) and at_rest(named[case.beside])
-        axes.set_title(case.name.replace("_", " ") + ("" if rests else "\n(moves still)"), fontsize=5)
-    figure.supxlabel("x [m]", fontsize=7)
-    figure.supylabel("y [m]", fontsize=7)
-    about = next(iter(runs.values())).manifest
-    title = "How far the twisted knit, let go, ends from one that was never twisted"
-    figure.suptitle(f"{title} ({about['device']}; yellow: 20 mm and more)", fontsize=6.5)
-    style.save(figure, out, title, ALT, source_of(list(runs.values())))
+
+def draw(rows, out):
+    """Draws how far the vertices of each twisted cloth end from their places in the untwisted one."""
+    style.use()
+    shown = sorted((row for row in rows if row["turns [1]"] != "0"),
+                   key=lambda row: float(row["distance, nine vertices in ten within [m]"]))
+    within = [row for row in shown if float(row["distance, nine vertices in ten within [m]"]) <= ROW]
+    title = (f"In {len(within)} of {len(shown)} variants nine vertices in ten of the twisted knit return within a row, "
+             "10 mm")
+    below = ("dot: median of the vertices; bar: up to nine in ten; line: up to the largest; all are braked without "
+             f"friction; {shown[0]['device']}")
+    figure, ((axes,),) = style.page([(0.9 + 0.25 * len(shown), [(1.0, "plot")])], title, below)
+    draw_distances(axes, shown, [in_words(row) for row in shown])
+    place = axes.get_position()
+    axes.set_position([0.3, place.y0, 0.62, place.height])
+    style.save(figure, out, title, ALT, ", ".join(sorted({row["commit"] for row in rows})))
 
 
 def arguments():
@@ -196,7 +192,7 @@ def make(options):
     named = {case.name: run for case, run in runs.items()}
     rows = [row_of(case, run, named[case.beside]) for case, run in runs.items() if case.beside in named]
     write_table(options.folder / f"{NAME}_{options.scale}.csv", rows)
-    draw(runs, options.folder / f"{NAME}_{options.scale}.png")
+    draw(rows, options.folder / f"{NAME}_{options.scale}.png")
 
 
 if __name__ == "__main__":

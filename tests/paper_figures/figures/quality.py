@@ -1,6 +1,6 @@
 """Time to quality: times lie on lines between timed numbers of iterations; the first iteration at which a residual is
 low enough tells the time, a step that never gets there has none; of runs that are missing or unfinished there is no
-row; energies stand above those of Newton's method, or words say why there are none; a picture has a panel a scene.
+row; energies stand above those of Newton's method, or words say why there are none; the picture shows every row.
 
 Usage: quality.py SOURCE_DIR
 """
@@ -12,6 +12,7 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 SOURCE = Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(SOURCE))
@@ -116,16 +117,17 @@ class Quality(unittest.TestCase):
             "left residual, median [1]")],
             ["twist", "ball, r_q = r", "2", "2", "3", "0.25", "2.5", "4.5", "0.5", "0.5", "0.75", "0.25"])
 
-    def test_a_scene_has_a_panel_with_a_line_a_step_and_all_times_have_one(self):
+    def test_the_picture_has_a_mark_for_each_row_and_number_and_a_cross_for_what_is_never_reached(self):
         for row in ("twist", "twist_planes", "knot_planes"):
             step(self.folder, row, 25, [1, 0.5, 0.1])
-        *panels, times = quality.picture(quality.watched(self.folder), "smoke").axes
-        long = [counts[1] for counts in commands.QUALITY_ITERATIONS.values()]
-        curves = {axes.get_title("left"): sum(len(line.get_xdata()) in long for line in axes.get_lines())
-                  for axes in panels}
-        self.assertEqual(curves, {"twist": 2, "knot": 1})
-        marks = [line.get_marker() for line in times.get_lines() if len(line.get_xdata()) == 1]
-        self.assertEqual(sorted(marks), ["o"] * 3 + ["x"] * 3, "a tenth is reached, a hundredth never")
+        with mock.patch("plots.style.save") as kept:
+            quality.draw(self.rows([quality.row_of(step) for step in quality.watched(self.folder)]), "smoke", None)
+        (figure, _, title, *_), _ = kept.call_args
+        self.assertIn("3 of 3 steps come down to a tenth of their force, 0 to a hundredth", title)
+        marks = [sorted(line.get_marker() for line in axes.get_lines() if line.get_marker() in ("o", "x"))
+                 for axes in figure.axes]
+        self.assertEqual(marks, [["o"] * 3, ["x"] * 3, ["o"] * 3])
+        self.assertEqual([label.get_text() for label in figure.axes[0].get_yticklabels()], ["twist", "knot"])
 
     def test_every_scene_has_both_bounds_and_three_parts(self):
         book = parts.book(parts.Wanted())
