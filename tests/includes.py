@@ -67,6 +67,8 @@ PROJECT = {
     "experiments/examples": ("compare/", "fast/contact_sets.hpp", "fast/contestant.hpp", "fast/guard.hpp"),
     "experiments/program/commands/contacts.cpp": ("compare/", "experiments/", "reference/contestant.hpp",
                                                   "fast/contestant.hpp", "fast/contact_sets.hpp"),
+    "experiments/bench/worlds_benchmarks.cpp": ("compare/", "experiments/", "fast/worlds.hpp"),
+    "experiments/program/runs/worlds_run.cpp": ("compare/", "experiments/", "fast/worlds.hpp"),
     "tests": ("",),
 }
 
@@ -93,7 +95,7 @@ FOREIGN = {
     "expat.h": ("compare/files",),
     "unzip.h": ("compare/files",),
     "glob.h": ("experiments/program/audits",),
-    "tbb/": ("compare/oracle", "reference", "fast/cpu", "experiments"),
+    "tbb/": ("compare/oracle", "reference", "fast/cpu", "fast/worlds", "experiments"),
     "oneapi/tbb": ("compare/oracle", "reference", "fast/cpu", "experiments"),
     "cuda": ("fast/cuda",),
     "cub/": ("fast/cuda",),
@@ -110,7 +112,7 @@ FOREIGN = {
     "spawn.h": ("experiments/plugins", "experiments/bench", "experiments/program/python_program.cpp"),
     "stdint.h": ("compare/plugin",),
     "catch2/": (),
-    "unistd.h": ("compare/files", "compare/record", "experiments"),
+    "unistd.h": ("compare/files", "compare/record", "fast/cpu", "experiments"),
     "fcntl.h": ("compare/files", "compare/record", "experiments"),
     "sys/": ("compare/files", "compare/record", "experiments"),
 }

@@ -80,13 +80,20 @@ void refuse_used_folder(const fs::path& folder) {
     throw InputError(folder.string() + ": is a file: name a new folder for the run");
   if (error && status.type() != fs::file_type::not_found) refuse_path(folder, "make the folder", error);
   for (const char* name :
-       {"run.json", "scene", "steps.csv", "iterations.csv", "frames", "checkpoint.h5", "trajectory.vtkhdf"})
+       {"run.json", "scene", "steps.csv", "iterations.csv", "frames", "checkpoint.h5", "trajectory.vtkhdf",
+        "worlds.csv", "worlds_steps.csv", "ends"})
     if (fs::exists(folder / name))
       throw InputError(folder.string() + ": holds a run already (" + name +
                        "): name another folder, or remove this one");
 }
 
-/// Writes the scene under a temporary name, then renames it as a whole. Returns the scene's file relative to `folder`.
+bool has_ledger(const Manifest& manifest) {
+  const auto entry = manifest.provenance.extra.find("ledger");
+  return entry != manifest.provenance.extra.end() && entry->second == "yes";
+}
+
+}  // namespace
+
 std::string store_scene(const fs::path& folder, const Scene& scene) {
   const fs::path target = folder / "scene", partial = partial_name(target);
   fs::remove_all(partial);
@@ -95,11 +102,6 @@ std::string store_scene(const fs::path& folder, const Scene& scene) {
   for (const auto& entry : fs::directory_iterator(partial)) sync_to_disk(entry.path());
   commit_partial(target);
   return (fs::path("scene") / file.filename()).generic_string();
-}
-
-bool has_ledger(const Manifest& manifest) {
-  const auto entry = manifest.provenance.extra.find("ledger");
-  return entry != manifest.provenance.extra.end() && entry->second == "yes";
 }
 
 StepGroups groups_of(const Scene& scene, const Manifest& manifest) {
@@ -111,8 +113,6 @@ StepGroups groups_of(const Scene& scene, const Manifest& manifest) {
           .convergence = true,
           .ledger = has_ledger(manifest)};
 }
-
-}  // namespace
 
 void expect_new_run_folder(const fs::path& folder) {
   refuse_used_folder(folder);

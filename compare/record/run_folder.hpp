@@ -36,6 +36,7 @@
 #include "compare/record/checkpoint.hpp"
 #include "compare/record/frame_file.hpp"
 #include "compare/record/manifest.hpp"
+#include "compare/record/steps_csv.hpp"
 #include "compare/record/trajectory.hpp"
 #include "compare/record/writing_queue.hpp"
 
@@ -44,6 +45,12 @@ namespace ogc::compare {
 /// Throws InputError if no run can begin in the folder: it contains a run, it is a file, or it can't be created. Call
 /// it before anything is computed.
 void expect_new_run_folder(const std::filesystem::path& folder);
+
+/// Writes the scene into the folder `scene` of a run's folder, under a temporary name that is replaced when all is
+/// written. Returns the scene's file relative to `folder`.
+std::string store_scene(const std::filesystem::path& folder, const Scene& scene);
+/// Returns the groups of columns that the steps of a run have.
+StepGroups groups_of(const Scene& scene, const Manifest& manifest);
 
 /// Writes a run. Throws ResourceError with the path if the disk is full or not writable.
 class RunWriter {

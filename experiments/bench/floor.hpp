@@ -36,7 +36,27 @@ inline std::optional<MachineLimits> limits_of(const std::string& device) {
 struct IterationWork {
   double warp_instructions = 0, bytes = 0, sector_bytes = 0;
   int launches = 0;
+
+  IterationWork& operator+=(const IterationWork& other) {
+    warp_instructions += other.warp_instructions, bytes += other.bytes, sector_bytes += other.sector_bytes;
+    launches += other.launches;
+    return *this;
+  }
+  /// Returns the work of so many iterations, without launches.
+  friend IterationWork operator*(double count, const IterationWork& work) {
+    return {count * work.warp_instructions, count * work.bytes, count * work.sector_bytes};
+  }
 };
+
+/// Returns the work of an iteration with the contacts of a step.
+inline IterationWork iteration_work(const compare::StepMetrics& row, const fast::SweepWork& work) {
+  const auto vertex_facet = static_cast<double>(row.vertex_facet_contacts),
+             edge_edge = static_cast<double>(row.edge_edge_contacts),
+             contact_bytes = (vertex_facet + edge_edge) * work.bytes_contact;
+  return {work.warp_instructions + vertex_facet * work.warp_instructions_vertex_facet +
+              edge_edge * work.warp_instructions_edge_edge,
+          work.bytes + contact_bytes, work.sector_bytes + contact_bytes, work.launches};
+}
 
 /// Returns the floor of one iteration of the sweep [s] as its teams and colours compute it: the time for its warp
 /// instructions or for its sectors, whichever is longer, plus one gap between kernels per launch. The first read of a
@@ -48,6 +68,13 @@ inline double sweep_floor(const MachineLimits& machine, const IterationWork& wor
                        again / machine.bytes_per_second(work.sector_bytes / work.launches);
   return std::max(work.warp_instructions / machine.warp_instructions_per_second, moved) +
          work.launches * machine.seconds_between_launches;
+}
+
+/// Returns the floor of the sweeps of worlds whose `work` is added up [s]: its instructions, or its bytes from the
+/// cache. No launch separates the colours of a world.
+inline double worlds_floor(const MachineLimits& machine, const IterationWork& work) {
+  return std::max(work.warp_instructions / machine.warp_instructions_per_second,
+                  work.bytes / machine.cache_bytes_per_second);
 }
 
 /// Returns the floor of the searches of one detection [s]: the larger of the times for their arithmetic and their

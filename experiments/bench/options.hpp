@@ -18,6 +18,7 @@ struct BenchOptions {
   std::int64_t steps = 16;          ///< steps of one repetition
   int repetitions = 4;              ///< repetitions of each benchmark in each process
   std::vector<std::string> states;  ///< frames of runs from which repetitions begin
+  int worlds = 0;                   ///< worlds side by side; 0: none are measured
 };
 
 /// Holds a scene and the state from which its repetitions begin.

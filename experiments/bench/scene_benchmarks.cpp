@@ -9,6 +9,7 @@
 #include "compare/problem/error.hpp"
 #include "compare/record/run_folder.hpp"
 #include "experiments/bench/floor.hpp"
+#include "experiments/bench/worlds_benchmarks.hpp"
 #include "experiments/scenes/registry.hpp"
 
 namespace ogc::experiments {
@@ -93,16 +94,6 @@ double detections(const StepMetrics& row) { return static_cast<double>(row.discr
 struct Work {
   double flop = 0, bytes = 0, floor = 0;
 };
-
-/// Returns the work of an iteration with the contacts of a step.
-IterationWork iteration_work(const StepMetrics& row, const fast::SweepWork& work) {
-  const auto vertex_facet = static_cast<double>(row.vertex_facet_contacts),
-             edge_edge = static_cast<double>(row.edge_edge_contacts),
-             contact_bytes = (vertex_facet + edge_edge) * work.bytes_contact;
-  return {work.warp_instructions + vertex_facet * work.warp_instructions_vertex_facet +
-              edge_edge * work.warp_instructions_edge_edge,
-          work.bytes + contact_bytes, work.sector_bytes + contact_bytes, work.launches};
-}
 
 Work sweep_work(const Rows& rows, const fast::SweepWork& work, const std::optional<MachineLimits>& machine) {
   const auto of_step = [&](const auto& of_iteration) {
@@ -230,6 +221,10 @@ void register_scene_benchmarks(const BenchOptions& options) {
   for (const std::string& frame : options.states)
     registrar.add(frame_label(frame), [frame] { return scene_at_frame(frame); });
   if (!options.states.empty()) return;
+  if (options.worlds > 0)
+    registrar.add("small_cloths/" + std::to_string(options.worlds), [worlds = options.worlds] {
+      return BenchScene{small_cloths(worlds, 0.3), std::nullopt};
+    });
   for (const SceneInfo& info : scenes())
     registrar.add(std::string(info.name) + "/" + options.scale, [name = info.name, scale = parse_scale(options.scale)] {
       return BenchScene{make_scene(name, scale), std::nullopt};

@@ -114,6 +114,9 @@ class CpuBackend {
  public:
   template <class T>
   using Buffer = CpuBuffer<T>;
+  template <class T>
+  using Shared = CpuBuffer<T>;
+  static constexpr bool has_free_branches = false;
   using Sums = HostSums;
 
   int device() const { return -1; }
@@ -223,7 +226,7 @@ class CpuBackend {
 
   /// Runs the body `times` times and measures the time of each run.
   template <class Body>
-  void replay(Recording&, int times, Body body) {
+  void replay(Recording&, int times, Body body, const int* = nullptr) {
     for (int k = 0; k < times; ++k) {
       const auto start = std::chrono::steady_clock::now();
       body();

@@ -9,14 +9,22 @@
 #include "fast/contact_sets.hpp"
 #include "fast/contestant.hpp"
 #include "fast/guard.hpp"
+#include "fast/worlds.hpp"
 
 namespace ogc::fast {
 
 /// Returns the number of threads of the CPU backend.
 BackendInfo cpu_info();
 
+/// Returns the memory of the machine [B].
+std::size_t cpu_bytes();
+
 /// Returns a contestant that runs all stages on the host's threads.
 compare::Contestant cpu_contestant();
+
+/// Starts worlds on the host's threads (fast/worlds.hpp).
+std::unique_ptr<Worlds> start_cpu_worlds(std::span<const compare::Scene> scenes,
+                                         const compare::SimulationOptions& options);
 
 /// Returns the engine of a ContactFinder; `topology` must outlive it.
 std::unique_ptr<ContactEngine> cpu_contact_engine(const compare::Topology& topology,

@@ -217,6 +217,9 @@ class CudaBackend {
  public:
   template <class T>
   using Buffer = CudaBuffer<T>;
+  template <class T>
+  using Shared = CudaBuffer<T>;
+  static constexpr bool has_free_branches = false;
   using Sums = DeviceSums;
   using Recording = CudaRecording;
 
@@ -369,7 +372,7 @@ class CudaBackend {
   /// enqueue the same calls with the same arguments every time. The device itself counts the steps, and so finds what
   /// changes from step to step, such as targets.
   template <class Body>
-  void replay(Recording& recording, int times, Body body) {
+  void replay(Recording& recording, int times, Body body, const int* = nullptr) {
     if (recording.graph_ == nullptr || recording.generation_ != buffer_generation) {
       recording.clear();
       begin_recording();

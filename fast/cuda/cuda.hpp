@@ -9,11 +9,15 @@
 #include "fast/contact_sets.hpp"
 #include "fast/contestant.hpp"
 #include "fast/guard.hpp"
+#include "fast/worlds.hpp"
 
 namespace ogc::fast {
 
 /// Returns whether a device can run this build; if not, the description says why and what to do.
 BackendInfo cuda_info();
+
+/// Returns the free memory of the device [B]. Throws compare::ResourceError as cuda_contestant does.
+std::size_t cuda_free_bytes();
 
 /// Returns a contestant with all stages on the device. Throws compare::ResourceError if cuda_info() reports no usable
 /// device.
@@ -24,6 +28,10 @@ compare::Contestant cuda_contestant(const LaunchShape& shape = {});
 /// 0: estimated from the size of the mesh.
 std::unique_ptr<compare::Simulation> start_cuda(const compare::Scene& scene, const compare::SimulationOptions& options,
                                                 int list_capacity = 0);
+
+/// Starts worlds on the device (fast/worlds.hpp). Throws as start_cuda does. `list_capacity`: see start_cuda.
+std::unique_ptr<Worlds> start_cuda_worlds(std::span<const compare::Scene> scenes,
+                                          const compare::SimulationOptions& options, int list_capacity = 0);
 
 /// Makes the engine of a ContactFinder; `topology` must outlive it. Throws as cuda_contestant does. The engine reads
 /// device positions on a stream that synchronises with the legacy default stream. The caller's work on a non-blocking

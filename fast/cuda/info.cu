@@ -2,6 +2,8 @@
 
 #include <cuda_runtime.h>
 
+#include "compare/problem/error.hpp"
+#include "fast/cuda/check.cuh"
 #include "fast/cuda/cuda.hpp"
 
 namespace ogc::fast {
@@ -45,6 +47,14 @@ BackendInfo cuda_info() {
                     cudaGetErrorString(image_error) + "): build on it, or with CMAKE_CUDA_ARCHITECTURES set to it");
   }
   return {true, true, std::string(properties.name) + ", CUDA " + version(runtime)};
+}
+
+std::size_t cuda_free_bytes() {
+  const BackendInfo info = cuda_info();
+  if (!info.usable) throw compare::ResourceError(info.description + "; run with --backend cpu");
+  std::size_t free = 0, total = 0;
+  OGC_CUDA_CHECK(cudaMemGetInfo(&free, &total));
+  return free;
 }
 
 }  // namespace ogc::fast

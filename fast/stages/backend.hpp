@@ -9,6 +9,8 @@
 //     void upload(const T*, std::size_t n); void download(T*, std::size_t n) const; void fill_zero();
 //         host only, outside a step
 //
+//   template <class T> using Shared;     a Buffer that the host fills before a frame, or reads after it
+//   bool has_free_branches               whether `when` and `repeat` cost no more than a launch
 //   int device() const                   number of the CUDA device with the memory; −1: it is the host's
 //
 //   for_each(int n, F f)
@@ -48,11 +50,12 @@
 //         enqueues loops (for_each, …) and scans only; body() may contain another at_once
 //   Recording recording;
 //         a recorded body, empty at first; clear() it if the body enqueues other calls
-//   replay(recording, int times, Body body)
+//   replay(recording, int times, Body body, const int* goes_on)
 //         enqueues body()'s work `times` times. A device backend runs body() on the host once, records it as a graph,
 //         and launches the graph, also in later calls. It records again if a Buffer has moved or the recording has been
 //         cleared. So the body must enqueue the same calls with the same arguments every time; step numbers are counted
-//         on the device
+//         on the device. The body must have no effect once *goes_on (on the backend) is 0; a backend may then leave out
+//         the other repetitions
 //   replay_milliseconds()
 //         returns the time of each repetition of all replays since the last call [ms]; after synchronize
 //   synchronize()                        host only, once per frame

@@ -124,7 +124,8 @@ class Rods {
   Buffer<SegmentRest> segments_;
   Buffer<SegmentNeighbours> neighbours_;
   Buffer<int> motion_;
-  Buffer<Quat> motion_turns_, orientation_start_, orientation_;
+  Buffer<Quat> orientation_start_, orientation_;
+  typename Backend::template Shared<Quat> motion_turns_;
   Buffer<Vec> direction_;
 };
 

@@ -14,6 +14,7 @@
 
 #include "compare/contestant.hpp"
 #include "compare/way.hpp"
+#include "fast/kernels/frame.hpp"
 #include "fast/resident_state.hpp"
 #include "fast/stages/step.hpp"
 #include "fast/stages/way.hpp"
@@ -57,18 +58,31 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
 
   std::vector<compare::StepMetrics> advance(std::int64_t steps) override {
     std::vector<compare::StepMetrics> rows;
-    std::int64_t repeats = 0;
-    while (static_cast<std::int64_t>(rows.size()) < steps) {
-      const int count = static_cast<int>(
-          std::min<std::int64_t>(steps - static_cast<std::int64_t>(rows.size()), longest_frame));
-      const StepControl control = run(count, repeats, rows);
-      if ((control.status & (compare::step_not_finite | compare::step_bound_violated)) != 0) break;
-      if (control.status != 0) {
-        grow();
-        ++repeats;
-      }
-    }
+    if (steps <= 0) return rows;
+    do {
+      begin_frame(steps - static_cast<std::int64_t>(rows.size()));
+    } while (end_frame(rows) && static_cast<std::int64_t>(rows.size()) < steps);
     return rows;
+  }
+
+  /// Enqueues a frame of up to `steps` steps; end_frame must follow.
+  void begin_frame(std::int64_t steps) {
+    const int count = static_cast<int>(std::min<std::int64_t>(steps, longest_frame));
+    upload_targets(count);
+    backend_.for_each(1, BeginFrame{state_.control.data(), since_sort_});
+    enqueue(count);
+    backend_.for_each(1, EndFrame{state_.control.data(), report_.data()});
+  }
+  /// Waits for the frame. Appends a row for each completed step and for a step that failed. Grows lists that were too
+  /// small, so that the next frame repeats a step. Returns false if a step failed for another reason, after which no
+  /// step follows until restore().
+  bool end_frame(std::vector<compare::StepMetrics>& rows) {
+    const StepControl control = collect(rows);
+    if ((control.status & (compare::step_not_finite | compare::step_bound_violated)) != 0) return false;
+    if (control.status == 0) return true;
+    grow();
+    ++repeats_;
+    return true;
   }
 
   std::vector<compare::StepMetrics> advance_telling(std::vector<std::vector<compare::Vec3f>>& states) override {
@@ -194,6 +208,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     s.padded.resize(2 * n);
     s.sums.resize(guess_columns + sum_columns);
     s.control.resize(1);
+    report_.resize(1);
     s.rows.resize(longest_frame);
     upload(s.mass, rest_.mass);
     std::vector<int> number(n);
@@ -231,28 +246,23 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     rods_.upload_turns(step_number_, count);
   }
 
-  /// Runs up to `count` steps. Adds a row for each completed step and for a step that failed. Returns the control at
-  /// the end.
-  StepControl run(int count, std::int64_t& repeats, std::vector<compare::StepMetrics>& rows) {
+  /// Waits for a frame and adds its rows. Returns the control at its end.
+  StepControl collect(std::vector<compare::StepMetrics>& rows) {
+    backend_.synchronize();
+    const std::vector<double> wall_ms = is_replayed() ? backend_.replay_milliseconds() : std::exchange(wall_ms_, {});
+    const std::vector<std::vector<double>> stage_ms = std::exchange(stage_ms_, {});
     StepControl control;
-    control.active = 1;
-    control.since_sort = since_sort_;
-    state_.control.upload(&control, 1);
-    upload_targets(count);
-    std::vector<double> wall_ms;
-    std::vector<std::vector<double>> stage_ms;
-    enqueue(count, wall_ms, stage_ms);
-    state_.control.download(&control, 1);
+    report_.download(&control, 1);
     since_sort_ = control.since_sort;
     const bool failed = (control.status & (compare::step_not_finite | compare::step_bound_violated)) != 0;
-    std::vector<StepRow> device_rows(static_cast<std::size_t>(longest_frame));
+    std::vector<StepRow> device_rows(static_cast<std::size_t>(control.steps_done + (failed ? 1 : 0)));
     state_.rows.download(device_rows.data(), device_rows.size());
     for (int k = 0; k < control.steps_done + (failed ? 1 : 0); ++k) {
       const auto i = static_cast<std::size_t>(k);
       compare::StepMetrics row = metrics(device_rows[i], step_number_ + k + 1);
       row.wall_ms = wall_ms[i];
       if (clock_.on()) row.stage_ms = stage_ms[i];
-      row.repeats = std::exchange(repeats, 0);
+      row.repeats = std::exchange(repeats_, 0);
       if (row.repeats > 0) row.status |= compare::step_list_grew;
       rows.push_back(std::move(row));
     }
@@ -268,25 +278,20 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     return control;
   }
 
-  /// Enqueues steps and times each. If the clock measures stages or an observer is set, steps are not replayed from a
+  /// Enqueues steps. If the clock measures stages or an observer is set, steps are not replayed from a
   /// recording, so that the host can act between launches.
-  void enqueue(int count, std::vector<double>& wall_ms, std::vector<std::vector<double>>& stage_ms) {
-    if (!clock_.on() && !step_.is_observed()) {
-      replay(count);
-      backend_.synchronize();
-      wall_ms = backend_.replay_milliseconds();
-      return;
-    }
+  void enqueue(int count) {
+    if (is_replayed()) return replay(count);
     using Clock = std::chrono::steady_clock;
     for (int k = 0; k < count; ++k) {
       const Clock::time_point start = Clock::now();
       step_.enqueue(group_, Sorting::asked, is_measured(step_number_ + k + 1));
       if (!clock_.on()) backend_.synchronize();
-      wall_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
-      stage_ms.push_back(clock_.take());
+      wall_ms_.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+      stage_ms_.push_back(clock_.take());
     }
-    backend_.synchronize();
   }
+  bool is_replayed() const { return !clock_.on() && !step_.is_observed(); }
 
   /// Returns whether the row of a step contains the forces that are left at the end of the step. This depends on the
   /// step's number alone, so a resumed run has the same rows.
@@ -298,12 +303,17 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
   void replay(int count) {
     for (int since = since_sort_, done = 0; done < count;) {
       const std::int64_t next = step_number_ + done + 1;
-      const bool sorts = since >= steps_between_sorts, measures = is_measured(next);
+      const bool asks = Backend::has_free_branches, sorts = !asks && since >= steps_between_sorts,
+                 measures = is_measured(next);
+      const int group = asks ? 1 : group_;
+      const Sorting sorting = asks ? Sorting::asked : sorts ? Sorting::made : Sorting::left_out;
       int times = 1;
       if (!sorts && !measures)
-        while (done + times < count && since + times < steps_between_sorts && !is_measured(next + times)) ++times;
-      backend_.replay(recordings_[sorts ? 1 : 0][measures ? 1 : 0][group_ > 1 ? 1 : 0], times,
-                      [=, this] { step_.enqueue(group_, sorts ? Sorting::made : Sorting::left_out, measures); });
+        while (done + times < count && (asks || since + times < steps_between_sorts) && !is_measured(next + times))
+          ++times;
+      backend_.replay(
+          recordings_[sorts ? 1 : 0][measures ? 1 : 0][group > 1 ? 1 : 0], times,
+          [=, this] { step_.enqueue(group, sorting, measures); }, &state_.control.data()->active);
       since = sorts ? 1 : since + times;
       done += times;
     }
@@ -409,6 +419,10 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
   float query_radius_ = 0;
   int since_sort_ = StepControl{}.since_sort;
   int group_ = iterations_in_group(0, 1);
+  typename Backend::template Shared<StepControl> report_;  ///< the control at the end of a frame
+  std::int64_t repeats_ = 0;                               ///< of the next step
+  std::vector<double> wall_ms_;                            ///< of the frame's steps, if they are not replayed
+  std::vector<std::vector<double>> stage_ms_;
 };
 
 }  // namespace ogc::fast

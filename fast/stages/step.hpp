@@ -47,6 +47,8 @@ template <class Backend>
 struct StepState {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
+  template <class T>
+  using Shared = typename Backend::template Shared<T>;
 
   /// vertices of the mesh; prescribed vertices of all motions
   int vertex_count = 0, prescribed_count = 0;
@@ -56,9 +58,9 @@ struct StepState {
   Buffer<float> mass;                      ///< by vertex [kg]
   Buffer<std::uint8_t> is_driven_volume;   ///< by vertex; empty if there are no volumes
   Buffer<int> prescribed_number;           ///< by vertex: number among the prescribed ones; −1 free, −2 fixed
-  Buffer<Vec> prescribed_targets;          ///< [step of the frame][number]
+  Shared<Vec> prescribed_targets;          ///< [step of the frame][number]
   Buffer<StepControl> control;             ///< one item
-  Buffer<StepRow> rows;                    ///< by step of the frame
+  Shared<StepRow> rows;                    ///< by step of the frame
   Buffer<Vec> taken;                       ///< by vertex, two buffers: moves that contacts took in the guess loop [m]
   Buffer<double> sums;                     ///< in the order in which FinishStep reads them
 };

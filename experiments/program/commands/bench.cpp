@@ -15,6 +15,7 @@
 #include "experiments/bench/results.hpp"
 #include "experiments/bench/scene_benchmarks.hpp"
 #include "experiments/bench/stage_benchmarks.hpp"
+#include "experiments/bench/worlds_benchmarks.hpp"
 #include "experiments/program/commands.hpp"
 #include "experiments/program/option_checks.hpp"
 #include "experiments/program/progress.hpp"
@@ -122,6 +123,7 @@ void initialize(const CommandOptions& options) {
 void run_benchmarks(const CommandOptions& options) {
   register_stage_benchmarks(options.bench);
   register_scene_benchmarks(options.bench);
+  register_worlds_benchmarks(options.bench);
   LineReporter reporter(options.list ? 0 : count_benchmarks(options.filter));
   initialize(options);
   say_context(options);
@@ -146,6 +148,7 @@ std::vector<std::string> words_of(const CommandOptions& options) {
                                  std::to_string(options.bench.steps),
                                  "--repetitions",
                                  std::to_string(options.bench.repetitions)};
+  if (options.bench.worlds > 0) words.insert(words.end(), {"--worlds", std::to_string(options.bench.worlds)});
   for (const std::string& state : options.bench.states) words.insert(words.end(), {"--from-state", state});
   if (options.threads > 0) words.insert(words.end(), {"--threads", std::to_string(options.threads)});
   return words;
@@ -208,6 +211,10 @@ void add_bench_command(CLI::App& app, CommandContext& context) {
       ->take_all()
       ->type_size(1)
       ->expected(1);
+  command
+      ->add_option("--worlds", options->bench.worlds,
+                   "Also measures so many worlds side by side: worlds/N/small_cloth, worlds/N/SCENE/SCALE")
+      ->check(whole_number(1, most_worlds));
   command->add_option("--steps", options->bench.steps, "A repetition measures a window of so many steps")
       ->check(whole_number(1, most_counted))
       ->capture_default_str();
@@ -235,6 +242,7 @@ void add_bench_command(CLI::App& app, CommandContext& context) {
       "  ogc bench --filter 'step/twist' --scale smoke\n"
       "  ogc bench --filter 'stage/.*/cpu' --json before.json\n"
       "  ogc bench --filter 'stage/.*/cpu' --json after.json --against before.json\n"
+      "  ogc bench --worlds 1024 --filter small_cloth --backend cuda\n"
       "  ogc bench --from-state runs/twist/frames/frame_001200.h5 --steps 64 --backend cuda\n\n"
       "Names: stage/STAGE/BACKEND (a batch of the judge's cases, on a device with its transfers), "
       "step/SCENE/SCALE/BACKEND (resident, as in steps.csv),\n"

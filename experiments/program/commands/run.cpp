@@ -14,6 +14,7 @@
 #include "experiments/program/python_program.hpp"
 #include "experiments/program/runs/resume.hpp"
 #include "experiments/program/runs/sheet.hpp"
+#include "experiments/program/runs/worlds_run.hpp"
 
 namespace ogc::experiments {
 
@@ -46,6 +47,20 @@ ResumedRun resumed(const RunOptions& options, const std::string& folder, const C
   return run;
 }
 
+int make_worlds(const RunOptions& options, const CommandContext& context) {
+  RunRequest request = request_of(options, context);
+  catch_interrupts();
+  log_line(std::to_string(options.worlds) + " times " + introduction(request));
+  const WorldsSummary summary = run_worlds(std::move(request), options.worlds);
+  if (context.json) {
+    print_result(to_json(summary));
+  } else {
+    print_result(describe(summary));
+  }
+  if (summary.failed > 0) return exit_check_failed;
+  return summary.was_interrupted ? exit_interrupted : static_cast<int>(exit_success);
+}
+
 /// How a run is shown while it goes on: in a window, in a picture, or not at all.
 struct LiveView {
   bool window = false;
@@ -74,6 +89,10 @@ int make_run(const RunOptions& options, const std::string& resume, const LiveVie
   if (options.scene.empty() && resume.empty())
     throw compare::InputError("run needs a scene (" + scene_names() +
                               "), a scene file, a mesh file, or --resume RUN; see ogc run --help");
+  if (resume.empty() && options.worlds > 0) {
+    if (view.any()) throw compare::InputError("--view shows a run of one world; leave it or --worlds out");
+    return make_worlds(options, context);
+  }
   ResumedRun run = resume.empty() ? ResumedRun{options, request_of(options, context)}
                                   : resumed(options, resume, command);
   const std::filesystem::path folder = run.request.folder;
@@ -110,6 +129,11 @@ void add_run_command(CLI::App& app, CommandContext& context) {
   command->add_option(
       "--resume", *resume,
       "The run in this folder, which was cut off, goes on to the same bits; --resume takes no scene and no settings");
+  command
+      ->add_option("--worlds", options->worlds,
+                   "So many copies run side by side and never see each other; with --jitter, copy w begins with the "
+                   "offsets of seed + w. A copy that fails is named, and the others go on")
+      ->check(whole_number(1, most_worlds));
   add_threads_option(*command, options->threads);
   auto view = std::make_shared<LiveView>();
   command->add_flag(
@@ -127,6 +151,7 @@ void add_run_command(CLI::App& app, CommandContext& context) {
       "  ogc run twist --backend cuda --scale paper --steps 1200 --audit every\n"
       "  ogc run shirt.obj --ground 0 --steps 200\n"
       "  ogc run knot --scale smoke --jitter 1e-6 --seed 7   # and 8, 9, …: what do they have in common?\n"
+      "  ogc run cloth_on_sphere --scale smoke --backend cuda --worlds 256 --jitter 1e-6   # copies side by side\n"
       "  ogc run --resume runs/twist-paper-20250801-120000\n"
       "  ogc scenes twist --write mine && ogc run mine/twist.json --set iterations=20 --set contact_radius=0.003\n\n"
       "An audit is exact: no edge meets a triangle, no vertex moved beyond its bound, no bound is larger than the "

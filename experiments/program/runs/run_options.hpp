@@ -21,6 +21,7 @@ struct RunOptions {
   compare::MeshOptions mesh;                               ///< how a mesh file is read, if it replaces a scene
   std::optional<double> ground;                            ///< y of the ground below the mesh of a mesh file [m]
   std::optional<double> deepest;                           ///< --deepest [m]
+  int worlds = 0;                                          ///< number of worlds; 0: one run
   int threads = 0;                                         ///< number of CPU threads; 0: all
   double checkpoint_seconds = default_checkpoint_seconds;  ///< least time between two checkpoints [s]
 };

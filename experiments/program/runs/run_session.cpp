@@ -30,7 +30,8 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 
 constexpr std::int64_t any_step = std::numeric_limits<std::int64_t>::max();
 
-/// Returns the number of steps between frames. If the scene does not set it, a simulated second has about 60 frames.
+}  // namespace
+
 std::int64_t frame_steps(const compare::Settings& settings) {
   if (settings.frame_steps > 0) return settings.frame_steps;
   return std::max<std::int64_t>(1, std::llround(1 / (60 * settings.time_step)));
@@ -78,7 +79,7 @@ compare::Provenance provenance(const RunRequest& request, const std::string& dev
   return run;
 }
 
-std::string joined(const std::vector<std::string>& lines) {
+static std::string joined(const std::vector<std::string>& lines) {
   std::string text;
   for (const std::string& line : lines) text += line + "\n";
   return text;
@@ -108,8 +109,6 @@ std::string step_failure(const StepMetrics& row) {
            "and go on), or a smaller time_step";
   return "";
 }
-
-}  // namespace
 
 RunSession::RunSession(RunRequest request, compare::Contestant contestant)
     : request_(checked(std::move(request))),

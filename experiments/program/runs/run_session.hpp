@@ -114,6 +114,16 @@ std::string describe(const RunSummary& summary);
 /// vertices that met at the start, 3 still open" (not yet apart).
 std::string guarantee_text(const RunSummary& summary);
 
+/// Returns the number of steps between frames. If the scene does not set it, a simulated second has about 60 frames.
+std::int64_t frame_steps(const compare::Settings& settings);
+/// Returns the request with its scene in single precision and without dust. Throws compare::InputError for an invalid
+/// scene or an unusable folder.
+RunRequest checked(RunRequest request);
+/// Returns what run.json says of the run when it begins.
+compare::Provenance provenance(const RunRequest& request, const std::string& device);
+/// Returns in words why a step ends the run; empty if it does not.
+std::string step_failure(const compare::StepMetrics& row);
+
 /// Runs one simulation and writes its folder.
 class RunSession {
  public:

@@ -30,3 +30,12 @@ TEST_CASE("the floor of a sweep grows with each kind of work", "[property]") {
   for (const IterationWork& greater : {idle, spread, more})
     CHECK(sweep_floor(machine, greater) > sweep_floor(machine, work));
 }
+
+TEST_CASE("the floor of worlds is their instructions or their bytes, and no launch", "[unit]") {
+  const MachineLimits machine = *limits_of("NVIDIA H200");
+  IterationWork sum;
+  for (int world = 0; world < 3; ++world) sum += 40.0 * IterationWork{1e6, 2e6, 3e6, 6};
+  CHECK(sum.launches == 0);
+  CHECK(sum.warp_instructions == Approx(120e6));
+  CHECK(worlds_floor(machine, sum) == Approx(std::max(120e6 / machine.warp_instructions_per_second, 240e6 / 7.1e12)));
+}

@@ -139,7 +139,7 @@ class WatchedBackend : public CpuBackend {
     CpuBackend::repeat(decide, flag, body, decide_again);
   }
   template <class Body>
-  void replay(Recording& recording, int times, Body body) {
+  void replay(Recording& recording, int times, Body body, const int*) {
     if (replayed_ != nullptr) replayed_->push_back(&recording);
     CpuBackend::Recording nothing;
     CpuBackend::replay(nothing, times, body);

@@ -108,6 +108,25 @@ TEST_CASE("a window can begin at a frame of a run", "[unit]") {
   CHECK(contains(result.out, {"step/twist@3/cpu"}));
 }
 
+TEST_CASE("worlds side by side are measured, beside the same cloths in one scene", "[unit]") {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "out.json").string();
+  const ProgramResult result = run_ogc(
+      "bench --worlds 3 --scale smoke --backend cpu --steps 8 --repetitions 1 --processes 1 --filter "
+      "'^(worlds/3/(small_cloth|twist)|step/small_cloths)' --json " +
+      file);
+  INFO(result.err);
+  REQUIRE(result.status == 0);
+  CHECK(contains(result.out, {"worlds/3/small_cloth/cpu", "worlds/3/twist/smoke/cpu", "step/small_cloths/3/cpu"}));
+  for (const Json& run : parse_results(file).at("benchmarks")) {
+    const std::string name = run.at("name");
+    if (!name.starts_with("worlds/3/small_cloth")) continue;
+    CHECK(run.at("free_vertices") == 81);
+    CHECK(run.at("contacts") > 0);
+    CHECK(run.at("real_time") > 0);
+  }
+}
+
 TEST_CASE("wrong files, filters and options of bench exit 2 and say what to do", "[unit]") {
   const TemporaryFolder folder;
   const std::string text = folder.write("text", "no json").string(),
@@ -124,4 +143,5 @@ TEST_CASE("wrong files, filters and options of bench exit 2 and say what to do",
   refused("--results " + text, {"--against"});
   refused("--filter nothing_is_called_so --backend cpu", {"--filter nothing_is_called_so", "--list"});
   refused("--backend cpu --from-state " + text, {"run.json"});
+  refused("--backend cpu --worlds 0", {"--worlds"});
 }
