@@ -63,7 +63,7 @@ PROJECT = {
     "experiments/python": PROBLEM + CONTESTANT + ("compare/oracle/", "experiments/python/", "experiments/scenes/",
                                                   "fast/contact_forces.hpp", "fast/contact_sets.hpp",
                                                   "fast/contestant.hpp", "fast/guard.hpp", "fast/mesh.hpp",
-                                                  "fast/resident_state.hpp"),
+                                                  "fast/resident_state.hpp", "fast/worlds.hpp"),
     "experiments/examples": ("compare/", "fast/contact_sets.hpp", "fast/contestant.hpp", "fast/guard.hpp"),
     "experiments/program/commands/contacts.cpp": ("compare/", "experiments/", "reference/contestant.hpp",
                                                   "fast/contestant.hpp", "fast/contact_sets.hpp"),

@@ -152,7 +152,8 @@ struct TableType {
   }
 };
 
-/// Returns rows as a structured array, numpy.recarray.
+}  // namespace
+
 nb::object table_of(const std::vector<compare::StepMetrics>& rows) {
   const auto columns = metric_columns();
   auto cells = std::make_unique<std::vector<std::int64_t>>();
@@ -177,6 +178,8 @@ nb::object table_of(const std::vector<compare::StepMetrics>& rows) {
   static const TableType* const type = new TableType;  // kept for good: Python's objects may end before statics do
   return array.attr("view")(type->row).attr("view")(type->table);
 }
+
+namespace {
 
 nb::object advance(Simulation& simulation, std::int64_t steps) {
   std::vector<compare::StepMetrics> rows;
@@ -365,6 +368,13 @@ void bind_scene(nb::module_& module) {
           "energies: whether\n"
           "steps report them. The start must be free of intersections: ogc_testbed.audit tells.\n\n"
           "ValueError: the scene is not valid; the message lists what to mend. RuntimeError: the backend is not there.")
+      .def("worlds", &worlds_of_scene, nb::arg("count"), nb::arg("backend") = "cpu", nb::arg("energies") = true,
+           nb::sig("def worlds(self, count: int, backend: str = 'cpu', energies: bool = True) -> Worlds"),
+           "Starts so many copies of this scene that never see each other; ogc_testbed.worlds takes scenes that "
+           "differ.\n\n"
+           "ValueError: the scene is not valid, or count < 1. RuntimeError: the backend is not there, or has too "
+           "little\n"
+           "memory; the message says how many copies fit.")
       .def_prop_ro(
           "positions", [](const compare::Scene& scene) { return owned(to_single(scene.mesh.positions)); },
           nb::sig("def positions(self) -> " OGC_LENT("float32", "(None, 3)")),

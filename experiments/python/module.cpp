@@ -10,5 +10,6 @@ NB_MODULE(_fast, module) {
   ogc::python::bind_contacts(module);
   ogc::python::bind_guard(module);
   ogc::python::bind_forces(module);
+  ogc::python::bind_worlds(module);
   ogc::python::bind_scenes(module);
 }

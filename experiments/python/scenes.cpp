@@ -60,20 +60,6 @@ constexpr std::array all_columns{
     column<&StepMetrics::status>("status"),
 };
 
-/// Returns why a step ends the simulation; empty if it does not.
-std::string failure_of(const StepMetrics& row) {
-  const std::string where = "step " + std::to_string(row.step) + ": ";
-  if (row.status & compare::step_not_finite)
-    return where +
-           "a position became infinite or not a number; the last good state is kept. Take a smaller dt, more "
-           "iterations, or softer materials";
-  if (row.status & compare::step_bound_violated)
-    return where +
-           "a vertex moved further than its bound: the guarantee is broken; the last good state is kept. "
-           "Please report it";
-  return {};
-}
-
 std::int64_t frame_steps(const compare::Settings& settings) {
   if (settings.frame_steps > 0) return settings.frame_steps;
   return std::max<std::int64_t>(1, std::llround(1 / (60 * settings.time_step)));
@@ -122,14 +108,31 @@ compare::Material obstacle_material(double friction, double contact_stiffness) {
 
 std::span<const MetricColumn> metric_columns() { return all_columns; }
 
-Simulation::Simulation(compare::Scene scene, std::string_view backend, const compare::SimulationOptions& options)
-    : scene_(std::move(scene)) {
-  const fast::Backend chosen = usable_backend(backend);
-  compare::round_to_single(scene_);
-  const std::vector<compare::Problem> problems = compare::validate(scene_);
+compare::Scene checked(compare::Scene scene) {
+  compare::round_to_single(scene);
+  const std::vector<compare::Problem> problems = compare::validate(scene);
   if (!problems.empty())
-    throw compare::InputError("the scene '" + scene_.name + "' cannot be simulated:\n" + compare::describe(problems));
-  compare::refuse_unread(scene_.settings, "vbd");
+    throw compare::InputError("the scene '" + scene.name + "' cannot be simulated:\n" + compare::describe(problems));
+  compare::refuse_unread(scene.settings, "vbd");
+  return scene;
+}
+
+std::string failure_of(const StepMetrics& row) {
+  const std::string where = "step " + std::to_string(row.step) + ": ";
+  if (row.status & compare::step_not_finite)
+    return where +
+           "a position became infinite or not a number; the last good state is kept. Take a smaller dt, more "
+           "iterations, or softer materials";
+  if (row.status & compare::step_bound_violated)
+    return where +
+           "a vertex moved further than its bound: the guarantee is broken; the last good state is kept. "
+           "Please report it";
+  return {};
+}
+
+Simulation::Simulation(compare::Scene scene, std::string_view backend, const compare::SimulationOptions& options) {
+  const fast::Backend chosen = usable_backend(backend);
+  scene_ = checked(std::move(scene));
   simulation_ = fast::contestant(chosen).start(scene_, options);
   state_ = &fast::resident_state(*simulation_);
 }

@@ -52,6 +52,13 @@ struct MetricColumn {
 /// Returns the columns in the order of compare::StepMetrics.
 std::span<const MetricColumn> metric_columns();
 
+/// Returns the scene in single precision. Throws compare::InputError if it is not valid or has a setting that the
+/// solver does not read.
+compare::Scene checked(compare::Scene scene);
+
+/// Returns why a step ends a simulation, and what to do; empty if it does not.
+std::string failure_of(const compare::StepMetrics& row);
+
 /// A running simulation. Several threads may call it, one after the other is served.
 class Simulation : public StateOwner {
  public:

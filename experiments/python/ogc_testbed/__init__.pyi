@@ -13,10 +13,12 @@ from ._fast import (
     Snapshot as Snapshot,
     StateView as StateView,
     Steps as Steps,
+    Worlds as Worlds,
     backend_info as backend_info,
     find_contacts as find_contacts,
     scene as scene,
     scenes as scenes,
+    worlds as worlds,
 )
 from .judging import judge as judge
 from .kernels import kernel as kernel

@@ -37,6 +37,54 @@ def falling(**settings):
     return scene, cloth
 
 
+class Worlds(unittest.TestCase):
+    def test_each_world_ends_where_its_scene_ends_alone(self):
+        scenes = [falling()[0], falling(bounds="planes")[0], falling(friction_velocity=1e-3)[0]]
+        worlds = ogc.worlds(scenes)
+        self.assertEqual(len(worlds), 3)
+        rows = worlds.advance([20, 20, 5])
+        self.assertEqual([len(of_world) for of_world in rows], [20, 20, 5])
+        self.assertGreater(sum(rows[1].vertex_facet_contacts) + sum(rows[1].edge_edge_contacts), 0)
+        for w, (scene, steps) in enumerate(zip(scenes, (20, 20, 5))):
+            alone = scene.start()
+            own = alone.advance(steps)
+            self.assertEqual(worlds.snapshot(w).positions.tobytes(), alone.positions.cpu().tobytes(), w)
+            self.assertEqual(own.elastic_energy.tolist(), rows[w].elastic_energy.tolist(), w)
+
+    def test_copies_are_the_same_and_one_that_is_reset_repeats_its_bits(self):
+        worlds = falling()[0].worlds(4)
+        begin = worlds.snapshot(2)
+        worlds.advance(7)
+        self.assertEqual(worlds.failures, {})
+        ends = [worlds.snapshot(w).positions.tobytes() for w in range(4)]
+        self.assertEqual(len(set(ends)), 1)
+        worlds.reset(2, begin)
+        self.assertEqual(worlds.snapshot(2).positions.tobytes(), begin.positions.tobytes())
+        worlds.advance([0, 3, 7, 0])
+        self.assertEqual(worlds.snapshot(2).positions.tobytes(), ends[0])
+        self.assertNotEqual(worlds.snapshot(1).positions.tobytes(), ends[1])
+
+    def test_bad_words_are_named(self):
+        scene, _ = falling()
+        worlds, other = scene.worlds(2), ogc.Scene(dt=1 / 100, iterations=2, radius=5e-3)
+        other.add_cloth(*grid(3, 0.2, 0.01))
+        for words, call in (("count: 0 came", lambda: scene.worlds(0)),
+                            ("numbers came for 2 worlds", lambda: worlds.advance([1, 2, 3])),
+                            ("-1 came; give at least 0", lambda: worlds.advance(-1)),
+                            ("world: 2 came; there are 2", lambda: worlds.snapshot(2)),
+                            ("world: -1 came", lambda: worlds.snapshot(-1)),
+                            ("snapshot: it has 9 vertices", lambda: worlds.reset(0, other.start().snapshot()))):
+            with self.assertRaises(ValueError, msg=words) as found:
+                call()
+            self.assertIn(words, str(found.exception))
+        with self.assertRaises(ValueError):
+            ogc.worlds([])
+        with self.assertRaises(TypeError):
+            ogc.worlds([scene, "scene"])
+        with self.assertRaisesRegex(RuntimeError, "run at most"):
+            scene.worlds(1 << 40)
+
+
 class Bits(unittest.TestCase):
     def test_a_built_in_scene_ends_where_the_program_ends(self):
         scene = ogc.scene("cloth_on_sphere", scale="smoke")
