@@ -13,8 +13,8 @@ __version__ = "0.1.0"
 
 _MODULES = {
     "_fast": ("Body", "ContactFinder", "ContactForceSums", "ContactForces", "ContactSets", "Guard", "GuardReport",
-              "Mesh", "Scene", "Simulation", "Snapshot", "StateView", "Steps", "Worlds", "backend_info", "find_contacts", "scene",
-              "scenes", "worlds"),
+              "Mesh", "Scene", "Simulation", "Snapshot", "StateView", "Steps", "Worlds", "backend_info",
+              "find_contacts", "scene", "scenes", "worlds"),
     "_audit": ("AuditReport", "audit"),
     "judging": ("judge",),
     "kernels": ("kernel",),
