@@ -19,15 +19,11 @@ namespace ogc::python {
 using compare::InputError;
 using compare::StepMetrics;
 
-Worlds::Worlds(std::vector<compare::Scene> scenes, std::string_view backend,
-               const compare::SimulationOptions& options) {
-  const fast::Backend chosen = usable_backend(backend);
-  for (compare::Scene& scene : scenes) {
-    scene = checked(std::move(scene));
-    vertices_.push_back(scene.mesh.positions.size());
-  }
-  failures_.resize(scenes.size());
-  worlds_ = fast::start_worlds(chosen, scenes, options);
+Worlds::Worlds(const std::vector<compare::Scene>& scenes, std::string_view backend,
+               const compare::SimulationOptions& options)
+    : failures_(scenes.size()) {
+  for (const compare::Scene& scene : scenes) vertices_.push_back(scene.mesh.positions.size());
+  worlds_ = fast::start_worlds(usable_backend(backend), scenes, options);
 }
 
 int Worlds::number_of(std::int64_t world) const {
@@ -76,9 +72,10 @@ std::unique_ptr<Worlds> worlds_of_scene(const compare::Scene& scene, std::int64_
                                         bool energies) {
   if (count < 1) throw InputError("count: " + std::to_string(count) + " came; give at least 1");
   const nb::gil_scoped_release release;
-  const fast::Backend chosen = usable_backend(backend);
-  fast::expect_room(chosen, checked(scene), static_cast<std::size_t>(count));  // before the copies are made
-  return std::make_unique<Worlds>(std::vector<compare::Scene>(static_cast<std::size_t>(count), scene), backend,
+  const compare::Scene one = checked(scene);
+  const auto copies = static_cast<std::size_t>(count);
+  fast::expect_room(usable_backend(backend), one, copies);  // before the copies are made
+  return std::make_unique<Worlds>(std::vector<compare::Scene>(copies, one), backend,
                                   compare::SimulationOptions{.energies = energies});
 }
 
@@ -87,9 +84,12 @@ namespace {
 std::unique_ptr<Worlds> worlds_of_scenes(const std::vector<compare::Scene*>& scenes, const std::string& backend,
                                          bool energies) {
   std::vector<compare::Scene> copies;
-  for (const compare::Scene* scene : scenes) copies.push_back(*scene);
+  for (const compare::Scene* scene : scenes) {
+    if (scene == nullptr) throw nb::type_error("scenes: None came; give objects of Scene");
+    copies.push_back(checked(*scene));
+  }
   const nb::gil_scoped_release release;
-  return std::make_unique<Worlds>(std::move(copies), backend, compare::SimulationOptions{.energies = energies});
+  return std::make_unique<Worlds>(copies, backend, compare::SimulationOptions{.energies = energies});
 }
 
 nb::list advance_all(Worlds& worlds, const std::variant<std::int64_t, std::vector<std::int64_t>>& steps) {

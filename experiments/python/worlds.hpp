@@ -19,9 +19,10 @@ namespace ogc::python {
 /// other is served.
 class Worlds {
  public:
-  /// Throws compare::InputError if a scene is not valid or there is none, and compare::ResourceError if the backend is
-  /// not there or has too little memory.
-  Worlds(std::vector<compare::Scene> scenes, std::string_view backend, const compare::SimulationOptions& options);
+  /// `scenes`: results of `checked`. Throws compare::InputError if there is none, and compare::ResourceError if the
+  /// backend is not there or has too little memory.
+  Worlds(const std::vector<compare::Scene>& scenes, std::string_view backend,
+         const compare::SimulationOptions& options);
 
   std::size_t count() const { return vertices_.size(); }
   /// Runs steps[w] steps in each world w, and returns the rows of each. Throws compare::InputError if there are not

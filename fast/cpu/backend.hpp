@@ -8,8 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <iterator>
-#include <limits>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -19,6 +17,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
+#include "fast/cpu/least.hpp"
 #include "fast/cpu/pack_kernels.hpp"
 #include "fast/cpu/packed_search.hpp"
 #include "fast/kernels/search.hpp"
@@ -158,14 +157,7 @@ class CpuBackend {
   template <class F>
   void for_each_row(int n, const int* offsets, const float* values, F f) {
     for_each(n, [f, offsets, values](int i) {
-      float least[F::rank + 1];  // ascending
-      std::fill(std::begin(least), std::end(least), std::numeric_limits<float>::infinity());
-      for (int k = offsets[i]; k < offsets[i + 1]; ++k) {
-        if (!(values[k] < least[F::rank])) continue;
-        int at = F::rank;
-        for (; at > 0 && values[k] < least[at - 1]; --at) least[at] = least[at - 1];
-        least[at] = values[k];
-      }
+      const auto least = least_of_row<F::rank>(values, offsets[i], offsets[i + 1]);
       f(i, least[0], least[F::rank]);
     });
   }

@@ -4,10 +4,9 @@
 
 #include <chrono>
 #include <cstring>
-#include <iterator>
-#include <limits>
 #include <type_traits>
 
+#include "fast/cpu/least.hpp"
 #include "fast/cpu/packed_gaps.hpp"
 #include "fast/kernels/sweep/sums.hpp"
 #include "fast/kernels/team.hpp"
@@ -36,14 +35,7 @@ struct HostBlock {
   template <class F>
   void row_loop(int n, const int* offsets, const float* values, const F& f) const {
     for (int i = 0; i < n; ++i) {
-      float least[F::rank + 1];  // ascending
-      std::fill(std::begin(least), std::end(least), std::numeric_limits<float>::infinity());
-      for (int k = offsets[i]; k < offsets[i + 1]; ++k) {
-        if (!(values[k] < least[F::rank])) continue;
-        int at = F::rank;
-        for (; at > 0 && values[k] < least[at - 1]; --at) least[at] = least[at - 1];
-        least[at] = values[k];
-      }
+      const auto least = least_of_row<F::rank>(values, offsets[i], offsets[i + 1]);
       f(i, least[0], least[F::rank]);
     }
   }

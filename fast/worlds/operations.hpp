@@ -36,7 +36,7 @@ OGC_HD void loop(const Block& block, int n, const F& f) {
   }
 }
 
-/// for_each
+/// Runs a call of for_each (fast/stages/backend.hpp).
 template <class F>
 struct EachOperation {
   int n;
@@ -47,7 +47,7 @@ struct EachOperation {
   }
 };
 
-/// for_each_counted
+/// Runs a call of for_each_counted (fast/stages/backend.hpp).
 template <class F>
 struct CountedOperation {
   const int* n;
@@ -59,7 +59,7 @@ struct CountedOperation {
   }
 };
 
-/// for_both
+/// Runs a call of for_both (fast/stages/backend.hpp).
 template <class F, class G>
 struct BothOperation {
   int m;
@@ -74,7 +74,7 @@ struct BothOperation {
   }
 };
 
-/// for_each_group
+/// Runs a call of for_each_group (fast/stages/backend.hpp).
 template <int W, class F>
 struct GroupOperation {
   int n;
@@ -85,7 +85,7 @@ struct GroupOperation {
   }
 };
 
-/// for_each_team
+/// Runs a call of for_each_team (fast/stages/backend.hpp).
 template <int W, class F>
 struct TeamOperation {
   int n;
@@ -96,7 +96,7 @@ struct TeamOperation {
   }
 };
 
-/// for_each_row
+/// Runs a call of for_each_row (fast/stages/backend.hpp).
 template <class F>
 struct RowOperation {
   int n;
@@ -119,7 +119,7 @@ struct SearchOperation {
   }
 };
 
-/// exclusive_scans
+/// Runs a call of exclusive_scans (fast/stages/backend.hpp).
 struct ScanOperation {
   Scan first, second;
   template <class Block>

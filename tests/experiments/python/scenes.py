@@ -81,6 +81,8 @@ class Worlds(unittest.TestCase):
             ogc.worlds([])
         with self.assertRaises(TypeError):
             ogc.worlds([scene, "scene"])
+        with self.assertRaisesRegex(TypeError, "None came"):
+            ogc.worlds([scene, None])
         with self.assertRaisesRegex(RuntimeError, "run at most"):
             scene.worlds(1 << 40)
 

@@ -29,6 +29,13 @@ inline compare::Scene falling_sheet(compare::Index n, double speed) {
   return scene;
 }
 
+/// Returns how often steps of a world were repeated because a list was too small.
+inline std::int64_t repeats(const std::vector<compare::StepMetrics>& rows) {
+  std::int64_t sum = 0;
+  for (const compare::StepMetrics& row : rows) sum += row.repeats;
+  return sum;
+}
+
 /// Returns worlds that differ in size, speed, iterations and bounds, so that their programs differ.
 inline std::vector<compare::Scene> different_worlds(int count) {
   std::vector<compare::Scene> scenes;
