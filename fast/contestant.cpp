@@ -33,8 +33,8 @@ ResidentState& resident_state(compare::Simulation& simulation) {
 
 BackendInfo backend_info(Backend backend) { return backend == Backend::cpu ? cpu_info() : device_info(); }
 
-compare::Contestant contestant(Backend backend, [[maybe_unused]] const LaunchShape& shape) {
-  if (backend == Backend::cpu) return cpu_contestant();
+compare::Contestant contestant(Backend backend, const LaunchShape& shape) {
+  if (backend == Backend::cpu) return cpu_contestant(shape.devices);
 #if defined(OGC_HAS_CUDA)
   return cuda_contestant(shape);
 #else

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -16,6 +17,7 @@
 #include "compare/way.hpp"
 #include "fast/kernels/frame.hpp"
 #include "fast/resident_state.hpp"
+#include "fast/stages/parts.hpp"
 #include "fast/stages/step.hpp"
 #include "fast/stages/way.hpp"
 
@@ -26,9 +28,9 @@ template <class Backend>
 class ResidentSimulation : public compare::Simulation, public compare::WayTeller, public ResidentState {
  public:
   /// `device` is the result of device(). `list_capacity`: number of contacts for which the lists have room at first; 0:
-  /// estimated from the size of the mesh. Lists grow by themselves.
+  /// estimated from the size of the mesh. Lists grow by themselves. `hall`, `part`: see Parts.
   ResidentSimulation(Backend backend, const compare::Scene& scene, const compare::SimulationOptions& options,
-                     std::string device, int list_capacity = 0)
+                     std::string device, int list_capacity = 0, std::shared_ptr<Hall> hall = nullptr, int part = 0)
       : backend_(std::move(backend)),
         device_(std::move(device)),
         scene_(rounded(scene)),
@@ -43,17 +45,20 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
                  solid_tables(topology_, volume_tetrahedra(scene_)), asker_rows(scene_, topology_, colouring_.order),
                  sweep_.slots(), sweep_.colour()),
         rods_(scene_, rest_, longest_frame),
+        parts_(backend_, std::move(hall), part, colouring_),
         clock_(backend_, options.profile),
         moving_(static_cast<std::size_t>(compare::bounded_count(topology_, exclusions_.groups))),
-        step_(backend_, state_, detection_, sweep_, volumes_, rods_, clock_,
+        step_(backend_, state_, detection_, sweep_, volumes_, rods_, parts_, clock_,
               step_settings(scene_, moving_, options.energies), static_cast<int>(rest_.mass.size())),
         energies_(options.energies) {
     detection_.number_rows(sweep_.row_places());
+    detection_.divide(parts_);
     fill_state();
     reserve();
     const std::vector<compare::Vec3f> positions = compare::to_single(scene_.mesh.positions),
                                       velocities = compare::to_single(scene_.velocities);
     upload_motion(positions, velocities);
+    publish();
   }
 
   std::vector<compare::StepMetrics> advance(std::int64_t steps) override {
@@ -80,7 +85,9 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     const StepControl control = collect(rows);
     if ((control.status & (compare::step_not_finite | compare::step_bound_violated)) != 0) return false;
     if (control.status == 0) return true;
+    parts_.wait();  // another part may still read this one's lists
     grow();
+    publish();
     ++repeats_;
     return true;
   }
@@ -123,6 +130,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     detection_.reserve(capacities);
     detection_.put_search_limits(snapshot.search_limits);
     lists_moved();
+    publish();
   }
 
   const compare::Vec3f* positions_resident() const override { return rows_of(state_.start); }
@@ -244,6 +252,14 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     }
     if (!targets.empty()) state_.prescribed_targets.upload(targets.data(), targets.size());
     rods_.upload_turns(step_number_, count);
+  }
+
+  /// Tells the other parts where this part's arrays are.
+  void publish() {
+    PartArrays arrays;
+    step_.publish(arrays);
+    detection_.publish(arrays);
+    parts_.publish(arrays);
   }
 
   /// Waits for a frame and adds its rows. Returns the control at its end.
@@ -407,6 +423,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
   Sweep<Backend> sweep_;
   Volumes<Backend> volumes_;
   Rods<Backend> rods_;
+  Parts<Backend> parts_;
   StageClock<Backend> clock_;
   StepState<Backend> state_;
   std::size_t moving_;

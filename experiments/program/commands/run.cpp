@@ -29,8 +29,8 @@ std::string introduction(const RunRequest& request) {
 }
 
 /// RunOptions that are allowed with --resume, because they change no bit of the results.
-constexpr std::array<std::string_view, 6> free_options{"--resume", "--threads", "--checkpoint",
-                                                       "--json",   "--view",    "--view-png"};
+constexpr std::array<std::string_view, 7> free_options{
+    "--resume", "--threads", "--devices", "--checkpoint", "--json", "--view", "--view-png"};
 
 ResumedRun resumed(const RunOptions& options, const std::string& folder, const CLI::App& command) {
   std::string given;
@@ -44,6 +44,7 @@ ResumedRun resumed(const RunOptions& options, const std::string& folder, const C
         ". For other ones begin a new run, from a frame of this one with --from-state if you like");
   ResumedRun run = resumed_run(folder);
   run.request.checkpoint_seconds = options.checkpoint_seconds;
+  run.options.devices = options.devices;
   return run;
 }
 
@@ -91,6 +92,7 @@ int make_run(const RunOptions& options, const std::string& resume, const LiveVie
                               "), a scene file, a mesh file, or --resume RUN; see ogc run --help");
   if (resume.empty() && options.worlds > 0) {
     if (view.any()) throw compare::InputError("--view shows a run of one world; leave it or --worlds out");
+    if (options.devices > 1) throw compare::InputError("--worlds run on one device; leave --worlds or --devices out");
     return make_worlds(options, context);
   }
   ResumedRun run = resume.empty() ? ResumedRun{options, request_of(options, context)}
@@ -134,6 +136,11 @@ void add_run_command(CLI::App& app, CommandContext& context) {
                    "So many copies run side by side and never see each other; with --jitter, copy w begins with the "
                    "offsets of seed + w. A copy that fails is named, and the others go on")
       ->check(whole_number(1, most_worlds));
+  command
+      ->add_option("--devices", options->devices,
+                   "So many CUDA devices of this machine divide the run (cloth and solids, bounds=ball), with the same "
+                   "bits as one; worthwhile from some 100,000 vertices on")
+      ->check(whole_number(1, most_devices));
   add_threads_option(*command, options->threads);
   auto view = std::make_shared<LiveView>();
   command->add_flag(

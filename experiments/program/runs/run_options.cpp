@@ -292,6 +292,12 @@ RunRequest request_of(const RunOptions& options, const CommandContext& context) 
   request.backend = options.backend;
   request.iterations = options.iterations || options.condition;
   request.condition = options.condition;
+  if (options.devices > 1 && options.backend != "cuda")
+    throw compare::InputError("--devices " + std::to_string(options.devices) +
+                              ": only CUDA devices divide a run; add --backend cuda, or leave --devices out");
+  if (options.devices > 1 && (options.profile || options.iterations || options.ledger))
+    throw compare::InputError("--devices " + std::to_string(options.devices) +
+                              ": --profile, --iterations and --ledger follow one device; leave them or --devices out");
   request.audit_beside = options.backend == "cuda";
   request.residual = options.residual;
   request.ledger = options.ledger;
@@ -314,7 +320,7 @@ compare::Contestant contestant_of(const RunOptions& options, const std::optional
                       .iterations = options.iterations && options_of(solver).has_traced_rows,
                       .ledger = options.ledger,
                       .meetings = meetings};
-  const compare::Contestant contestant = contestant_of(solver, options.backend == "cuda");
+  const compare::Contestant contestant = contestant_of(solver, options.backend == "cuda", options.devices);
   return what.any() ? measured(contestant, what) : contestant;
 }
 

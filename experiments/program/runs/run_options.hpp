@@ -22,6 +22,7 @@ struct RunOptions {
   std::optional<double> ground;                            ///< y of the ground below the mesh of a mesh file [m]
   std::optional<double> deepest;                           ///< --deepest [m]
   int worlds = 0;                                          ///< number of worlds; 0: one run
+  int devices = 1;                                         ///< CUDA devices that divide the run
   int threads = 0;                                         ///< number of CPU threads; 0: all
   double checkpoint_seconds = default_checkpoint_seconds;  ///< least time between two checkpoints [s]
 };
