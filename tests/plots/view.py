@@ -333,6 +333,26 @@ class Program(Scratch):
             self.assertGreater(int((image == colour).all(axis=2).sum()), 50, colour)
         self.assertGreater(int((image[40:50, 16:250] != image[40:50, 16:17]).any(axis=2).sum()), 500, "no legend")
 
+    def test_what_a_run_measures_of_each_vertex_colours_it(self):
+        folder = self.folder / "measured"
+        done = ogc("run", "cloth_on_sphere", "--scale", "smoke", "--audit", "off", "--residual", "--ledger", "--set",
+                   "frame_steps=20", "--out", folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        run = Run(folder)
+        motion = motion_of_run(run)
+        rows = [int(step) - 1 for step in motion.steps]
+        self.assertTrue(np.isnan(motion.field("residual").of(0)).all(), "the start has no step before it")
+        for i, row in enumerate(rows[1:], 1):
+            mean = np.nanmean(motion.field("residual").of(i).astype(float))
+            # each part is rounded to single precision once
+            self.assertAlmostEqual(mean / run.column("residual")[row], 1, delta=2**-23)
+            self.assertEqual(motion.field("cut").of(i).sum(), run.column("vertices_cut")[row])
+        self.assertGreater(run.column("vertices_cut")[rows[1:]].sum(), 0)
+        step = str(motion.steps[1:][np.argmax(run.column("vertices_cut")[rows[1:]])])
+        plain = self.shown(folder, "--step", step)
+        for colour in ("cut", "residual"):
+            self.assertGreater(np.abs(self.shown(folder, "--step", step, "--colour", colour) - plain).max(), 50)
+
     def test_meshes_and_scenes_are_shown(self):
         for words in ([self.folder / "two.obj"], ["cloth_on_sphere", "--scale", "smoke"]):
             self.assertGreater(self.shown(*words).std(), 5)
@@ -386,7 +406,7 @@ class Program(Scratch):
         png = ("--png", self.folder / "none.png")
         empty = self.folder / "empty"
         empty.mkdir()
-        cases = [((self.run_folder, "--colour", "cut", *png), {}, "has no cut: a run keeps it for each step"),
+        cases = [((self.run_folder, "--colour", "cut", *png), {}, "has no cut: its frames hold none; ogc run --ledger"),
                  ((self.run_folder, "--colour", "heat", *png), {}, "there is no colour 'heat'; run has: body"),
                  ((self.folder / "two.obj", "--colour", "speed", *png), {}, "a mesh has positions alone"),
                  ((self.folder / "nothing.obj", *png), {}, "nothing.obj"),

@@ -181,14 +181,15 @@ CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions
   command.add_flag("--profile", options->profile,
                    "steps.csv gets the time of each stage, which slows the run down a little");
   command.add_flag("--residual", options->residual,
-                   "steps.csv gets the residual of Eq. 29 with the contacts and the friction of the end of the step; "
-                   "it is measured beside the run (slow)");
+                   "steps.csv gets the residual of Eq. 29 with the contacts and the friction of the end of the step, "
+                   "and frames each vertex's part of it; it is measured beside the run (slow)");
   command.add_flag("--iterations", options->iterations,
                    "iterations.csv gets a row an iteration, which is measured beside the run");
   command.add_flag(
       "--ledger", options->ledger,
       "vbd: steps.csv gets what each part of a step does to energy and momentum, what truncation takes and in which "
-      "direction, and how many vertices stand still (reference/ledger.md); it is measured beside the run (slow)");
+      "direction, and how many vertices stand still (reference/ledger.md), and frames which vertices the last "
+      "iteration cut; it is measured beside the run (slow)");
   command.add_flag("--condition", options->condition,
                    "newton: iterations.csv gets the condition number of each matrix, of it without friction, and of it "
                    "without contact (slow)");

@@ -166,6 +166,8 @@ void RunSession::reopen_folder() {
   writer_->keep_frames([this](std::int64_t step) {
     return step == summary_.first_step || step % frame_steps_ == 0 || step == settings_.steps;
   });
+  // The checkpoint's own frame is in the folder, with measures that a checkpoint does not have.
+  if (is_frame(step_)) last_frame_ = step_;
   remember_starts(rows);
   count(rows);
   summary_.audited_states = static_cast<std::size_t>(request_.resume->audited_states);
@@ -274,6 +276,7 @@ void RunSession::offer_state(std::int64_t before) {
   step_ = snapshot.step;
   if (step_ <= offered_step_ || step_ >= before || !finite(snapshot)) return;
   offered_step_ = step_;
+  if (is_frame(step_) || interrupted()) measures_[step_] = vertex_measures(*simulation_);
   // The loss of momentum is measured only in steps after a frame. An interrupted run has the same frames as an
   // uninterrupted run, so both runs report the same loss.
   if (is_frame(step_)) momentum_.begin_after(step_, snapshot.velocities);
@@ -395,8 +398,11 @@ void RunSession::reject(const Verdict& verdict, const Snapshot& snapshot) {
 
 void RunSession::store_frame(const Snapshot& snapshot) {
   if (snapshot.step == last_frame_) return;
+  VertexMeasures measures = std::exchange(measures_[snapshot.step], {});
+  measures_.erase(measures_.begin(), measures_.upper_bound(snapshot.step));
   writer_->add_frame({snapshot.step, static_cast<double>(snapshot.step) * settings_.time_step, snapshot.positions,
-                      snapshot.velocities, snapshot.bounds, snapshot.orientations});
+                      snapshot.velocities, snapshot.bounds, snapshot.orientations, std::move(measures.residual),
+                      std::move(measures.cut)});
   last_frame_ = snapshot.step;
 }
 

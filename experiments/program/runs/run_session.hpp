@@ -6,6 +6,7 @@
 #include <chrono>
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -190,6 +191,7 @@ class RunSession {
   std::unique_ptr<compare::RunWriter> writer_;
   std::deque<compare::Snapshot> offered_;  ///< states whose verdict is not yet known
   compare::Snapshot start_, last_good_;
+  std::map<std::int64_t, VertexMeasures> measures_;  ///< of states that may become frames, by step
   std::int64_t step_ = 0, last_frame_ = -1, frame_steps_ = 1;
   std::int64_t offered_step_ = 0;  ///< step of the last offered state
   Pace pace_;

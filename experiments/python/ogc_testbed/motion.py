@@ -13,6 +13,9 @@ REACH = 4  # distances are searched up to this many contact radii
 FRONTS, BACKS, STILL = ("#4C86B8", "#7FB0D4", "#2F6393"), ("#E2B458", "#EFD08C", "#C9952F"), "#B9BDC4"
 # These are nine colours of viridis. Their lightness grows evenly, so colour-blind readers can order them, too.
 SCALE = ("#440154", "#472D7B", "#3B528B", "#2C728E", "#21918C", "#28AE80", "#5EC962", "#ADDC30", "#FDE725")
+# what frames hold only if the run measured it: name, option of `ogc run`, meaning
+MEASURES = (("cut", "--ledger", "1: the step's last iteration cut the vertex"),
+            ("residual", "--residual", "‖f‖ that the step leaves over its mean ‖f*‖ (Eq. 29); of free vertices"))
 CONTACTS, PLANES = "#D55E00", "#0072B2"  # colours of segments
 
 
@@ -271,10 +274,22 @@ def motion_of_run(run, every=1):
         "speed": Field("m/s", lambda i: np.linalg.norm(frame(i).velocities, axis=1).astype(np.float32),
                        "at the frame's end"),
         "bound": Field("m", lambda i: _bounds_of(frame(i), motion), "b_v of the last detection (Eq. 21)")})
-    for what in ("cut", "residual"):
-        motion.missing[what] = "a run keeps it for each step (steps.csv), not for each vertex"
+    # the start has no measures, nor has a state that a continued run took from its checkpoint
+    only_start = run.status == "running" and len(run.frames) == 1
+    recent = [run.frame(path) for path in run.frames[-2:]]
+    for what, option, meaning in MEASURES:
+        if only_start or any(getattr(state, what).size for state in recent):
+            motion.fields[what] = Field("", lambda i, what=what: _measure(frame(i), what), meaning)
+        else:
+            motion.missing[what] = f"its frames hold none; ogc run {option} measures it for new runs"
     _add_contacts_of_run(motion, run, bodies, len(first.positions))
     return motion if every == 1 else motion.thinned(every)
+
+
+def _measure(frame, what):
+    """Returns a measure, NaN where there is none, as in the start."""
+    values = getattr(frame, what)
+    return values if values.size else np.full(len(frame.positions), np.nan, np.float32)
 
 
 def _bounds_of(frame, motion):
