@@ -37,14 +37,16 @@ std::int64_t frame_steps(const compare::Settings& settings) {
   return std::max<std::int64_t>(1, std::llround(1 / (60 * settings.time_step)));
 }
 
-RunRequest checked(RunRequest request) {
-  compare::round_to_single(request.scene);
+void check_scene(compare::Scene& scene, const compare::MeshSources& sources) {
+  compare::round_to_single(scene);
   // A scene from a file contains no dust (tiny numbers in place of 0). Dust in the positions of a stored frame is kept.
-  if (const std::string dust = describe(clear_dust(request.scene)); !dust.empty())
-    log_line("ogc: " + request.scene.name + ": " + dust);
-  const std::string problems = compare::describe(
-      compare::validate(request.scene, 10, compare::ElementNames(request.scene, request.sources)));
-  if (!problems.empty()) throw compare::InputError("the scene '" + request.scene.name + "' can't be run:\n" + problems);
+  if (const std::string dust = describe(clear_dust(scene)); !dust.empty()) log_line("ogc: " + scene.name + ": " + dust);
+  const std::string problems = compare::describe(compare::validate(scene, 10, compare::ElementNames(scene, sources)));
+  if (!problems.empty()) throw compare::InputError("the scene '" + scene.name + "' can't be run:\n" + problems);
+}
+
+RunRequest checked(RunRequest request) {
+  check_scene(request.scene, request.sources);
   if (!request.resume) compare::expect_new_run_folder(request.folder);
   return request;
 }

@@ -117,6 +117,8 @@ std::string guarantee_text(const RunSummary& summary);
 
 /// Returns the number of steps between frames. If the scene does not set it, a simulated second has about 60 frames.
 std::int64_t frame_steps(const compare::Settings& settings);
+/// Brings a scene to single precision and removes its dust. Throws compare::InputError for an invalid scene.
+void check_scene(compare::Scene& scene, const compare::MeshSources& sources);
 /// Returns the request with its scene in single precision and without dust. Throws compare::InputError for an invalid
 /// scene or an unusable folder.
 RunRequest checked(RunRequest request);
