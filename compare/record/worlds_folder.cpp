@@ -25,7 +25,7 @@ std::string cell(double number) { return shortest(number); }
 std::string table_of(const std::vector<WorldRow>& rows) {
   std::string text = "world,jitter_seed,";
   if (!rows.empty())
-    for (const auto& [name, value] : rows.front().settings) text += name + ",";
+    for (const auto& [name, value] : rows.front().settings) text += "set_" + name + ",";
   text +=
       "status,last_step,detections,iterations,repeats,vertex_facet_contacts,edge_edge_contacts,"
       "smallest_distance [m],largest_lag [m],largest_share_cut,kinetic_energy [J],elastic_energy [J],"

@@ -2,8 +2,8 @@
 //
 //   run.json           as for a run of one world, with "worlds" and what they have in common
 //   scene/NAME.json    the scene
-//   worlds.csv         one row for each world: its seed and settings, how it ended, its totals; written when the run
-//                      ends
+//   worlds.csv         one row for each world: its seed, its own settings (set_friction), how it ended, its totals;
+//                      written when the run ends
 //   worlds_steps.csv   the columns of steps.csv (compare/record/steps_csv.hpp) behind the number of the world; grows
 //   ends/world_0003.h5 the last good state of world 3 (compare/record/frame_file.hpp); `ogc run --from-state` begins
 //                      there

@@ -103,8 +103,9 @@ TEST_CASE("a world with settings of its own is the run alone with these settings
   CHECK(worlds.at("steps") == 9);
   CHECK(worlds.at("audited_states") == 7);
   CHECK(worlds.at("worlds").at(1).at("settings").at("friction") == "0.4");
-  CHECK(contains(compare::read_bytes(out / "worlds.csv"),
-                 {"world,jitter_seed,friction,steps,iterations,bounds,status,", "\n1,9,0.4,4,7,planes,fin"}));
+  CHECK(contains(
+      compare::read_bytes(out / "worlds.csv"),
+      {"world,jitter_seed,set_friction,set_steps,set_iterations,set_bounds,status,", "\n1,9,0.4,4,7,planes,fin"}));
 }
 
 TEST_CASE("a table of worlds says which file, line and column is wrong, and what to do", "[unit]") {
