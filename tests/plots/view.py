@@ -98,6 +98,12 @@ class Pages(unittest.TestCase):
             self.assertLessEqual(error, page.error + 4 * np.spacing(float(np.abs(frames).max()) + extent))
             self.assertGreater(error, page.error / 2)  # 1050 random numbers come near half a step
 
+    def test_equal_values_have_one_colour_and_missing_ones_are_grey(self):
+        with np.errstate(all="raise"):
+            colours = motion.scaled(np.array([0, np.nan, 0], np.float32), (0.0, 0.0))
+        expected = [motion.rgb(name) for name in (motion.SCALE[0], motion.STILL, motion.SCALE[0])]
+        self.assertEqual(colours.tolist(), np.array(expected).tolist())
+
     def test_values_are_one_of_255_and_missing_ones_are_missing(self):
         frames, values = np.zeros((2, 9, 3), np.float32), np.random.default_rng(2).uniform(3, 7, (2, 9))
         frames[1] = 1
@@ -339,16 +345,17 @@ class Program(Scratch):
                    "frame_steps=20", "--out", folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         run = Run(folder)
-        motion = motion_of_run(run)
-        rows = [int(step) - 1 for step in motion.steps]
-        self.assertTrue(np.isnan(motion.field("residual").of(0)).all(), "the start has no step before it")
+        shown = motion_of_run(run)
+        rows = [int(step) - 1 for step in shown.steps]
+        self.assertTrue(np.isnan(shown.field("residual").of(0)).all(), "the start has no step before it")
         for i, row in enumerate(rows[1:], 1):
-            mean = np.nanmean(motion.field("residual").of(i).astype(float))
+            mean = np.nanmean(shown.field("residual").of(i).astype(float))
             # each part is rounded to single precision once
             self.assertAlmostEqual(mean / run.column("residual")[row], 1, delta=2**-23)
-            self.assertEqual(motion.field("cut").of(i).sum(), run.column("vertices_cut")[row])
+            self.assertEqual(shown.field("cut").of(i).sum(), run.column("vertices_cut")[row])
+        self.assertEqual(shown.thinned(2).limits("cut"), (0, 1))
         self.assertGreater(run.column("vertices_cut")[rows[1:]].sum(), 0)
-        step = str(motion.steps[1:][np.argmax(run.column("vertices_cut")[rows[1:]])])
+        step = str(shown.steps[1:][np.argmax(run.column("vertices_cut")[rows[1:]])])
         plain = self.shown(folder, "--step", step)
         for colour in ("cut", "residual"):
             self.assertGreater(np.abs(self.shown(folder, "--step", step, "--colour", colour) - plain).max(), 50)
