@@ -38,7 +38,7 @@ compare::Contestant contestant(Backend backend, const LaunchShape& shape) {
 #if defined(OGC_HAS_CUDA)
   return cuda_contestant(shape);
 #else
-  throw compare::ResourceError("backend cuda: " + device_info().description + ", or use --backend cpu");
+  throw compare::ResourceError("backend cuda: " + device_info().description + ", or use the backend cpu");
 #endif
 }
 

@@ -14,7 +14,7 @@ void CudaRecording::clear() noexcept {
 CudaBackend::CudaBackend(const LaunchShape& shape)
     : block_threads_(shape.block_threads), multiprocessors_(shape.multiprocessors) {
   const BackendInfo info = cuda_info();
-  if (!info.usable) throw compare::ResourceError(info.description + "; run with --backend cpu");
+  if (!info.usable) throw compare::ResourceError(info.description + "; run with the backend cpu");
   if (block_threads_ % 32 != 0 || block_threads_ <= 0 || block_threads_ > cuda_block_size)
     throw compare::InputError("LaunchShape: " + std::to_string(block_threads_) +
                               " threads a block; give a multiple of 32, at most " + std::to_string(cuda_block_size));

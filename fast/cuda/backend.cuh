@@ -428,7 +428,7 @@ class CudaBackend {
   }
   static void require_searchable(const TreeView& tree) {
     if (tree.count > largest_searched_count)
-      throw compare::ResourceError("a mesh of more than 134 million edges or triangles needs --backend cpu");
+      throw compare::ResourceError("a mesh of more than 134 million edges or triangles needs the backend cpu");
   }
   /// Returns the number of searches of a warp. If there are too few searches to fill the device with 32 warps per
   /// multiprocessor, a warp gets one search. With more searches, a warp gets several and has fewer rounds in which
