@@ -135,6 +135,22 @@ class Detection {
     return true;
   }
 
+  /// Forwards to Lists::room.
+  ListRoom room() const { return lists_.room(); }
+  /// Host only: forwards to Lists::make_room.
+  bool make_room() {
+    if (!lists_.make_room()) return false;
+    planes_.reserve(lists_.noted_capacity());
+    return true;
+  }
+  /// Host only: empties lists, bounds and planes, as if nothing was detected yet.
+  void forget() {
+    lists_.reserve(lists_.capacity(), lists_.noted_capacity());
+    planes_.reserve(lists_.noted_capacity());
+    planes_.forget();
+    bound_.fill_zero();
+  }
+
   /// Returns the number of contacts for which the lists have room.
   int capacity() const { return lists_.capacity(); }
   /// Returns the capacities of all lists, for `reserve` of another detection over the same surface.
