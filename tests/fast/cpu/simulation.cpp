@@ -409,15 +409,11 @@ TEST_CASE("a slow handle is where its motion says after each step", "[unit]") {
   for (std::size_t k = 0; k < 6; ++k) CHECK(x[k] == targets[k]);
 }
 
-// Eight sheets so close that each touches four others: more contacts than the size of the mesh suggests.
 TEST_CASE("a dense start is counted before the first step, so no step is repeated, and nothing else shows it",
           "[property]") {
   for (const compare::Bounds bounds : {compare::Bounds::ball, compare::Bounds::planes}) {
     INFO("bounds " << static_cast<int>(bounds));
-    compare::Scene scene = empty_scene();
-    scene.settings.bounds = bounds;
-    for (int k = 0; k < 8; ++k) add_sheet(scene, 10, 0.1, 0.45 * scene.settings.contact_radius * k, false);
-    compare::round_to_single(scene);
+    const compare::Scene scene = dense_stack(bounds);
     const auto counted = start_cpu(scene, {}), grown = start_cpu(scene, {}, 1);
     const compare::Snapshot start = counted->snapshot(), other = grown->snapshot();
     CHECK(same_bits(start.positions, other.positions));

@@ -232,10 +232,7 @@ TEST_CASE("nothing is written behind an array, and nothing that is read there ma
     }
   }
   for (const compare::Bounds bounds : {compare::Bounds::ball, compare::Bounds::planes}) {
-    compare::Scene dense = empty_scene();  // its lists grow before the first step
-    dense.settings.bounds = bounds;
-    for (int k = 0; k < 8; ++k) add_sheet(dense, 10, 0.1, 0.45 * dense.settings.contact_radius * k, false);
-    Watched simulation(WatchedBackend{}, dense, {}, "");
+    Watched simulation(WatchedBackend{}, dense_stack(bounds), {}, "");  // lists grow before the first step
     CHECK(simulation.advance(1)[0].repeats == 0);
   }
   {
