@@ -119,15 +119,13 @@ struct ListRoom {
   /// From here on pairs without room are not counted, so that no count of a surface that collapsed wraps around.
   static constexpr int most_counted = 1 << 30;
 
-  const int* noted = nullptr;     ///< number of noted pairs, on the backend; null: no list is nearly full
-  const int* contacts = nullptr;  ///< number of contacts, on the backend
+  const int* noted = nullptr;             ///< number of noted pairs, on the backend; null: no list is nearly full
+  const int* contacts = nullptr;          ///< number of contacts, on the backend
   int full_noted = 0, full_contacts = 0;  ///< more items than these are nearly too many
 
   /// Returns the number of items above which a list with this capacity is nearly full: seven eighths.
   static int full(int capacity) { return capacity - capacity / 8; }
-  OGC_HD bool is_short() const {
-    return noted != nullptr && (*noted > full_noted || *contacts > full_contacts);
-  }
+  OGC_HD bool is_short() const { return noted != nullptr && (*noted > full_noted || *contacts > full_contacts); }
 };
 
 /// Holds the lists on the backend. Pointers to single counts point into a ListStatus.

@@ -155,9 +155,9 @@ class Lists {
   // Enlarges a list whose count exceeds `full` to 1.5 times the count, or to the limit if that is less.
   void grow_above(int full, int contacts, int full_noted, int noted) {
     if (std::max(contacts, noted) > ListRoom::largest)
-      throw compare::ResourceError("a detection found " + std::to_string(noted) + " pairs of faces near each other and " +
-                                   std::to_string(contacts) + " contacts, more than " +
-                                   std::to_string(ListRoom::largest) +
+      throw compare::ResourceError("a detection found " + std::to_string(noted) +
+                                   " pairs of faces near each other and " + std::to_string(contacts) +
+                                   " contacts, more than " + std::to_string(ListRoom::largest) +
                                    "; give a smaller contact_radius, or larger triangles");
     const auto grown = [](int capacity, int above, int count) {
       return count > above ? within_limit(count + std::int64_t{count} / 2) : capacity;

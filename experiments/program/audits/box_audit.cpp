@@ -39,7 +39,9 @@ std::array<Index, 3> vertices_of(const Topology& topology, const compare::Face& 
   return corners;
 }
 
-Key joined(const std::array<Index, 3>& a, const std::array<Index, 3>& b) { return {a[0], a[1], a[2], b[0], b[1], b[2]}; }
+Key joined(const std::array<Index, 3>& a, const std::array<Index, 3>& b) {
+  return {a[0], a[1], a[2], b[0], b[1], b[2]};
+}
 
 Key key_of(const Topology& topology, const compare::VertexFacetContact& contact) {
   return joined({contact.vertex, -1, -1}, vertices_of(topology, contact.face));
@@ -263,10 +265,8 @@ class BoxAuditor {
     BoxFindings findings;
     findings.vertices = part.core.size();
     for (const compare::Triangle& t : part.topology.triangles)
-      findings.triangles +=
-          std::ranges::all_of(t, [&](Index v) { return part.is_core(part.vertices[at(v)]); }) ? 1 : 0;
-    const compare::AuditResult met =
-        compare::audit(part.topology, compare::to_double(part.positions), part.exclusions);
+      findings.triangles += std::ranges::all_of(t, [&](Index v) { return part.is_core(part.vertices[at(v)]); }) ? 1 : 0;
+    const compare::AuditResult met = compare::audit(part.topology, compare::to_double(part.positions), part.exclusions);
     findings.pairs_tested = met.pairs_tested;
     findings.intersections = met.count;
     if (met.count > 0) findings.first = compare::describe(met.intersections.front(), part.topology) + " (own numbers)";
@@ -280,9 +280,9 @@ class BoxAuditor {
   }
 
   static void add(BoxFindings& sum, const BoxFindings& share) {
-    for (const auto member : {&BoxFindings::vertices, &BoxFindings::triangles, &BoxFindings::pairs_tested,
-                              &BoxFindings::intersections, &BoxFindings::contacts, &BoxFindings::missing,
-                              &BoxFindings::extra, &BoxFindings::grey})
+    for (const auto member :
+         {&BoxFindings::vertices, &BoxFindings::triangles, &BoxFindings::pairs_tested, &BoxFindings::intersections,
+          &BoxFindings::contacts, &BoxFindings::missing, &BoxFindings::extra, &BoxFindings::grey})
       sum.*member += share.*member;
     if (sum.first.empty()) sum.first = share.first;
   }
@@ -305,8 +305,9 @@ BoxFindings audit_boxes(const Topology& topology, std::span<const compare::Vec3f
                         const compare::ExclusionView& exclusions, const FoundContacts& found, float contact_radius,
                         const BoxRequest& request) {
   if (!topology.off_surface.empty())
-    throw compare::InputError("an audit in boxes takes surfaces and curves alone, and this state has solids or volumes; "
-                              "audit it without --boxes");
+    throw compare::InputError(
+        "an audit in boxes takes surfaces and curves alone, and this state has solids or volumes; "
+        "audit it without --boxes");
   return BoxAuditor(topology, positions, exclusions, found, contact_radius, request.side).run(request);
 }
 

@@ -405,17 +405,16 @@ Json to_json(const BoxFindings& found, const std::string& state, const AuditOpti
 }
 
 std::string describe(const BoxFindings& found, const std::string& state, const AuditOptions& options) {
-  const std::string differences = counted(found.missing, "missing contact") + ", " +
-                                  counted(found.extra, "contact") + " too many, " +
-                                  counted(found.grey, "accepted difference");
+  const std::string differences = counted(found.missing, "missing contact") + ", " + counted(found.extra, "contact") +
+                                  " too many, " + counted(found.grey, "accepted difference");
   return state + " audited in " + std::to_string(found.boxes) + " boxes of " + number(found.side) + " m among " +
          std::to_string(found.cells) + " that contain a vertex: the " + std::to_string(found.densest) +
          " with most contacts (" + std::to_string(found.most_contacts) + " to " +
          std::to_string(found.least_of_densest) + "), the others drawn with seed " +
          std::to_string(options.boxes.seed) + "\n" + std::to_string(found.vertices) + " vertices, " +
-         counted(found.triangles, "triangle") + ", " + counted(found.pairs_tested, "pair") + " tested exactly: " +
-         counted(found.intersections, "intersection") + "\n" + counted(found.contacts, "exact contact") +
-         " beside those of " + options.engine + ": " + differences + "\n" +
+         counted(found.triangles, "triangle") + ", " + counted(found.pairs_tested, "pair") +
+         " tested exactly: " + counted(found.intersections, "intersection") + "\n" +
+         counted(found.contacts, "exact contact") + " beside those of " + options.engine + ": " + differences + "\n" +
          (found.first.empty() ? "" : "the first: " + found.first + "\n");
 }
 
@@ -432,8 +431,8 @@ int run_box_audit(AuditSource& source, const AuditOptions& options, const Comman
   const compare::Contestant engine = fast::contestant(options.engine == "cuda" ? fast::Backend::cuda
                                                                                : fast::Backend::cpu);
   const FoundContacts contacts{engine.detect_vertex_facet(in).contacts, engine.detect_edge_edge(in).contacts};
-  const BoxFindings found =
-      audit_boxes(*state.topology, positions, source.exclusions(), contacts, radius, options.boxes);
+  const BoxFindings found = audit_boxes(*state.topology, positions, source.exclusions(), contacts, radius,
+                                        options.boxes);
   if (context.json) {
     print_result(to_json(found, state.name, options));
   } else {

@@ -41,7 +41,8 @@ def row_of(name, run, memory, found):
             "threads": int(name.rpartition("_")[2]) if over == "threads" else "", "steps": len(timed),
             "median [ms]": round(statistics.median(wall), 4), "mean [ms]": round(statistics.fmean(wall), 4),
             "worst [ms]": round(max(wall), 4),
-            "contacts a vertex": round(contacts / free, 4), "contacts": round(contacts), "most contacts": round(max(pairs)),
+            "contacts a vertex": round(contacts / free, 4), "contacts": round(contacts),
+            "most contacts": round(max(pairs)),
             "detections a step": round(statistics.fmean(detections), 3),
             "repeated steps": sum(n > 0 for n in run.column("repeats")),
             "device memory [MiB]": memory,
@@ -105,7 +106,8 @@ def in_words(rows):
         if len(line) > 1:
             density = [row["contacts a vertex"] for row in line]
             upper = line[len(line) // 2 - 1:] if len(line) > 3 else line
-            lines.append(f"{backend}{', planes' if bounds == PLANES else ''}: time ∝ vertices^{exponent(line)[0]:.3f} from {line[0]['vertices']:,} to "
+            lines.append(f"{backend}{', planes' if bounds == PLANES else ''}: "
+                         f"time ∝ vertices^{exponent(line)[0]:.3f} from {line[0]['vertices']:,} to "
                          f"{line[-1]['vertices']:,}, "
                          f"^{exponent(upper)[0]:.3f} from {upper[0]['vertices']:,} on; {min(density):.3g} to "
                          f"{max(density):.3g} contacts a vertex")

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "compare/contestant.hpp"
+#include "compare/judge/cases/random.hpp"
 #include "fast/contestant.hpp"
 #include "tests/catch.hpp"
 #include "tests/experiments/program.hpp"
@@ -14,21 +16,23 @@ namespace {
 
 constexpr float radius = 0.12F;
 
-/// Four sheets of n × n vertices with spacing 0.1, 0.08 apart and shifted, so that all kinds of contacts occur. The
-/// uppermost one stands on the first two lines of the next one where it is `pushed` down.
+/// Four sheets of n × n vertices with spacing 0.1, 0.08 apart, shifted and uneven, so that all kinds of contacts occur
+/// and few decisions are grey. The first two lines of the uppermost one are `pushed` down.
 struct Stack {
   compare::Topology topology;
   std::vector<compare::Vec3f> positions;
 
   explicit Stack(compare::Index n, float pushed = 0) {
+    compare::Random random("box_audit", "stack", 0, 0);
+    const auto off = [&random] { return static_cast<float>(random.between(-0.004, 0.004)); };
     std::vector<compare::Triangle> triangles;
     for (compare::Index k = 0; k < 4; ++k) {
       const compare::Index first = static_cast<compare::Index>(positions.size());
       for (compare::Index i = 0; i < n; ++i)
         for (compare::Index j = 0; j < n; ++j)
-          positions.push_back({0.1F * static_cast<float>(i) + 0.037F * static_cast<float>(k),
-                               0.08F * static_cast<float>(k) - (k == 3 && i < 2 ? pushed : 0.0F),
-                               0.1F * static_cast<float>(j) + 0.021F * static_cast<float>(k)});
+          positions.push_back({0.1F * static_cast<float>(i) + 0.037F * static_cast<float>(k) + off(),
+                               0.08F * static_cast<float>(k) - (k == 3 && i < 2 ? pushed : 0.0F) + off(),
+                               0.1F * static_cast<float>(j) + 0.021F * static_cast<float>(k) + off()});
       for (compare::Index i = 0; i + 1 < n; ++i)
         for (compare::Index j = 0; j + 1 < n; ++j) {
           const compare::Index a = first + i * n + j, b = a + 1, c = a + n, d = c + 1;
@@ -102,19 +106,20 @@ TEST_CASE("boxes: half are the cells with most contacts, the seed draws the othe
 TEST_CASE("ogc audit --boxes audits the last state of a run, prints counts and seed, and takes no mesh", "[unit]") {
   const TemporaryFolder folder;
   const std::string run = (folder / "run").string();
-  REQUIRE(run_ogc("run fifty_layers --scale smoke --steps 2 --audit off --out " + run).status == 0);
+  REQUIRE(run_ogc("run cloth_on_sphere --scale smoke --audit off --out " + run).status == 0);
   const ProgramResult text = run_ogc("audit " + run + " --boxes 4 --seed 9"),
                       json = run_ogc("audit " + run + " --boxes 4 --seed 9 --json");
   CHECK(text.status == 0);
-  CHECK(contains(text.out, {"step 2 audited in 4 boxes", "the 2 with most contacts", "seed 9", "0 intersections",
+  CHECK(contains(text.out, {"step 30 audited in 4 boxes", "the 2 with most contacts", "seed 9", "0 intersections",
                             "0 missing contacts"}));
   const nlohmann::json found = nlohmann::json::parse(json.out);
   CHECK(found.at("boxes") == 4);
   CHECK(found.at("densest_boxes") == 2);
   CHECK(found.at("seed") == 9);
   CHECK(found.at("pairs_tested") > 0);
-  const ProgramResult mesh =
-      run_ogc("audit " + folder.write("parallel.obj", parallel_triangles_obj).string() + " --boxes 4");
+  CHECK(found.at("contacts") > 0);
+  const ProgramResult mesh = run_ogc("audit " + folder.write("parallel.obj", parallel_triangles_obj).string() +
+                                     " --boxes 4");
   CHECK(mesh.status == 2);
   CHECK(contains(mesh.err, {"--boxes", "run folder"}));
 }
