@@ -217,10 +217,11 @@ class CpuBackend {
     void clear() {}
   };
 
-  /// Runs the body `times` times and measures the time of each run.
+  /// Runs the body `times` times and measures the time of each run. The rest of the repetitions is left out once
+  /// *goes_on is 0.
   template <class Body>
-  void replay(Recording&, int times, Body body, const int* = nullptr) {
-    for (int k = 0; k < times; ++k) {
+  void replay(Recording&, int times, Body body, const int* goes_on = nullptr) {
+    for (int k = 0; k < times && (goes_on == nullptr || *goes_on != 0); ++k) {
       const auto start = std::chrono::steady_clock::now();
       body();
       replay_milliseconds_.push_back(

@@ -59,7 +59,9 @@ class LocalNotes {
  private:
   static constexpr int room = 512;  // 4 KiB
 
+  // Adds nothing to a count that must not wrap around (ListsView::note); the detection has overflowed then.
   void flush() {
+    if (atomic_load(common_.noted_count) >= ListRoom::most_counted) *list_.count() = 0;
     list_.flush(common_.noted, common_.noted_capacity, common_.noted_count, [](const NotedPair&) {});
   }
 

@@ -25,7 +25,7 @@ compare::Contestant cuda_contestant(const LaunchShape& shape = {});
 
 /// Starts a resident simulation on the device. Throws compare::ResourceError as cuda_contestant does, and if the scene
 /// does not fit into the device's memory. `list_capacity`: number of contacts for which the lists have room at first;
-/// 0: estimated from the size of the mesh.
+/// 0: for those that a detection before the first step finds.
 std::unique_ptr<compare::Simulation> start_cuda(const compare::Scene& scene, const compare::SimulationOptions& options,
                                                 int list_capacity = 0);
 

@@ -65,6 +65,7 @@ struct StepControl {
   int status = 0;      ///< compare::StepStatus bits of the failure that stopped the frame
   int steps_done = 0;  ///< steps committed since the frame began; indexes the row of metrics and the row of targets
   int since_sort = 1 << 30;  ///< steps begun since the last sort of the trees; kept from frame to frame
+  int short_of_room = 0;     ///< 1: a list was nearly full after the last step (ListRoom), which ended the frame
   // State of the step. The flags that Backend::when reads are 0 if the frame is not active.
   int attempted = 0;  ///< 1: the frame was active when the step began
   int sort = 0;       ///< 1: the trees are sorted in this step

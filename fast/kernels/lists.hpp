@@ -11,7 +11,8 @@
 // noted pairs, although block.hpp rejects most edge pairs.
 //
 // If a list is full, entries are still counted, so that the host learns the size that the detection needs. All later
-// kernels stop if the overflow flag is set.
+// kernels stop if the overflow flag is set. If a list is nearly full at the end of a step, the host makes room before
+// the next one (ListRoom), so that few steps are repeated.
 #pragma once
 
 #include <limits>
@@ -112,6 +113,23 @@ struct ListStatus {
   int without_slot = 0;  ///< failed attempts to enter a contact, because the search found no slot of the table
 };
 
+/// Tells whether a list is nearly full after a detection that did not overflow.
+struct ListRoom {
+  /// Largest number of contacts, and of noted pairs, for which lists have room. An index has 32 bits with its sign, a
+  /// contact has four incidences, and the 2²² below 2³¹ exceed the number of threads of a launch, whose loops count on.
+  static constexpr int largest = (1 << 29) - (1 << 20);
+  /// From here on pairs without room are not counted, so that no count of a surface that collapsed wraps around.
+  static constexpr int most_counted = 1 << 30;
+
+  const int* noted = nullptr;             ///< number of noted pairs, on the backend; null: no list is nearly full
+  const int* contacts = nullptr;          ///< number of contacts, on the backend
+  int full_noted = 0, full_contacts = 0;  ///< more items than these are nearly too many
+
+  /// Returns the number of items above which a list with this capacity is nearly full: seven eighths.
+  static int full(int capacity) { return capacity - capacity / 8; }
+  OGC_HD bool is_short() const { return noted != nullptr && (*noted > full_noted || *contacts > full_contacts); }
+};
+
 /// Holds the lists on the backend. Pointers to single counts point into a ListStatus.
 struct ListsView {
   /// Largest number of slots that the search for a contact visits. The table is at most half full while all contacts
@@ -159,7 +177,10 @@ struct ListsView {
   OGC_HD void note(NotedPair pair, bool certain) const {
     if (certain) pair.second = ~pair.second;
     const int place = atomic_add(noted_count, 1);
-    if (place < noted_capacity) noted[place] = pair;
+    if (place < noted_capacity)
+      noted[place] = pair;
+    else if (place >= ListRoom::most_counted)
+      atomic_add(noted_count, -1);
   }
 
   /// Enters the contact of one pair. If several pairs enter the same contact, the table keeps the lowest-numbered

@@ -8,6 +8,7 @@
 #include "fast/kernels/certificate.hpp"
 #include "fast/kernels/contact_force.hpp"
 #include "fast/kernels/control.hpp"
+#include "fast/kernels/lists.hpp"
 #include "fast/kernels/sum_columns.hpp"
 
 namespace ogc::fast {
@@ -160,6 +161,7 @@ struct FinishStep {
   /// sums by LeftColumn, on the backend; null if forces were not measured
   const double* left = nullptr;
   int free_vertices = 0;
+  ListRoom room{};  ///< if a list is nearly full, the frame ends with this step, so that the host can make room
 
   OGC_HD void operator()(int) const {
     StepControl& c = *control;
@@ -196,7 +198,9 @@ struct FinishStep {
     row.last_motion = sqrt(share_of(sums_end[sum_last], sums_end[sum_way]));
     if (left != nullptr) add_left(row);
     rows[c.steps_done] = row;
-    if (c.active != 0) ++c.steps_done;
+    if (c.active == 0) return;
+    ++c.steps_done;
+    if (room.is_short()) c.short_of_room = 1, c.active = 0;
   }
 
  private:

@@ -34,8 +34,8 @@ struct PartArrays {
   Vec *position = nullptr, *taken = nullptr;
   LeftForce* left = nullptr;               ///< by slot
   float *d_min_vertex = nullptr, *d_min_edge = nullptr, *d_min_triangle = nullptr;  ///< of a detection [m]
-  const EnteredContact* entered = nullptr;
-  const ContactSlot* table = nullptr;
+  const RawContact* found = nullptr;       ///< contacts of the part's own searches
+  PaddedVec* mail = nullptr;               ///< [meeting, even or odd][slot]: positions that the others send [m]
   PartMessage* inbox = nullptr;            ///< [meeting, even or odd][part that sends]
 };
 
@@ -45,6 +45,7 @@ struct PartsView {
   const PartArrays* arrays = nullptr;  ///< by part
   const int* begin = nullptr;         ///< part p has the vertices begin[p] … begin[p + 1] − 1
   const std::uint32_t* meetings = nullptr;  ///< number of meetings so far
+  int slots = 0;                      ///< number of free vertices
 
   OGC_HD bool is_own(int v) const { return begin[own] <= v && v < begin[own + 1]; }
   /// Returns the part that has a vertex.
@@ -60,6 +61,10 @@ struct PartsView {
   }
   /// Returns the message of another part, once the meeting has ended.
   OGC_HD const PartMessage& received(int p) const { return arrays[own].inbox[inbox_row() + p]; }
+  /// Returns the first index in PartArrays::mail for positions sent before the meeting that follows, and for those
+  /// sent before the last one.
+  OGC_HD int mail_row() const { return (*meetings & 1u) != 0 ? slots : 0; }
+  OGC_HD int taken_mail_row() const { return slots - mail_row(); }
 
  private:
   // A part that has left a meeting may send for the next one, while another still reads; it cannot be two ahead.
@@ -112,25 +117,41 @@ struct SendGuess {
   }
 };
 
-/// Sends the new positions of a colour. Runs once for each own slot of the colour.
+/// Sends the new positions of a colour, slot by slot: writes into another device's memory are slow unless neighbouring
+/// threads write neighbouring words. Runs once for each own slot of the colour.
 struct SendColour {
   PartsView parts;
   const SweepVertex* vertices;  ///< by slot
   int first_slot;               ///< first own slot of the colour
-  const PaddedVec* padded;      ///< both position buffers
-  int fresh;                    ///< index of vertex 0 in the fresh buffer
+  const PaddedVec* fresh;       ///< fresh positions by vertex [m]
   const int* turn;              ///< as in SweepShared
   int iteration;
 
+  OGC_HD bool is_off() const { return turn != nullptr && *turn != iteration; }
   OGC_HD void operator()(int i) const {
-    if (turn != nullptr && *turn != iteration) return;
-    const int v = vertices[first_slot + i].vertex;
-    const PaddedVec x = padded[fresh + v];
-    for (int p = 0; p < parts.count; ++p) {
-      if (p == parts.own) continue;
-      parts.arrays[p].padded[fresh + v] = x;
-      parts.arrays[p].position[v] = PaddedVecs{&x}[0];
-    }
+    if (is_off()) return;
+    const int slot = first_slot + i;
+    const PaddedVec x = fresh[vertices[slot].vertex];
+    for (int p = 0; p < parts.count; ++p)
+      if (p != parts.own) parts.arrays[p].mail[parts.mail_row() + slot] = x;
+  }
+};
+
+/// Takes over the positions of a colour that the other parts have sent, after the meeting. Runs once for each slot of
+/// the colour that is not the part's own.
+struct TakeColour {
+  SendColour sent;
+  int first, own_count;  ///< first slot of the colour; number of own slots
+  PaddedVec* fresh;      ///< fresh positions by vertex, written [m]
+  Vec* position;         ///< by vertex, written [m]
+
+  OGC_HD void operator()(int i) const {
+    if (sent.is_off()) return;
+    const int slot = first + i < sent.first_slot ? first + i : first + i + own_count;
+    const PaddedVec x = sent.parts.arrays[sent.parts.own].mail[sent.parts.taken_mail_row() + slot];
+    const int v = sent.vertices[slot].vertex;
+    fresh[v] = x;
+    position[v] = x;
   }
 };
 
@@ -183,6 +204,23 @@ struct TakeListCounts {
   }
 };
 
+/// Writes the contacts of the part's own searches where the others read them. Runs once for each.
+struct ShowContacts {
+  ListsView lists;
+  RawContact* found;  ///< lists.capacity entries, written
+
+  OGC_HD void operator()(int i) const {
+    if (*lists.overflow != 0) return;
+    const EnteredContact& from = lists.entered[i];
+    RawContact contact{from.bucket, from.second, -1, -1};
+    if (from.slot != EnteredContact::nowhere) {
+      const std::uint64_t edges = ~lists.table[from.slot].edges;
+      contact.low = static_cast<int>(edges >> 32), contact.high = static_cast<int>(edges & 0xffffffffU);
+    }
+    found[i] = contact;
+  }
+};
+
 /// Enters the contacts of the other parts. Runs once for each.
 struct TakeContacts {
   PartsView parts;
@@ -194,14 +232,7 @@ struct TakeContacts {
     if (*lists.overflow != 0) return;
     int p = 0;
     while (i >= places[p + 1]) ++p;
-    const EnteredContact from = parts.arrays[p].entered[i - places[p]];
-    RawContact contact{from.bucket, from.second, -1, -1};
-    if (from.slot != EnteredContact::nowhere) {
-      // The other part may take over lower edges at the same time. They are a third part's, which this part reads too.
-      const std::uint64_t edges = ~atomic_load(&parts.arrays[p].table[from.slot].edges);
-      contact.low = static_cast<int>(edges >> 32), contact.high = static_cast<int>(edges & 0xffffffffU);
-    }
-    lists.enter(contact, faces);
+    lists.enter(parts.arrays[p].found[i - places[p]], faces);
   }
 };
 

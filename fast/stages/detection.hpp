@@ -119,10 +119,8 @@ class Detection {
   }
   /// Adds the arrays that other parts read.
   void publish(PartArrays& arrays) {
-    const ListsView lists = lists_.view();
     arrays.d_min_vertex = d_min_vertex_.data(), arrays.d_min_edge = d_min_edge_.data(),
     arrays.d_min_triangle = d_min_triangle_.data();
-    arrays.entered = lists.entered, arrays.table = lists.table;
   }
 
   /// Forwards to Planes::divide_by.
@@ -150,6 +148,22 @@ class Detection {
     if (!lists_.grow()) return false;
     planes_.reserve(lists_.noted_capacity());
     return true;
+  }
+
+  /// Forwards to Lists::room.
+  ListRoom room() const { return lists_.room(); }
+  /// Host only: forwards to Lists::make_room.
+  bool make_room() {
+    if (!lists_.make_room()) return false;
+    planes_.reserve(lists_.noted_capacity());
+    return true;
+  }
+  /// Host only: empties lists, bounds and planes, as if nothing was detected yet.
+  void forget() {
+    lists_.reserve(lists_.capacity(), lists_.noted_capacity());
+    planes_.reserve(lists_.noted_capacity());
+    planes_.forget();
+    bound_.fill_zero();
   }
 
   /// Returns the number of contacts for which the lists have room.

@@ -1,6 +1,7 @@
 // Holds the memory of the growing lists and launches their kernels. If a detection finds no room, it sets the overflow
 // flag and stores the size that it needs. The host then grows the lists and repeats the step. So no contact is lost,
-// and nothing waits for the host in between.
+// and nothing waits for the host in between. Growth is rarely noticed so late: a detection before the first step counts
+// what it needs (ResidentSimulation), and `make_room` grows lists that are nearly full after a step.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +9,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <string>
 
+#include "compare/problem/error.hpp"
 #include "fast/kernels/bound.hpp"
 #include "fast/kernels/collect_contacts.hpp"
 #include "fast/kernels/lists.hpp"
@@ -28,7 +31,7 @@ class Lists {
     for (Buffer<int>* counts : {&record_counts_, &record_filled_}) counts->resize(buckets);
     for (Buffer<int>* counts : {&incidence_counts_, &incidence_filled_}) counts->resize(2 * vertices);
     record_offsets_.resize(buckets + 1), incidence_offsets_.resize(2 * vertices + 1);
-    resize(capacity, least_noted + 4 * capacity);
+    resize(std::min(capacity, ListRoom::largest), within_limit(least_noted + 4 * std::int64_t{capacity}));
   }
 
   /// Sets RowNumbers::place, on the backend; null: rows are in the order of vertices. Call it before the first
@@ -106,18 +109,34 @@ class Lists {
     return {{surface_, positions, contact_radius}, {surface_, positions, contact_radius}, view(), distances};
   }
 
+  /// Returns what tells kernels whether a list is nearly full.
+  ListRoom room() const {
+    const ListStatus* status = status_.data();
+    return {&status->noted, &status->contacts, ListRoom::full(noted_capacity_), ListRoom::full(capacity_)};
+  }
+
   /// Host only: if the flag is set, enlarges each list that was too small to 1.5 times the needed size, clears the flag
-  /// and returns true. Lists are empty until the next detection.
+  /// and returns true. Lists are empty until the next detection. If pairs had no room, only their list grows: which
+  /// contacts the others gave depends on the order of threads. Throws compare::ResourceError if a list would need more
+  /// than ListRoom::largest items.
   bool grow() {
-    ListStatus status;
-    status_.download(&status, 1);
+    const ListStatus status = downloaded();
     if (status.overflow == 0) return false;
-    const int contacts = status.contacts + status.without_slot;
-    const auto grown = [](int capacity, int count) { return count > capacity ? count + count / 2 : capacity; };
-    resize(grown(capacity_, status.without_slot > 0 ? std::max(contacts, capacity_ + 1) : contacts),
-           grown(noted_capacity_, status.noted));
-    status_.fill_zero();
+    const bool has_all = status.noted <= noted_capacity_;
+    const int contacts = status.without_slot > 0 ? std::max(status.contacts + status.without_slot, capacity_ + 1)
+                                                 : status.contacts;
+    grow_above(capacity_, has_all ? contacts : 0, noted_capacity_, status.noted);
     return true;
+  }
+
+  /// Host only: enlarges each list that is nearly full after a complete detection to 1.5 times its count. Returns
+  /// whether one was; then lists are empty until the next detection. Throws as `grow` does.
+  bool make_room() {
+    const ListStatus status = downloaded();
+    const int full = ListRoom::full(capacity_), full_noted = ListRoom::full(noted_capacity_);
+    const bool is_short = status.overflow == 0 && (status.contacts > full || status.noted > full_noted);
+    if (is_short) grow_above(full, status.contacts, full_noted, status.noted);
+    return is_short;
   }
 
   /// Host only: sets the capacities exactly. Lists are empty until the next detection.
@@ -131,6 +150,30 @@ class Lists {
   using Buffer = typename Backend::template Buffer<T>;
 
   static constexpr int least_noted = 1 << 16;  // half a mebibyte
+
+  static int within_limit(std::int64_t items) {
+    return static_cast<int>(std::min<std::int64_t>(items, ListRoom::largest));
+  }
+
+  ListStatus downloaded() const {
+    ListStatus status;
+    status_.download(&status, 1);
+    return status;
+  }
+
+  // Enlarges a list whose count exceeds `full` to 1.5 times the count, or to the limit if that is less.
+  void grow_above(int full, int contacts, int full_noted, int noted) {
+    if (std::max(contacts, noted) > ListRoom::largest)
+      throw compare::ResourceError("a detection found " + std::to_string(noted) +
+                                   " pairs of faces near each other and " + std::to_string(contacts) +
+                                   " contacts, more than " + std::to_string(ListRoom::largest) +
+                                   "; give a smaller contact_radius, or larger triangles");
+    const auto grown = [](int capacity, int above, int count) {
+      return count > above ? within_limit(count + std::int64_t{count} / 2) : capacity;
+    };
+    resize(grown(capacity_, full, contacts), grown(noted_capacity_, full_noted, noted));
+    status_.fill_zero();
+  }
 
   void resize(int capacity, int noted_capacity) {
     capacity_ = capacity;

@@ -42,13 +42,14 @@ class Parts {
  public:
   /// `hall`: where this part meets the others; null: there are no others. `own`: number of this part.
   Parts(Backend& backend, std::shared_ptr<Hall> hall, int own, const Colouring& colouring)
-      : backend_(backend), hall_(std::move(hall)), own_(own) {
+      : backend_(backend), hall_(std::move(hall)), own_(own), slots_in_all_(static_cast<int>(colouring.order.size())) {
     const int count = hall_ == nullptr ? 1 : hall_->parts();
     const std::vector<int> begins = part_begins(colouring, count);
     vertices_ = {begins[static_cast<std::size_t>(own)], begins[static_cast<std::size_t>(own) + 1]};
     for (int c = 0; c < colouring.count; ++c) {
       const auto order = colouring.order.begin(), first = order + colouring.begin[static_cast<std::size_t>(c)],
                  last = order + colouring.begin[static_cast<std::size_t>(c) + 1];
+      colours_.push_back({colouring.begin[static_cast<std::size_t>(c)], colouring.begin[static_cast<std::size_t>(c) + 1]});
       slots_.push_back({static_cast<int>(std::lower_bound(first, last, vertices_.begin) - order),
                         static_cast<int>(std::lower_bound(first, last, vertices_.end) - order)});
     }
@@ -57,6 +58,7 @@ class Parts {
     const auto parts = static_cast<std::size_t>(count);
     arrays_.resize(parts);
     inbox_.resize(2 * parts);
+    mail_.resize(2 * colouring.order.size());
     places_.resize(parts + 1);
     if constexpr (may_divide)
       backend_.join(*hall_, own);
@@ -71,6 +73,12 @@ class Parts {
   /// Returns the own slots of a colour.
   Range slots(int colour) const { return slots_[static_cast<std::size_t>(colour)]; }
 
+  int colours() const { return static_cast<int>(slots_.size()); }
+
+  /// Host only, outside a step: makes room for the contacts of a detection.
+  void reserve(int contacts) {
+    if (hall_ != nullptr) found_.resize(static_cast<std::size_t>(contacts));
+  }
   /// Host only, outside a step: waits for all parts.
   void wait() {
     if (hall_ != nullptr) hall_->meet();
@@ -78,7 +86,7 @@ class Parts {
   /// Host only, outside a step: tells all parts where this part's arrays are; they may have moved.
   void publish(PartArrays arrays) {
     if (hall_ == nullptr) return;
-    arrays.inbox = inbox_.data();
+    arrays.inbox = inbox_.data(), arrays.mail = mail_.data(), arrays.found = found_.data();
     hall_->arrays[static_cast<std::size_t>(own_)] = arrays;
     hall_->meet();
     arrays_.upload(hall_->arrays.data(), hall_->arrays.size());
@@ -106,17 +114,17 @@ class Parts {
     if constexpr (may_divide) {
       if (hall_ == nullptr) return;
       const Range slots = this->slots(colour);
-      const bool is_second = sweep.to_fresh > 0;  // the fresh buffer lies behind the old one
-      const SendColour send{view(),
-                            sweep.vertices,
-                            slots.begin,
-                            is_second ? sweep.old : sweep.old + sweep.to_fresh,
-                            is_second ? sweep.to_fresh : 0,
-                            sweep.turn,
-                            sweep.iteration};
-      if (colour + 1 < static_cast<int>(slots_.size())) return backend_.meet(slots.count(), send, Nothing{});
-      const Beside<SendColour, SendCounts> both{slots.count(), send, 1, {view(), sweep.control}};
-      backend_.meet(both.count(), both, TakeCounts{view(), sweep.control});
+      PaddedVec* fresh = sweep.old + sweep.to_fresh;
+      const SendColour send{view(), sweep.vertices, slots.begin, fresh, sweep.turn, sweep.iteration};
+      if (colour + 1 < colours()) {
+        backend_.meet(slots.count(), send, Nothing{});
+      } else {
+        const Beside<SendColour, SendCounts> both{slots.count(), send, 1, {view(), sweep.control}};
+        backend_.meet(both.count(), both, TakeCounts{view(), sweep.control});
+      }
+      const Range whole = colours_[static_cast<std::size_t>(colour)];
+      backend_.for_each(whole.count() - slots.count(),
+                        TakeColour{send, whole.begin, slots.count(), fresh, sweep.position});
     }
   }
   /// Takes over the forces that the other parts have measured (LeftForces).
@@ -134,6 +142,7 @@ class Parts {
     if constexpr (may_divide) {
       if (hall_ == nullptr) return;
       take.parts = view();
+      backend_.for_each_counted(lists.contact_count, lists.capacity, ShowContacts{lists, found_.data()});
       backend_.meet(1, SendListCounts{view(), lists}, TakeListCounts{view(), lists, places_.data()});
       backend_.for_both(take.count(), take, places_.data() + count(), lists.capacity,
                         TakeContacts{view(), lists, faces, places_.data()});
@@ -145,15 +154,17 @@ class Parts {
  private:
   static constexpr bool may_divide = requires(Backend& backend) { backend.meetings(); };
 
-  PartsView view() { return {own_, count(), arrays_.data(), begin_.data(), backend_.meetings()}; }
+  PartsView view() { return {own_, count(), arrays_.data(), begin_.data(), backend_.meetings(), slots_in_all_}; }
 
   Backend& backend_;
   std::shared_ptr<Hall> hall_;
-  int own_;
+  int own_, slots_in_all_;
   Range vertices_;
-  std::vector<Range> slots_;  ///< by colour
+  std::vector<Range> colours_, slots_;  ///< by colour: all its slots, and the own ones
   typename Backend::template Buffer<PartArrays> arrays_;
   typename Backend::template Buffer<PartMessage> inbox_;
+  typename Backend::template Buffer<PaddedVec> mail_;
+  typename Backend::template Buffer<RawContact> found_;
   typename Backend::template Buffer<int> begin_, places_;
 };
 

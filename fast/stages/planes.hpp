@@ -50,6 +50,9 @@ class Planes {
     pair_rows_.resize(4 * static_cast<std::size_t>(noted_capacity));
   }
 
+  /// Host only: forgets the half-spaces of the last detection.
+  void forget() { counts_.fill_zero(); }
+
   /// Returns the feasible regions: X_prev, b_v and the half-spaces of the last detection.
   FeasibleRegions regions(const Vec* centre, const float* radius) const {
     FeasibleRegions regions{.centre = centre, .radius = radius, .is_off = !policy_.certifies, .slides = policy_.slides};

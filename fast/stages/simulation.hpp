@@ -1,5 +1,8 @@
 // Keeps a simulation's state on the backend. The host enqueues a frame of steps at once and reads the frame's rows
 // once. It acts between frames only: if a step found a list too small, the host grows the lists and repeats that step.
+// Two rules make that rare. Before the first step a detection counts what it needs, until the lists have room. And a
+// step after which a list is nearly full ends its frame, so that the host makes room. Both depend on the state alone,
+// not on the frames, so a resumed run has the same rows.
 #pragma once
 
 #include <algorithm>
@@ -23,12 +26,19 @@
 
 namespace ogc::fast {
 
+/// Whether the simulations of several backends share launches. Then no simulation counts its contacts first.
+template <class Backend>
+constexpr bool shares_launches() {
+  if constexpr (requires { Backend::shares_launches; }) return Backend::shares_launches;
+  return false;
+}
+
 /// The simulation of one scene.
 template <class Backend>
 class ResidentSimulation : public compare::Simulation, public compare::WayTeller, public ResidentState {
  public:
   /// `device` is the result of device(). `list_capacity`: number of contacts for which the lists have room at first; 0:
-  /// estimated from the size of the mesh. Lists grow by themselves. `hall`, `part`: see Parts.
+  /// what the first detection needs. Lists grow by themselves. `hall`, `part`: see Parts.
   ResidentSimulation(Backend backend, const compare::Scene& scene, const compare::SimulationOptions& options,
                      std::string device, int list_capacity = 0, std::shared_ptr<Hall> hall = nullptr, int part = 0)
       : backend_(std::move(backend)),
@@ -50,15 +60,15 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
         moving_(static_cast<std::size_t>(compare::bounded_count(topology_, exclusions_.groups))),
         step_(backend_, state_, detection_, sweep_, volumes_, rods_, parts_, clock_,
               step_settings(scene_, moving_, options.energies), static_cast<int>(rest_.mass.size())),
-        energies_(options.energies) {
+        energies_(options.energies),
+        counts_first_(list_capacity == 0) {
     detection_.number_rows(sweep_.row_places());
     detection_.divide(parts_);
     fill_state();
     reserve();
     const std::vector<compare::Vec3f> positions = compare::to_single(scene_.mesh.positions),
                                       velocities = compare::to_single(scene_.velocities);
-    upload_motion(positions, velocities);
-    publish();
+    begin_at(positions, velocities);
   }
 
   std::vector<compare::StepMetrics> advance(std::int64_t steps) override {
@@ -84,8 +94,14 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
   bool end_frame(std::vector<compare::StepMetrics>& rows) {
     const StepControl control = collect(rows);
     if ((control.status & (compare::step_not_finite | compare::step_bound_violated)) != 0) return false;
-    if (control.status == 0) return true;
-    parts_.wait();  // another part may still read this one's lists
+    if (control.status == 0) {
+      if (control.short_of_room == 0) return true;
+      parts_.wait();  // another part may still read this one's lists
+      if (detection_.make_room()) lists_moved();
+      publish();
+      return true;
+    }
+    parts_.wait();
     grow();
     publish();
     ++repeats_;
@@ -118,10 +134,10 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
   }
 
   void restore(const compare::Snapshot& snapshot) override {
-    upload_motion(snapshot.positions, snapshot.velocities);
     step_number_ = snapshot.step;
     rods_.put(orientations_of(snapshot));
-    if (snapshot.capacities.empty()) return;
+    if (snapshot.capacities.empty()) return begin_at(snapshot.positions, snapshot.velocities);
+    upload_motion(snapshot.positions, snapshot.velocities);
     std::vector<std::int64_t> capacities = snapshot.capacities;
     const std::size_t of_volumes = volumes_.capacities().size();
     if (capacities.size() < of_volumes) throw std::invalid_argument("capacities of other lists");
@@ -239,6 +255,33 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     for (auto* buffer : {&state_.start, &state_.position, &state_.previous}) upload(*buffer, x);
     upload(state_.velocity, vectors(velocities));
     backend_.synchronize_device();  // a copy to a device may return before its end, which other streams do not wait for
+  }
+
+  /// Uploads a state from which no step was computed yet, and sizes the lists for its first step.
+  void begin_at(const std::vector<compare::Vec3f>& positions, const std::vector<compare::Vec3f>& velocities) {
+    upload_motion(positions, velocities);
+    if constexpr (!shares_launches<Backend>()) {
+      if (!counts_first_) return publish();
+      count_contacts();
+      upload_motion(positions, velocities);
+    }
+  }
+
+  /// Repeats the first detection of the next step until it finds room. Then forgets what it found.
+  void count_contacts() {
+    upload_targets(1);
+    do {
+      lists_moved();
+      publish();
+      backend_.for_each(1, BeginFrame{state_.control.data(), since_sort_});
+      step_.enqueue_first_detection();
+      backend_.synchronize();
+      parts_.wait();  // another part may still read this one's lists
+    } while (detection_.grow());
+    lists_moved();
+    publish();
+    detection_.forget();
+    clock_.take();
   }
 
   void upload_targets(int count) {
@@ -393,7 +436,10 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     lists_moved();
   }
 
-  void reserve() { sweep_.reserve_contacts(detection_.capacity()); }
+  void reserve() {
+    sweep_.reserve_contacts(detection_.capacity());
+    parts_.reserve(detection_.capacity());
+  }
 
   void lists_moved() {
     reserve();
@@ -429,6 +475,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
   std::size_t moving_;
   Step<Backend> step_;
   bool energies_;
+  bool counts_first_;  ///< whether a detection before the first step sizes the lists
   /// [sorts trees][measures forces][groups iterations]
   typename Backend::Recording recordings_[2][2][2];
   typename Backend::template Buffer<float> bounds_;

@@ -132,6 +132,13 @@ class Step {
     });
   }
 
+  /// Enqueues a step up to its first detection, which overflows if the lists are too small.
+  void enqueue_first_detection() {
+    begin(Sorting::made);
+    backend_.for_each(1, ChooseQueryRadius{control(), settings_.control});
+    detect_surfaces(state_.target.data());
+  }
+
   /// Finds the contacts of the vertices at `position` (on the backend) with volumes. Driven volumes stay where the
   /// step's first detection found them.
   void find_in_volumes(const Vec* position) {
@@ -383,7 +390,8 @@ class Step {
                                     .rows = s.rows.data(),
                                     .segments = rods_.count(),
                                     .left = measures ? left_forces_.totals() : nullptr,
-                                    .free_vertices = sweep_.slots()});
+                                    .free_vertices = sweep_.slots(),
+                                    .room = detection_.room()});
   }
 
   /// Checks the certificate, and adds the terms of `sums` and the terms of rods.

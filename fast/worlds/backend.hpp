@@ -89,6 +89,7 @@ class WorldBackend {
   using Sums = typename Place::Sums;
   /// A block reads a flag without leaving its launch.
   static constexpr bool has_free_branches = true;
+  static constexpr bool shares_launches = true;  ///< a world has no launch of its own
 
   template <class F>
   void for_each(int n, F f) {

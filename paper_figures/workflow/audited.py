@@ -20,6 +20,7 @@ from pathlib import Path
 from paper_figures.workflow.jobs import AUDIT, CALL_AGAIN, FINISHED, KEPT, STOPPED, Limit, RunFailure, command_in
 
 INTERRUPTED = (130, -signal.SIGINT)
+BOXES = "boxes.json"  # beside run.json: findings of an audit in boxes
 SHORT_ROUND = 10.0  # [s]; the next round has twice as many states, because each round reads the scene again
 
 
@@ -136,6 +137,44 @@ class Audit:
     def results(self, _root, _frames, _last):
         """Returns nothing: the findings lie beside the run's manifest."""
         return iter(())
+
+
+@dataclass(frozen=True)
+class BoxAudit:
+    """Audits the last state of the finished run `of` in boxes, as a job: `ogc audit RUN --boxes`."""
+
+    of: str
+    boxes: int
+    seed: int
+    engine: str
+    on_device = False
+
+    @property
+    def name(self):
+        return f"{self.of}_{BOXES}"
+
+    def make(self, program, root, limit=Limit(), _shown=False):
+        run, kept = root / self.of, root / self.of / BOXES
+        if kept.is_file() and kept.stat().st_mtime > (run / "run.json").stat().st_mtime:
+            return KEPT
+        if limit.left() == 0:
+            return STOPPED
+        partial, errors = run / f"{BOXES}.partial", root / f"{self.name}.log"
+        status, _ = command_in([program, "audit", run, "--boxes", self.boxes, "--seed", self.seed, "--engine",
+                                self.engine, "--json"], limit, errors, partial)
+        if status not in (0, 1):
+            if limit.left() == 0:
+                return STOPPED
+            raise RunFailure(f"{program} audit {run} --boxes {self.boxes}: exit status {status}\n"
+                             f"{errors.read_text()}")
+        partial.replace(kept)
+        if status == 1:
+            raise RunFailure(f"{run}: {json.loads(kept.read_text())['first']}")
+        return FINISHED
+
+    def results(self, root, _frames, _last):
+        """Returns the findings."""
+        return iter([path for path in (root / self.of / BOXES,) if path.is_file()])
 
 
 def main():

@@ -8,7 +8,7 @@ those of `ogc run`; `backend` is that of VBD in single precision, everything els
 from dataclasses import dataclass, replace
 
 from paper_figures.workflow import layers, release
-from paper_figures.workflow.audited import Audit
+from paper_figures.workflow.audited import Audit, BoxAudit
 from paper_figures.workflow.first_meeting import FirstMeeting
 from paper_figures.workflow.jobs import Job, Share, Step
 
@@ -421,14 +421,32 @@ def solvers(scale, cuda=False, membrane=NEO_HOOKEAN):
 
 # Growth: time a step over the number of vertices at one contact density, and over threads.
 SIDES = {"smoke": (6, 8, 12), "small": (10, 15, 22, 32), "paper": (32, 46, 68, 100, 147, 215, 316)}
+LARGEST_SIDE = {"paper": (632,)}  # on a device alone: 4·10⁶ vertices
+# Of 200 steps with 2·10⁷ contacts at scale paper.
+SIDE_OF_CONTACTS = {"smoke": 12, "small": 32, "paper": 500}
+CONTACT_STEPS = {"smoke": 20, "small": 200, "paper": 200}
+BOXES = {"smoke": 10, "small": 100, "paper": 1000}
+SEED_OF_BOXES = 57
 SIDE_OF_THREADS = {"smoke": 8, "small": 22, "paper": 46}
 GROWTH_STEPS = 14
 
 
 def sizes(scale, backend):
-    """Returns a run for each size, audited at its end."""
-    return [Job(f"{backend}_{layers.vertices(side)}", ("--backend", backend, "--audit", "end"),
-                scene=layers.Stack(side, GROWTH_STEPS)) for side in SIDES[scale]]
+    """Returns a run for each size, audited at its end; on a device up to the largest, and with both bounds."""
+    cuda = backend == "cuda"
+    return [Job(f"{backend}{end}_{layers.vertices(side)}", ("--backend", backend, "--audit", "end", *options),
+                scene=layers.Stack(side, GROWTH_STEPS))
+            for end, options in (("", ()), (WITH_PLANES, PLANES))[:2 if cuda else 1]
+            for side in (*SIDES[scale], *(LARGEST_SIDE.get(scale, ()) if cuda else ()))]
+
+
+def many_contacts(scale, backend):
+    """Returns the run with many contacts, and the audit of its last state in boxes."""
+    side = SIDE_OF_CONTACTS[scale]
+    name, steps = f"contacts_{layers.vertices(side)}", CONTACT_STEPS[scale]
+    arguments = ("--backend", backend, "--audit", "end", "--set", f"frame_steps={steps}")
+    return [Job(name, arguments, scene=layers.Stack(side, steps)),
+            BoxAudit(name, BOXES[scale], SEED_OF_BOXES, backend)]
 
 
 def threads(scale, cores):

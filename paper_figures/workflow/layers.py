@@ -114,7 +114,7 @@ class Stack:
 
     @property
     def path(self):
-        return f"scenes/{self.side}/scene.json"
+        return f"scenes/{self.side}_{self.steps}/scene.json"
 
     def write(self, program, root):
         """Writes the scene if it is missing."""

@@ -163,6 +163,7 @@ def windows(wanted):
 
 def of_growth(wanted):
     over = {f"growth_{backend}": commands.sizes(wanted.scale, backend) for backend in reversed(wanted.backends)}
+    over["contacts"] = commands.many_contacts(wanted.scale, wanted.backend)
     over["threads"] = commands.threads(wanted.scale, os.cpu_count() or 1)
     return {name: Part(wanted.folder("growth"), (tuple(jobs),), "growth", frames=0) for name, jobs in over.items()}
 

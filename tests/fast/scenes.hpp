@@ -48,4 +48,15 @@ inline compare::Scene empty_scene() {
   return scene;
 }
 
+/// Returns eight sheets so close that each touches four others: more contacts than the size of the mesh suggests. Steps
+/// are so short that contacts hardly change.
+inline compare::Scene dense_stack(compare::Bounds bounds) {
+  compare::Scene scene = empty_scene();
+  scene.settings.bounds = bounds;
+  scene.settings.time_step = 1e-5;
+  for (int k = 0; k < 8; ++k) add_sheet(scene, 10, 0.1, 0.45 * scene.settings.contact_radius * k, false);
+  compare::round_to_single(scene);
+  return scene;
+}
+
 }  // namespace ogc::fast::test

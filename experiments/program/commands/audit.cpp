@@ -13,6 +13,7 @@
 #include "compare/problem/validate_mesh.hpp"
 #include "experiments/program/audits/audit_source.hpp"
 #include "experiments/program/audits/between.hpp"
+#include "experiments/program/audits/box_audit.hpp"
 
 #include "experiments/program/audits/offenders.hpp"
 #include "experiments/program/commands.hpp"
@@ -21,6 +22,7 @@
 #include "experiments/program/option_checks.hpp"
 #include "experiments/program/output.hpp"
 #include "experiments/program/progress.hpp"
+#include "fast/contestant.hpp"
 
 namespace ogc::experiments {
 
@@ -33,6 +35,8 @@ struct AuditOptions {
   std::string show;               ///< folder of the .vtp files; empty: none
   std::optional<double> deepest;  ///< depth inside a volume above which a state fails [m]; empty: no limit
   bool between = false;           ///< also check the straight motions between states
+  BoxRequest boxes;               ///< count 0: whole states are audited
+  std::string engine = "cpu";     ///< finds the contacts of the state that is audited in boxes
 };
 
 /// Largest number of states for which --show writes a file. Further states would show much the same.
@@ -378,8 +382,69 @@ void print_json(const AuditOptions& options, const Audits& audits, const Totals&
   print_result(json);
 }
 
+Json to_json(const BoxFindings& found, const std::string& state, const AuditOptions& options) {
+  return {{"audited", options.request.paths.front()},
+          {"state", state},
+          {"engine", options.engine},
+          {"seed", options.boxes.seed},
+          {"cells", found.cells},
+          {"boxes", found.boxes},
+          {"densest_boxes", found.densest},
+          {"side", found.side},
+          {"contacts_of_densest_box", found.most_contacts},
+          {"contacts_of_last_of_densest", found.least_of_densest},
+          {"vertices", found.vertices},
+          {"triangles", found.triangles},
+          {"pairs_tested", found.pairs_tested},
+          {"intersections", found.intersections},
+          {"contacts", found.contacts},
+          {"missing", found.missing},
+          {"extra", found.extra},
+          {"grey", found.grey},
+          {"first", found.first}};
+}
+
+std::string describe(const BoxFindings& found, const std::string& state, const AuditOptions& options) {
+  const std::string differences = counted(found.missing, "missing contact") + ", " + counted(found.extra, "contact") +
+                                  " too many, " + counted(found.grey, "accepted difference");
+  return state + " audited in " + std::to_string(found.boxes) + " boxes of " + number(found.side) + " m among " +
+         std::to_string(found.cells) + " that contain a vertex: the " + std::to_string(found.densest) +
+         " with most contacts (" + std::to_string(found.most_contacts) + " to " +
+         std::to_string(found.least_of_densest) + "), the others drawn with seed " +
+         std::to_string(options.boxes.seed) + "\n" + std::to_string(found.vertices) + " vertices, " +
+         counted(found.triangles, "triangle") + ", " + counted(found.pairs_tested, "pair") +
+         " tested exactly: " + counted(found.intersections, "intersection") + "\n" +
+         counted(found.contacts, "exact contact") + " beside those of " + options.engine + ": " + differences + "\n" +
+         (found.first.empty() ? "" : "the first: " + found.first + "\n");
+}
+
+/// Audits the last state of a run in boxes.
+int run_box_audit(AuditSource& source, const AuditOptions& options, const CommandContext& context) {
+  const compare::Scene* scene = source.scene();
+  if (scene == nullptr)
+    throw compare::InputError("--boxes needs the contact radius of a run; give a run folder, not a mesh");
+  AuditedState state;
+  for (std::size_t i = 0; i < source.size(); ++i) state = source.next();
+  const auto radius = static_cast<float>(scene->settings.contact_radius);
+  const std::vector<compare::Vec3f> positions = compare::to_single(state.positions);
+  const compare::DetectIn in{state.topology.get(), source.exclusions(), positions, radius, radius};
+  const compare::Contestant engine = fast::contestant(options.engine == "cuda" ? fast::Backend::cuda
+                                                                               : fast::Backend::cpu);
+  const FoundContacts contacts{engine.detect_vertex_facet(in).contacts, engine.detect_edge_edge(in).contacts};
+  const BoxFindings found = audit_boxes(*state.topology, positions, source.exclusions(), contacts, radius,
+                                        options.boxes);
+  if (context.json) {
+    print_result(to_json(found, state.name, options));
+  } else {
+    print_result(describe(found, state.name, options));
+  }
+  const bool is_clean = found.intersections + found.missing + found.extra == 0;
+  return is_clean ? static_cast<int>(exit_success) : static_cast<int>(exit_check_failed);
+}
+
 int run_audit(const AuditOptions& options, const CommandContext& context) {
   const std::unique_ptr<AuditSource> source = open_audit(options.request);
+  if (options.boxes.count > 0) return run_box_audit(*source, options, context);
   const Audits audits = audit_all(*source, options);
   const Totals totals = totals_of(audits.states);
   if (context.json) {
@@ -422,6 +487,17 @@ void add_audit_command(CLI::App& app, CommandContext& context) {
   command->add_flag(
       "--between", options->between,
       "The audit also asks which faces meet while every vertex moves straight from one state to the next");
+  command
+      ->add_option("--boxes", options->boxes.count,
+                   "Instead of whole states, the run's last state is audited in so many boxes, half of them where "
+                   "contacts are densest: intersections, and the contacts of the fast path against the exact ones")
+      ->check(whole_number(1, most_counted));
+  command->add_option("--seed", options->boxes.seed, "With --boxes: seed of the other half")
+      ->check(whole_number(0, most_counted))
+      ->capture_default_str();
+  command->add_option("--engine", options->engine, "With --boxes: the fast path on cpu or cuda finds the contacts")
+      ->check(CLI::IsMember({"cpu", "cuda"}))
+      ->capture_default_str();
   add_mesh_options(*command, options->request.meshes);
   command
       ->add_option("--limit", options->request.limit,

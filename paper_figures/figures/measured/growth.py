@@ -1,11 +1,13 @@
-"""Time a step over the number of vertices at one contact density (layers.py), with the exponent, and over the threads
-of the CPU: runs, table and picture. Not in the paper.
+"""Time a step over the number of vertices at one contact density (layers.py), with the exponent, on a device with both
+bounds; over the threads of the CPU; and over 200 steps with twenty million contacts, whose last state is audited in
+boxes: runs, table and picture. Not in the paper.
 
 Steps are timed from FIRST on; before it lists grow and contacts settle. The exponent is the slope of a straight line
 through the logarithms of the medians, by least squares, over all sizes and over the larger half of them.
 """
 
 import argparse
+import json
 import math
 import os
 import statistics
@@ -13,46 +15,80 @@ import sys
 from pathlib import Path
 
 from paper_figures.workflow import commands
+from paper_figures.workflow.audited import BOXES
 from paper_figures.workflow.device_memory import taken
 from paper_figures.workflow.evidence import run_at
 from paper_figures.workflow.jobs import MEMORY, RunFailure
 
 FIRST = 5
 TITLE = "Time a step grows in proportion to the number of vertices"
+BALL, PLANES = "ball", "planes"
 ALT = ("Plots of the median time a step over the number of vertices of fifty layers, on a logarithmic scale in both "
        "directions, with the fitted powers; of the contacts a vertex; and of the time over the number of threads.")
 
 
-def row_of(name, run, memory):
-    """Returns the numbers of one run, measured over its timed steps."""
+def row_of(name, run, memory, found):
+    """Returns the numbers of one run, measured over its timed steps; `found`: its audit in boxes."""
     m = run.manifest
     timed = [i for i, step in enumerate(run.column("step")) if step >= FIRST]
     names = ("wall", "discrete_detections", "vertex_facet_contacts", "edge_edge_contacts", "repeats")
     wall, detections, facets, edges, repeats = ([run.column(column)[i] for i in timed] for column in names)
     pairs = [a + b for a, b in zip(facets, edges)]
     free = sum(body["vertex_count"] for body in m["scene"]["bodies"] if not body["fixed"])
-    number = int(name.partition("_")[2])
-    alone = name.startswith("threads")
-    return {"over": "threads" if alone else "vertices", "backend": m["backend"], "vertices": free,
-            "threads": number if alone else "",
+    over = kind_of(name)
+    contacts = statistics.fmean(pairs)
+    return {"over": over, "backend": m["backend"], "bounds": m["settings"]["bounds"]["value"], "vertices": free,
+            "threads": int(name.rpartition("_")[2]) if over == "threads" else "", "steps": len(timed),
             "median [ms]": round(statistics.median(wall), 4), "mean [ms]": round(statistics.fmean(wall), 4),
             "worst [ms]": round(max(wall), 4),
-            "contacts a vertex": round(statistics.fmean(pairs) / free, 4), "contacts": round(statistics.fmean(pairs)),
-            "detections a step": round(statistics.fmean(detections), 3), "repeated steps": sum(n > 0 for n in repeats),
+            "contacts a vertex": round(contacts / free, 4), "contacts": round(contacts),
+            "most contacts": round(max(pairs)),
+            "detections a step": round(statistics.fmean(detections), 3),
+            "repeated steps": sum(n > 0 for n in run.column("repeats")),
             "device memory [MiB]": memory,
+            "time a contact [ns]": round(1e6 * statistics.median(wall) / contacts, 3),
+            "device memory a contact [B]": round(memory * 2**20 / max(pairs)) if memory else "",
+            "boxes": found.get("boxes", ""), "seed": found.get("seed", ""),
+            "contacts in boxes": found.get("contacts", ""), "pairs tested in boxes": found.get("pairs_tested", ""),
+            "wrong in boxes": sum(found[name] for name in ("intersections", "missing", "extra")) if found else "",
             "audit": {True: "no intersection", False: "FAILED"}.get(m.get("guarantee_kept"), "not audited"),
             "final_hash": m["final_hash"],
             "device": m["device"], "commit": m["commit"][:10] + (" (dirty)" if m.get("dirty") else "")}
 
 
+def kind_of(name):
+    """Returns over what the run of this name is one of several."""
+    first = name.partition("_")[0]
+    return first if first in ("threads", "contacts") else "vertices"
+
+
+def boxes_of(folder):
+    """Returns the findings of an audit in boxes; nothing without one."""
+    path = folder / BOXES
+    return json.loads(path.read_text()) if path.is_file() else {}
+
+
+def bounds_of(row):
+    """Returns the bounds of a row; tables that were kept before runs had both have balls alone."""
+    return row.get("bounds", BALL)
+
+
+def lines_of(rows):
+    """Returns (backend, bounds, rows over the number of vertices) of each line."""
+    over = [row for row in rows if row["over"] == "vertices"]
+    kinds = dict.fromkeys((row["backend"], bounds_of(row)) for row in over)
+    return [(*kind, [row for row in over if (row["backend"], bounds_of(row)) == kind]) for kind in kinds]
+
+
 def table(folder):
     """Returns the rows of the finished runs, ordered by size and number of threads."""
     rows = []
-    for path in sorted(folder.glob("*/run.json"),
-                       key=lambda path: (path.parent.name.partition("_")[0], int(path.parent.name.rpartition("_")[2]))):
+    for path in sorted(folder.glob("*/run.json"), key=lambda path: (path.parent.name.rpartition("_")[0],
+                                                                    int(path.parent.name.rpartition("_")[2]))):
         run = run_at(path.parent)
         if run and run.manifest["status"] == "finished":
-            rows.append(row_of(path.parent.name, run, taken(folder / f"{path.parent.name}{MEMORY}")))
+            memory = taken(folder / f"{path.parent.name}{MEMORY}")
+            rows.append(row_of(path.parent.name, run, memory, boxes_of(path.parent)))
     return rows
 
 
@@ -66,15 +102,17 @@ def exponent(rows):
 def in_words(rows):
     """Returns a line of text for each backend and one for the threads."""
     lines = []
-    for backend in dict.fromkeys(row["backend"] for row in rows if row["over"] == "vertices"):
-        line = [row for row in rows if row["over"] == "vertices" and row["backend"] == backend]
+    for backend, bounds, line in lines_of(rows):
         if len(line) > 1:
             density = [row["contacts a vertex"] for row in line]
             upper = line[len(line) // 2 - 1:] if len(line) > 3 else line
-            lines.append(f"{backend}: time ∝ vertices^{exponent(line)[0]:.3f} from {line[0]['vertices']:,} to "
+            lines.append(f"{backend}{', planes' if bounds == PLANES else ''}: "
+                         f"time ∝ vertices^{exponent(line)[0]:.3f} from {line[0]['vertices']:,} to "
                          f"{line[-1]['vertices']:,}, "
                          f"^{exponent(upper)[0]:.3f} from {upper[0]['vertices']:,} on; {min(density):.3g} to "
                          f"{max(density):.3g} contacts a vertex")
+    for row in (row for row in rows if row["over"] == "contacts"):
+        lines.append(f"{row['contacts']:,} contacts: {row['median [ms]']:.4g} ms a step")
     alone = [row for row in rows if row["over"] == "threads"]
     if len(alone) > 1:
         first, last = alone[0], alone[-1]
@@ -93,12 +131,13 @@ def draw(rows, out):
     lines = in_words(rows)
     figure, (panels,) = style.page([(3.2, [(share, "plot") for share in shares])], TITLE, "; ".join(lines))
     time, density = panels[:2]
-    for backend, colour in (("cuda", style.OURS), ("cpu", style.BASELINE)):
-        line = [row for row in rows if row["over"] == "vertices" and row["backend"] == backend]
+    for backend, bounds, line in lines_of(rows):
+        colour, mark = {"cuda": style.OURS, "cpu": style.BASELINE}[backend], "s" if bounds == PLANES else "o"
         if line:
             x = [row["vertices"] for row in line]
-            time.plot(x, [row["median [ms]"] for row in line], "o", color=colour, label=line[-1]["device"])
-            density.plot(x, [row["contacts a vertex"] for row in line], "o-", color=colour)
+            time.plot(x, [row["median [ms]"] for row in line], mark, color=colour,
+                      label=line[-1]["device"] + (", planes" if bounds == PLANES else ""))
+            density.plot(x, [row["contacts a vertex"] for row in line], mark + "-", color=colour)
         if len(line) > 1:
             slope, factor = exponent(line)
             time.plot(x, [factor * n**slope for n in x], "--", color=colour, linewidth=1,
@@ -137,7 +176,8 @@ def main():
         if not options.made:
             over_sizes = [job for backend in dict.fromkeys(options.backend or ["cpu"])
                           for job in commands.sizes(options.scale, backend)]
-            for job in [*over_sizes, *commands.threads(options.scale, os.cpu_count() or 1)]:
+            contacts = commands.many_contacts(options.scale, (options.backend or ["cpu"])[-1])
+            for job in [*over_sizes, *contacts, *commands.threads(options.scale, os.cpu_count() or 1)]:
                 job.make(options.ogc, options.folder)
         rows = table(options.folder)
         if not rows:

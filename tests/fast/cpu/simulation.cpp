@@ -409,6 +409,49 @@ TEST_CASE("a slow handle is where its motion says after each step", "[unit]") {
   for (std::size_t k = 0; k < 6; ++k) CHECK(x[k] == targets[k]);
 }
 
+TEST_CASE("a dense start is counted before the first step, so no step is repeated, and nothing else shows it",
+          "[property]") {
+  for (const compare::Bounds bounds : {compare::Bounds::ball, compare::Bounds::planes}) {
+    INFO("bounds " << static_cast<int>(bounds));
+    const compare::Scene scene = dense_stack(bounds);
+    const auto counted = start_cpu(scene, {}), grown = start_cpu(scene, {}, 1);
+    const compare::Snapshot start = counted->snapshot(), other = grown->snapshot();
+    CHECK(same_bits(start.positions, other.positions));
+    CHECK(same_bits(start.previous, other.previous));
+    CHECK(start.bounds == other.bounds);
+    CHECK(start.search_limits == other.search_limits);
+    CHECK(start.planes.items.size() == other.planes.items.size());
+    const Rows rows = counted->advance(3);
+    for (const compare::StepMetrics& row : rows) CHECK(row.repeats == 0);
+    CHECK(rows[0].vertex_facet_contacts + rows[0].edge_edge_contacts > 1024 + 4 * 800);
+    CHECK(grown->advance(3)[0].repeats > 0);
+    CHECK(same_bits(counted->snapshot().positions, grown->snapshot().positions));
+    CHECK(counted->snapshot().bounds == grown->snapshot().bounds);
+  }
+}
+
+TEST_CASE("lists grow before they are full, after the same steps whatever the frames, and with the same bits",
+          "[property]") {
+  const compare::Scene scene = drop_scene();
+  const Outcome roomy = run(scene, 40);
+  int most = 0;
+  for (const compare::StepMetrics& row : roomy.rows)
+    most = std::max(most, static_cast<int>(row.vertex_facet_contacts + row.edge_edge_contacts));
+  const int capacity = most + most / 20;  // suffices, but becomes nearly full
+  const auto whole = start_cpu(scene, {}, capacity), stepwise = start_cpu(scene, {}, capacity);
+  const Rows rows = whole->advance(40);
+  REQUIRE(rows.size() == 40);
+  for (const compare::StepMetrics& row : rows) {
+    CHECK(row.repeats == 0);
+    stepwise->advance(1);
+  }
+  const compare::Snapshot a = whole->snapshot(), b = stepwise->snapshot();
+  CHECK(a.capacities[0] > capacity);
+  CHECK(a.capacities == b.capacities);
+  CHECK(same_bits(a.positions, b.positions));
+  CHECK(same_bits(a.positions, roomy.end.positions));
+}
+
 // A step leaves data that a snapshot does not have: the trees, sorted every 16 steps, contacts, bounds, and the strain
 // and angles from which damping starts. None of them may change a result, so each step is taken by a new simulation.
 TEST_CASE("a simulation that is replaced by a new one after each step comes to the same bits and the same rows",

@@ -116,6 +116,56 @@ TEST_CASE("detection: lists grow wherever a contact found no slot", "[unit]") {
   CHECK(lists.capacity() == 30);
 }
 
+TEST_CASE("detection: if pairs had no room only their list grows, since the contacts of the others are not all",
+          "[unit]") {
+  const TestMesh surface = layers(5);
+  const compare::Topology topology = surface.topology();
+  CpuBackend backend;
+  Surface<CpuBackend> mesh(topology, {});
+  Lists<CpuBackend> lists(mesh.view(), 10);
+  lists.reserve(10, 20);
+  const ListsView view = lists.view();
+  *view.noted_count = 21, *view.contact_count = 15, *view.overflow = 1;
+  CHECK(lists.grow());
+  CHECK(lists.capacity() == 10);
+  CHECK(lists.noted_capacity() == 31);
+}
+
+TEST_CASE("detection: a list that is more than seven eighths full after a detection is told, and gets room", "[unit]") {
+  const TestMesh surface = layers(5);
+  const compare::Topology topology = surface.topology();
+  CpuBackend backend;
+  Surface<CpuBackend> mesh(topology, {});
+  for (const auto [contacts, noted, is_short] : {std::array{70, 140, 0}, {71, 140, 1}, {70, 141, 1}, {80, 160, 1}}) {
+    Lists<CpuBackend> lists(mesh.view(), 80);
+    lists.reserve(80, 160);
+    const ListsView view = lists.view();
+    *view.contact_count = contacts, *view.noted_count = noted;
+    CHECK(lists.room().is_short() == (is_short != 0));
+    CHECK_FALSE(lists.grow());
+    CHECK(lists.make_room() == (is_short != 0));
+    CHECK(lists.capacity() == (contacts > 70 ? contacts + contacts / 2 : 80));
+    CHECK(lists.noted_capacity() == (noted > 140 ? noted + noted / 2 : 160));
+    CHECK_FALSE(lists.make_room());
+  }
+  CHECK_FALSE(ListRoom{}.is_short());
+}
+
+TEST_CASE("detection: more pairs than a list may have are an error that says so, and are counted without wrapping",
+          "[unit]") {
+  const TestMesh surface = layers(5);
+  const compare::Topology topology = surface.topology();
+  CpuBackend backend;
+  Surface<CpuBackend> mesh(topology, {});
+  Lists<CpuBackend> lists(mesh.view(), 10);
+  const ListsView view = lists.view();
+  *view.noted_count = ListRoom::most_counted;
+  view.note({1, 2}, false);
+  CHECK(*view.noted_count == ListRoom::most_counted);
+  *view.overflow = 1;
+  CHECK_THROWS_WITH(lists.grow(), Catch::Contains("1073741824 pairs") && Catch::Contains("contact_radius"));
+}
+
 TEST_CASE("detection: after an overflow nothing runs until the lists have grown, and one growth is enough", "[unit]") {
   const TestMesh surface = layers(6);
   const compare::Topology topology = surface.topology();

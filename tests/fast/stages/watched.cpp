@@ -231,6 +231,10 @@ TEST_CASE("nothing is written behind an array, and nothing that is read there ma
       CHECK(simulation.snapshot().positions == expected.snapshot().positions);
     }
   }
+  for (const compare::Bounds bounds : {compare::Bounds::ball, compare::Bounds::planes}) {
+    Watched simulation(WatchedBackend{}, dense_stack(bounds), {}, "");  // lists grow before the first step
+    CHECK(simulation.advance(1)[0].repeats == 0);
+  }
   {
     const compare::Topology topology = compare::build_topology(scene);
     WatchedBackend backend;
@@ -300,8 +304,9 @@ TEST_CASE("strains at the start of a step are asked for where something damps, a
     for (compare::Body& body : scene.bodies) {
       body.material.membrane_damping = membrane, body.material.bending_damping = bending;
     }
+    Watched simulation(WatchedBackend{}, scene, {}, "");
     strains_begun = angles_begun = 0;
-    Watched(WatchedBackend{}, scene, {}, "").advance(3);
+    simulation.advance(3);
     CHECK(strains_begun == (membrane > 0 ? 3 : 0));
     CHECK(angles_begun == (bending > 0 ? 3 : 0));
   }

@@ -328,7 +328,7 @@ class Book(Scratch):
         book = parts.book(parts.Wanted())
         self.assertEqual(list(parts.chosen(book, ["fig02"])), ["fig02"])
         self.assertEqual(set(parts.chosen(book, [], ["fig02", "growth"])),
-                         {"fig02", "fig02_ipc", "growth_cuda", "growth_cpu", "threads"})
+                         {"fig02", "fig02_ipc", "growth_cuda", "growth_cpu", "contacts", "threads"})
         everything = parts.chosen(book)
         self.assertLessEqual({"twist", "windows_knot", "fig21", "minimiser"}, set(everything))
         self.assertNotIn("judge", everything)
@@ -425,10 +425,26 @@ class Growth(Scratch):
         slope, factor = growth.exponent(rows[:3])
         self.assertAlmostEqual(slope, 1.25)
         self.assertAlmostEqual(factor, 2e-3)
+        planes = [{**row, "bounds": "planes", "median [ms]": row["vertices"]} for row in rows[:3]]
+        contacts = {"over": "contacts", "contacts": 2 * 10**7, "median [ms]": 200.0}
+        self.assertEqual(growth.in_words([*planes, contacts]),
+                         ["cuda, planes: time ∝ vertices^1.000 from 10,000 to 1,000,000, ^1.000 from 10,000 on; 7 to 7 "
+                          "contacts a vertex", "20,000,000 contacts: 200 ms a step"])
         self.assertEqual(growth.in_words(rows), ["cuda: time ∝ vertices^1.250 from 10,000 to 1,000,000, ^1.250 from "
                                                  "10,000 on; 7 to 7 contacts a vertex",
                                                  "4 threads are 4 times as fast as 1 (9 vertices), NOT with the same "
                                                  "bits"])
+
+    def test_the_last_state_with_many_contacts_is_audited_in_boxes(self):
+        run, boxes = commands.many_contacts("smoke", "cpu")
+        for job in (run, boxes):
+            self.assertEqual(job.make(OGC, self.folder), FINISHED)
+        self.assertEqual(boxes.make(OGC, self.folder), KEPT)
+        row, = growth.table(self.folder)
+        self.assertEqual((row["over"], row["repeated steps"], row["boxes"], row["seed"], row["wrong in boxes"]),
+                         ("contacts", 0, commands.BOXES["smoke"], commands.SEED_OF_BOXES, 0))
+        self.assertGreater(row["contacts in boxes"], row["contacts"] / 2)  # the boxes are nearly all cells
+        self.assertEqual([path.name for path in boxes.results(self.folder, 0, 0)], ["boxes.json"])
 
     def test_threads_are_powers_of_two_and_all_cores(self):
         for cores, numbers in ((1, [1]), (6, [1, 2, 4, 6]), (16, [1, 2, 4, 8, 16])):
