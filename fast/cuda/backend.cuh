@@ -397,8 +397,9 @@ class CudaBackend {
   /// Waits on the device (fast/cuda/meeting.cuh).
   template <class F, class G>
   void meet(int n, const F& send, const G& end) {
-    const MeetingPlace place{own_part_,     static_cast<int>(flags_.size()), meetings_.data(),
-                             done_.data(), flags_.data(),                   others_flags_.data()};
+    const MeetingPlace place{own_part_,        static_cast<int>(flags_.size()),
+                             meetings_.data(), done_.data(),
+                             flags_.data(),    others_flags_.data()};
     follow(typeid(F), run_meeting<F, G>, std::max(1, blocks(n)), block_threads_, place, n, send, end);
   }
 

@@ -1,7 +1,7 @@
 // Lets the devices that divide a simulation meet inside their graphs, without the host. Each device has a flag for each
 // other one. When all blocks of a launch have sent what they had to send, the last block raises its flag on all other
-// devices, and waits until they have raised theirs. A device that waits for a graph of another device makes no progress,
-// so the host launches a graph only when all parts are ready (CudaBackend::launch).
+// devices, and waits until they have raised theirs. A device that waits makes no progress, so the host launches a graph
+// only when all parts are ready (CudaBackend::launch).
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,10 @@ inline constexpr long long longest_wait = 120'000'000'000;
 
 /// What a device needs for its meetings.
 struct MeetingPlace {
-  int own, count;                     ///< number of this part; number of parts
-  std::uint32_t* meetings;            ///< number of meetings so far
-  unsigned* done;                     ///< blocks of the current launch that have sent their items
-  std::uint32_t* flags;               ///< by part: number of meetings to which it has come; written by that part
+  int own, count;                      ///< number of this part; number of parts
+  std::uint32_t* meetings;             ///< number of meetings so far
+  unsigned* done;                      ///< blocks of the current launch that have sent their items
+  std::uint32_t* flags;                ///< by part: number of meetings to which it has come; written by that part
   std::uint32_t* const* others_flags;  ///< by part: its `flags`
 };
 

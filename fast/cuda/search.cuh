@@ -65,7 +65,11 @@ template <class Query>
 class WarpSearch {
  public:
   __device__ WarpSearch(const Searches<Query>& searches, SearchMemory& memory)
-      : searches_(searches), tree_(searches.tree), query_(searches.query), memory_(at_hand(memory)), lane_(at_hand(threadIdx.x % 32)) {}
+      : searches_(searches),
+        tree_(searches.tree),
+        query_(searches.query),
+        memory_(at_hand(memory)),
+        lane_(at_hand(threadIdx.x % 32)) {}
 
   /// Runs the searches first, first + stride, …, `count` of them.
   __device__ void run(int first, int stride, int count) {

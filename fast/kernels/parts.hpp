@@ -30,22 +30,22 @@ struct alignas(16) PartMessage {
 
 /// Arrays of a part which the others read or write.
 struct PartArrays {
-  PaddedVec* padded = nullptr;             ///< StepState::padded
+  PaddedVec* padded = nullptr;  ///< StepState::padded
   Vec *position = nullptr, *taken = nullptr;
-  LeftForce* left = nullptr;               ///< by slot
+  LeftForce* left = nullptr;                                                        ///< by slot
   float *d_min_vertex = nullptr, *d_min_edge = nullptr, *d_min_triangle = nullptr;  ///< of a detection [m]
-  const RawContact* found = nullptr;       ///< contacts of the part's own searches
-  PaddedVec* mail = nullptr;               ///< [meeting, even or odd][slot]: positions that the others send [m]
-  PartMessage* inbox = nullptr;            ///< [meeting, even or odd][part that sends]
+  const RawContact* found = nullptr;  ///< contacts of the part's own searches
+  PaddedVec* mail = nullptr;          ///< [meeting, even or odd][slot]: positions that the others send [m]
+  PartMessage* inbox = nullptr;       ///< [meeting, even or odd][part that sends]
 };
 
 /// The parts as kernels see them. The pointers are on the backend.
 struct PartsView {
-  int own = 0, count = 1;             ///< number of this part; number of parts
-  const PartArrays* arrays = nullptr;  ///< by part
-  const int* begin = nullptr;         ///< part p has the vertices begin[p] … begin[p + 1] − 1
+  int own = 0, count = 1;                   ///< number of this part; number of parts
+  const PartArrays* arrays = nullptr;       ///< by part
+  const int* begin = nullptr;               ///< part p has the vertices begin[p] … begin[p + 1] − 1
   const std::uint32_t* meetings = nullptr;  ///< number of meetings so far
-  int slots = 0;                      ///< number of free vertices
+  int slots = 0;                            ///< number of free vertices
 
   OGC_HD bool is_own(int v) const { return begin[own] <= v && v < begin[own + 1]; }
   /// Returns the part that has a vertex.
@@ -100,10 +100,10 @@ struct TakeCounts {
 /// Sends positions of the guess loop's round. Runs once for each own vertex.
 struct SendGuess {
   PartsView parts;
-  int first;             ///< first own vertex
-  int vertex_count;      ///< length of one half of `taken`
-  const Vec* position;   ///< x by vertex [m]
-  const Vec* taken;      ///< as in GuessVertex
+  int first;            ///< first own vertex
+  int vertex_count;     ///< length of one half of `taken`
+  const Vec* position;  ///< x by vertex [m]
+  const Vec* taken;     ///< as in GuessVertex
   const StepControl* control;
 
   OGC_HD void operator()(int i) const {

@@ -49,7 +49,8 @@ class Parts {
     for (int c = 0; c < colouring.count; ++c) {
       const auto order = colouring.order.begin(), first = order + colouring.begin[static_cast<std::size_t>(c)],
                  last = order + colouring.begin[static_cast<std::size_t>(c) + 1];
-      colours_.push_back({colouring.begin[static_cast<std::size_t>(c)], colouring.begin[static_cast<std::size_t>(c) + 1]});
+      colours_.push_back(
+          {colouring.begin[static_cast<std::size_t>(c)], colouring.begin[static_cast<std::size_t>(c) + 1]});
       slots_.push_back({static_cast<int>(std::lower_bound(first, last, vertices_.begin) - order),
                         static_cast<int>(std::lower_bound(first, last, vertices_.end) - order)});
     }
@@ -152,7 +153,7 @@ class Parts {
   }
 
  private:
-  static constexpr bool may_divide = requires(Backend& backend) { backend.meetings(); };
+  static constexpr bool may_divide = requires(Backend & backend) { backend.meetings(); };
 
   PartsView view() { return {own_, count(), arrays_.data(), begin_.data(), backend_.meetings(), slots_in_all_}; }
 

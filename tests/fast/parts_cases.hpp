@@ -14,8 +14,8 @@
 
 namespace ogc::fast::test {
 
-/// Returns a scene: two sheets fall askew on a fixed one, and one of their edges is carried along: contacts of all kinds between all
-/// parts, prescribed vertices, several detections a step.
+/// Returns two sheets that fall askew on a fixed one, and of which one edge is carried along: contacts of all kinds
+/// between all parts, prescribed vertices, several detections a step.
 inline compare::Scene falling_sheets() {
   compare::Scene scene = empty_scene();
   add_sheet(scene, 12, 0.10, 0.012, false);

@@ -29,8 +29,8 @@ std::string introduction(const RunRequest& request) {
 }
 
 /// RunOptions that are allowed with --resume, because they change no bit of the results.
-constexpr std::array<std::string_view, 7> free_options{
-    "--resume", "--threads", "--devices", "--checkpoint", "--json", "--view", "--view-png"};
+constexpr std::array<std::string_view, 7> free_options{"--resume", "--threads", "--devices", "--checkpoint",
+                                                       "--json",   "--view",    "--view-png"};
 
 ResumedRun resumed(const RunOptions& options, const std::string& folder, const CLI::App& command) {
   std::string given;
