@@ -72,8 +72,8 @@ struct BeginRegions {
 
 /// Sets x to y, truncated to the region. Before this, contacts may shorten the move of a free vertex. The truncation
 /// slides a free vertex along half-spaces with the metric of inertia. From the second round on, a prescribed vertex in
-/// contact stays, because only the sweeps move its neighbours out of its way. Runs once for each vertex from `first` on;
-/// lanes may share the half-spaces of a vertex.
+/// contact stays, because only the sweeps move its neighbours out of its way. Runs once for each vertex from `first`
+/// on; lanes may share the half-spaces of a vertex.
 struct GuessVertex {
   const Vec* target;        ///< y by vertex [m]
   FeasibleRegions regions;  ///< about X_prev

@@ -28,9 +28,9 @@
 //   for_each_team<W>(Teams teams, F f, Start start)
 //         calls f(i, team) for 0 ≤ i < teams.count. f calls team.sum<Accumulator>(parts...) once, with F::parts parts,
 //         in the order of fast/kernels/team.hpp, so only W can change a bit. The thread for which team.leader() holds
-//         has the total and writes it. Instead of the sum, all teams of a launch may call team.leave(). With Start::overlapping, f may
-//         begin before the previous launch ends. So that launch must not write what f reads before team.sum, or what
-//         the parts `load`; it may write what `add` and `term` read
+//         has the total and writes it. Instead of the sum, all teams of a launch may call team.leave(). With
+//         Start::overlapping, f may begin before the previous launch ends. So that launch must not write what f reads
+//         before team.sum, or what the parts `load`; it may write what `add` and `term` read
 //   for_each_row(int n, const int* offsets, const float* values, F f)
 //         calls f(i, least, after) for each row values[offsets[i]] … values[offsets[i + 1] − 1], in any order. least:
 //         the smallest number; after: the number with F::rank ≤ 31 others before it in ascending order; infinite if

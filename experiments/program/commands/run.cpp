@@ -95,8 +95,9 @@ int make_run(const RunOptions& options, const std::string& resume, const LiveVie
     throw compare::InputError("run needs a scene (" + scene_names() +
                               "), a scene file, a mesh file, or --resume RUN; see ogc run --help");
   if (resume.empty() && (options.worlds > 0 || !options.world_settings.empty())) {
-    if (view.any()) throw compare::InputError("--view shows a run of one world; leave it or --worlds out");
-    if (options.devices > 1) throw compare::InputError("--worlds run on one device; leave --worlds or --devices out");
+    if (view.any())
+      throw compare::InputError("--view shows a run of one world; leave it out, or --worlds and --world-settings");
+    if (options.devices > 1) throw compare::InputError("worlds run on one device; leave them or --devices out");
     return make_worlds(options, context);
   }
   ResumedRun run = resume.empty() ? ResumedRun{options, request_of(options, context)}

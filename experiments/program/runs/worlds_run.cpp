@@ -278,7 +278,8 @@ class WorldsSession {
 
 void check_worlds(const RunRequest& request) {
   const auto refuse = [](const std::string& option) {
-    throw compare::InputError(option + " belongs to a run of one world; leave it or --worlds out");
+    throw compare::InputError(option +
+                              " belongs to a run of one world; leave it out, or --worlds and --world-settings");
   };
   if (request.solver != "vbd") refuse("--solver " + request.solver);
   if (request.profile) refuse("--profile");
