@@ -193,7 +193,7 @@ class Accepting(Scratch):
             (self.runs / "fig18-paper-cuda/run/audit.json").write_text(json.dumps({"states": 101, "clean": clean}))
             if clean:
                 self.accept("fig18")
-                self.assertEqual(Evidence(self.results).runs[0].audit_in_words, "101 states audited, 100 steps")
+                self.assertEqual(Evidence(self.results).runs[0].audit_in_words, "101 states of 100 steps were audited.")
             else:
                 with self.assertRaisesRegex(accept.AcceptError, "failed its audit"):
                     self.accept("fig18")

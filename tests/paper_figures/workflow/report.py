@@ -30,7 +30,7 @@ except ImportError as error:
     sys.exit(77)
 from paper_figures.site import claims, curves, documents, figures, files  # noqa: E402
 from paper_figures.workflow import recipes, report, verdicts  # noqa: E402
-from paper_figures.workflow.evidence import RESULTS, manifest_at  # noqa: E402
+from paper_figures.workflow.evidence import MEMBRANES, RESULTS, manifest_at  # noqa: E402
 
 VOID = {"img", "br", "hr", "meta", "link", "input", "wbr"}
 WORDS = 3  # of a text for a picture, at least
@@ -163,11 +163,14 @@ def faults(site):
 
 def faults_of_first_page(words, rows):
     results = [row for row in rows if row["kind"] == "result"]
-    count = lambda verdict: sum(row["verdict"] == verdict for row in results)  # noqa: E731
-    wanted = [f"Of the paper's {len(results)} claims about results {count('reproduced')} are reproduced",
-              f"for {sum(r['verdict'] == 'reproduced' and r['band set after a run'] != '' for r in results)} of them",
+    own, studies = ([row for row in results if row["of"] == name] for name in ("paper", "study"))
+    count = lambda verdict, among=own: sum(row["verdict"] == verdict for row in among)  # noqa: E731
+    wanted = [f"Of the paper's own {len(own)} claims about results {count('reproduced')} are reproduced",
+              f"for {sum(r['verdict'] == 'reproduced' and r['band set after a run'] != '' for r in own)} of them",
               f"{count('refuted')} are refuted", f"{count('not comparable')} are not comparable",
-              f"{count('not yet run')} are not yet run", f"stand {len(rows) - len(results)} settings"]
+              f"{count('not yet run')} are not yet run", f"stand {len(rows) - len(results)} settings",
+              f"Of {len(studies)} claims of our own studies {count('reproduced', studies)} are reproduced and "
+              f"{count('refuted', studies)} refuted"]
     return [f"index.html does not say '{each}'" for each in wanted if each not in words]
 
 
@@ -237,10 +240,10 @@ class OfSite(unittest.TestCase):
         self.assertTrue(any("can't be read" in fault for fault in faults(self.folder)))
         picture.write_bytes(good)
 
-    def test_five_sentences_say_what_there_is(self):
+    def test_six_sentences_say_what_there_is(self):
         summary = re.search(r'<div id="summary">(.*?)</div>', (self.folder / "index.html").read_text(), re.S)[1]
         words = Page(summary).words.strip()
-        self.assertEqual(len(re.findall(r"[a-z]\. |[a-z]\.$", words)), 5, words)
+        self.assertEqual(len(re.findall(r"[a-z]\. |[a-z]\.$", words)), 6, words)
 
     def test_each_claim_stands_on_the_page_of_its_figure(self):
         for claim in self.site.claims:
@@ -266,7 +269,7 @@ class OfSite(unittest.TestCase):
         self.assertEqual(set(claims.MEANING), {*verdicts.VERDICTS, *verdicts.AS_SET})
         for claim in self.site.claims:
             self.assertTrue(claim.sentence or claim.note, claim.id)
-            self.assertFalse([name for name in claims.MEMBRANES if name in claim.note], claim.id)
+            self.assertFalse([name for name in MEMBRANES if name in claim.note], claim.id)
             self.assertNotIn("not printed", claim.paper + claim.ours + claim.sentence, claim.id)
 
     def test_a_figure_without_a_picture_says_the_command_that_makes_it(self):
