@@ -436,12 +436,12 @@ class JustMade(unittest.TestCase):
 
     def test_table_1_is_shown_where_it_was_made(self):
         self.assertNotIn("just made", Page(self.site("paper").table1()).words)
-        made = self.runs / "table1-paper-cuda/table1_paper.csv"
+        made = self.runs / "table1-small-cuda/table1_small.csv"
         made.parent.mkdir()
-        made.write_bytes((RESULTS / "h200/table1_paper.csv").read_bytes())
-        page = Page(self.site("paper").table1())
-        self.assertIn("Table 1 at scale paper, just made", page.words)
-        self.assertIn("files/new/table1_paper.csv", page.links)
+        made.write_bytes((RESULTS / "two_cores/table1_small.csv").read_bytes())
+        page = Page(self.site("small").table1())
+        self.assertIn("Table 1 at scale small, just made", page.words)
+        self.assertIn("files/new/table1_small.csv", page.links)
 
     def test_what_an_audit_did_not_look_at_is_said(self):
         unseen = "the ways between them were not looked at"
