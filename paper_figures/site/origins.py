@@ -2,12 +2,13 @@
 and durations beside them, and from the manifests of runs."""
 
 import csv
+import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
 
-from paper_figures.workflow import recipes
-from paper_figures.workflow.evidence import RESULTS
+from paper_figures.workflow import contents, recipes
+from paper_figures.workflow.evidence import NOT_RUN, RESULTS
 
 QUOTIENT = " / "  # between the two sources of a ratio
 
@@ -15,17 +16,20 @@ QUOTIENT = " / "  # between the two sources of a ratio
 @dataclass(frozen=True)
 class Origin:
     """Holds what is known of a file below the results. `seconds`: how long its run or figure took, None if nobody
-    measured it; `command` is empty where the README beside the file names it."""
+    measured it; `by_rows`: it is the time of the steps in the table's rows alone."""
 
     file: str
     command: str
     seconds: float
     hardware: str
     commit: str
+    by_rows: bool = False
 
     @property
     def time(self):
-        return "not measured" if self.seconds is None else recipes.in_words(self.seconds)
+        if self.seconds is None:
+            return "not measured: the file has no times of its runs"
+        return recipes.in_words(self.seconds) + (", steps alone" if self.by_rows else "")
 
     @property
     def machine(self):
@@ -39,6 +43,20 @@ def seconds_between(manifest):
         return None
     begun, ended = (datetime.fromisoformat(manifest[key]) for key in ("started", "ended"))
     return (ended - begun).total_seconds()
+
+
+def seconds_by_rows(path):
+    """Returns how long the steps in the rows of a table took [s]: of runs by their mean, of single steps by their own
+    time; None if it does not say for each row that was run."""
+    if not contents.is_table(path.name):
+        return None
+    rows = [row for row in contents.rows_of(path) if row.get("status") != NOT_RUN]
+    try:
+        times = [float(row["step [ms]"]) if "step [ms]" in row
+                 else float(row["mean [ms]"]) * (int(row["last step"]) - int(row["first step"]) + 1) for row in rows]
+    except (KeyError, ValueError):
+        return None
+    return sum(times) / 1000 if times and all(map(math.isfinite, times)) else None
 
 
 class Origins:
@@ -58,15 +76,16 @@ class Origins:
         took = self.times.get((row.get("figure"), row.get("scale"), row.get("backend")))
         if run is None and took and took[1] == name.partition("/")[0]:
             seconds = took[0]
+        by_rows = seconds_by_rows(self.folder / name) if seconds is None and name in self.rows else None
         device = run.manifest["device"] if run else row.get("device", "")
-        return Origin(name, row.get("redo", ""), seconds, device, row.get("commit", "")[:10])
+        return Origin(name, row.get("redo", ""), by_rows if seconds is None else seconds, device,
+                      row.get("commit", "")[:10], seconds is None and by_rows is not None)
 
     def of(self, measured):
         """Returns the origins of a measured number: of a ratio those of both runs."""
         found = [self.of_file(name) for name in measured.source.split(QUOTIENT)]
         return [each if each.hardware not in ("", "rows say") else
-                Origin(each.file, each.command, each.seconds, measured.device, each.commit or measured.commit)
-                for each in found]
+                replace(each, hardware=measured.device, commit=each.commit or measured.commit) for each in found]
 
     def title_of_machine(self, machine):
         """Returns the machine in words: the title of the README of its results."""

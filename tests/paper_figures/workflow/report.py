@@ -28,7 +28,7 @@ try:
 except ImportError as error:
     print(f"SKIPPED: {error}")
     sys.exit(77)
-from paper_figures.site import claims, curves, documents, figures, files  # noqa: E402
+from paper_figures.site import claims, curves, documents, figures, files, origins  # noqa: E402
 from paper_figures.workflow import recipes, report, verdicts  # noqa: E402
 from paper_figures.workflow.evidence import MEMBRANES, RESULTS, manifest_at  # noqa: E402
 
@@ -442,6 +442,21 @@ class JustMade(unittest.TestCase):
         page = Page(self.site("small").table1())
         self.assertIn("Table 1 at scale small, just made", page.words)
         self.assertIn("files/new/table1_small.csv", page.links)
+
+    def test_the_time_of_a_table_is_that_of_its_rows_steps_or_is_said_to_be_not_measured(self):
+        (self.runs / "t").mkdir(parents=True)
+        for text, seconds in (("step [ms]\n1500\n2500\n", 4), ("step [ms]\n1500\nnan\n", None),
+                              ("mean [ms],first step,last step,status\n2,1,1000,finished\n,,,not run\n", 2),
+                              ("median\n3\n", None), ("step [ms]\n", None)):
+            path = self.runs / "t/t.csv"
+            path.write_text(text)
+            self.assertEqual(origins.seconds_by_rows(path), seconds, text)
+        found = origins.Origins([])
+        times = {name: found.of_file(name).time for name in
+                 ("two_cores/fig17_newton_paper.csv", "two_cores/radius_smoke.csv", "two_cores/fig21_paper.csv")}
+        self.assertRegex(times["two_cores/fig17_newton_paper.csv"], r"^\d+ min, steps alone$")
+        self.assertRegex(times["two_cores/radius_smoke.csv"], "^not measured: the file has no times")
+        self.assertRegex(times["two_cores/fig21_paper.csv"], r"^\d+ min$", "the figure was timed")
 
     def test_what_an_audit_did_not_look_at_is_said(self):
         unseen = "the ways between them were not looked at"
