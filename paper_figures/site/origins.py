@@ -5,9 +5,9 @@ import csv
 import math
 import re
 from dataclasses import dataclass, replace
-from datetime import datetime
 
-from paper_figures.workflow import contents, recipes
+from paper_figures.workflow import contents
+from paper_figures.workflow.durations import in_words, measured_times, seconds_between
 from paper_figures.workflow.evidence import NOT_RUN, RESULTS
 
 QUOTIENT = " / "  # between the two sources of a ratio
@@ -29,20 +29,12 @@ class Origin:
     def time(self):
         if self.seconds is None:
             return "not measured: the file has no times of its runs"
-        return recipes.in_words(self.seconds) + (", steps alone" if self.by_rows else "")
+        return in_words(self.seconds) + (", steps alone" if self.by_rows else "")
 
     @property
     def machine(self):
         """Returns the folder of the results, whose README describes the machine."""
         return self.file.partition("/")[0]
-
-
-def seconds_between(manifest):
-    """Returns how long a run took [s], or None if its manifest does not say."""
-    if not (manifest.get("started") and manifest.get("ended")):
-        return None
-    begun, ended = (datetime.fromisoformat(manifest[key]) for key in ("started", "ended"))
-    return (ended - begun).total_seconds()
 
 
 def seconds_by_rows(path):
@@ -64,7 +56,7 @@ class Origins:
 
     def __init__(self, runs, folder=RESULTS):
         self.folder, self.runs = folder, {run.source: run for run in runs}
-        self.rows, self.times = {}, recipes.measured_times()
+        self.rows, self.times = {}, measured_times()
         for path in sorted(folder.glob("*/provenance.csv")):
             with path.open(newline="", encoding="utf-8") as file:
                 self.rows.update({f"{path.parent.name}/{row['file']}": row for row in csv.DictReader(file)})
