@@ -167,13 +167,15 @@ def commands_of(name, made, wanted):
 
 
 def judged(wanted):
-    """Returns the judge's counts under SEEDS seeds, and digests that another machine can compare."""
-    begin = (Command.PROGRAM, "compare", "--backend", wanted.backend)
-    made = [Command(f"seed_{seed}", (*begin, "--cases", str(CASES[wanted.scale]), "--seed", str(seed), "--json",
-                                     "--report", Command.FOLDER), ("report.txt",), wanted.backend == "cuda")
-            for seed in range(1, 1 + SEEDS[wanted.scale])]
-    same = Command("determinism", (*begin, "--determinism", "--json"), (), wanted.backend == "cuda")
-    return parts.Part(wanted.folder("judge"), ((*made, same, Counts(wanted.backend, tuple(made))),), frames=0)
+    """Returns the judge's counts under SEEDS seeds, and, as a part of its own, digests that another machine can
+    compare."""
+    begin, on_device = (Command.PROGRAM, "compare", "--backend", wanted.backend), wanted.backend == "cuda"
+    made = tuple(Command(f"seed_{seed}", (*begin, "--cases", str(CASES[wanted.scale]), "--seed", str(seed), "--json",
+                                          "--report", Command.FOLDER), ("report.txt",), on_device)
+                 for seed in range(1, 1 + SEEDS[wanted.scale]))
+    same = Command("all", (*begin, "--determinism", "--json"), (), on_device)
+    return {"judge": parts.Part(wanted.folder("judge"), ((*made, Counts(wanted.backend, made)),), frames=0),
+            "determinism": commands_of("determinism", [same], wanted)}
 
 
 def laws(wanted):
@@ -230,7 +232,7 @@ def plan(where, wanted, listed):
     book = parts.book(wanted)
     last = {name: book.pop(name) for name in list(book) if name.startswith("windows_")}
     small = replace(wanted, scale="smoke") if wanted.scale == "small" else wanted
-    return {**book, "judge": judged(wanted), "laws": laws(wanted), "jittered": jittered(wanted),
+    return {**book, **judged(wanted), "laws": laws(wanted), "jittered": jittered(wanted),
             **studies(small, listed), **(beyond_device(wanted) if where == "cores" else {}), **last}
 
 
