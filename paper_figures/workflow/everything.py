@@ -1,8 +1,10 @@
 """Makes all evidence of one program, in parts with a limit of time: `experiments/evidence` calls it.
 
 On a device (`gpu`): the runs of all figures and of Table 1 at the paper's size, what the judge counts, the laws of
-motion, jittered starts, the ablations; windows on the processors come last. On processors (`cores`): the same at scale
-small on the CPU, the ablations at smoke, and what needs no device: drawings and the measured studies.
+motion, jittered starts, the ablations, the measured studies of the mat and of yarn; windows on the processors come
+last. On processors (`cores`): the same at scale small on the CPU, the ablations at smoke, and what needs no device:
+drawings and the other measured studies. Left out are other people's programs (experiments/peers/run), sanitizers and
+fuzz, which need builds of their own, and tables about rejected ideas.
 
 What is finished is kept, what the limit cut off goes on at the next call, which is due as long as the exit status is
 75. After each part its tables, manifests and some frames are packed into files that are small enough to be carried
@@ -11,8 +13,8 @@ changes, or whose sources are not those of the checkout's HEAD, is refused.
 
 Expected times are those of an earlier call into the same folder, else of the accepted results, on the machine that made
 them; "–" where nobody measured. Python's own library is enough, except for the list of ablations, which needs PyYAML:
-where that is missing, --studies names the file that --write-studies wrote elsewhere; drawings and measured studies need
-the project's Python environment.
+where that is missing, --studies names the file that --write-studies wrote elsewhere. Drawings and measured studies need
+the project's Python environment; where NumPy is missing they are left out, which is said.
 
 Exit status: 0 all is finished, 1 a part failed (the others were made), 2 wrong words, 75 the limit came first.
 
@@ -36,6 +38,7 @@ import subprocess
 import sys
 import time
 from dataclasses import dataclass, replace
+from importlib.util import find_spec
 from pathlib import Path
 
 from paper_figures.workflow import contents, packing, parts
@@ -51,7 +54,8 @@ JITTERED = ("twist", "knot", "dress")
 STARTS = 10  # jittered ones
 SEEDS = {"smoke": 2, "small": 10, "paper": 10}  # of the judge
 CASES = {"smoke": 100, "small": 100_000, "paper": 1_000_000}  # that it asks of each stage
-MEASURED = ("activation_load", "creep", "falling", "radius")
+MEASURED = {"activation_load": True, "creep": True, "falling": False, "radius": True}  # whether it has scales
+MEASURED_ON_DEVICE = ("mat_volumes", "yarn_return")
 LARGEST = 2**20  # bytes of a packed file
 
 
@@ -208,8 +212,8 @@ def list_of_studies():
     try:
         from paper_figures.figures.ablations import study
     except ImportError as error:
-        raise PlanError(f"the ablations are listed in YAML files, and {error.name} is missing: write them elsewhere with "
-                        "--write-studies, and name the file with --studies; or leave them out with --no-studies"
+        raise PlanError(f"the ablations are listed in YAML files, and {error.name} is missing: write them elsewhere "
+                        "with --write-studies, and name the file with --studies; or leave them out with --no-studies"
                         ) from error
     return {path.stem: {scale: {backend: {scene: study.command(body, scene, scale, backend)
                                           for scene in study.scenes_at(body, scale)} for backend in ("cpu", "cuda")}
@@ -217,14 +221,18 @@ def list_of_studies():
             for path in sorted(study.HERE.glob("*.yaml")) for body in [study.load(path.stem)]}
 
 
-def beyond_device(wanted):
-    """Returns what is drawn or measured on processors alone, in the project's Python environment."""
-    measure = [Command(name, (Command.PYTHON, "-m", f"paper_figures.figures.measured.{name}", Command.FOLDER, "--ogc",
-                              Command.PROGRAM, "--scale", wanted.scale), ("*.csv", "*.png")) for name in MEASURED]
+def measured_studies(where, wanted):
+    """Returns what is drawn or measured in the project's Python environment."""
+    scale = ("--scale", wanted.scale)
+    of_study = lambda name, *more: commands_of(name, [Command(  # noqa: E731
+        "all", (Command.PYTHON, "-m", f"paper_figures.figures.measured.{name}", Command.FOLDER, "--ogc",
+                Command.PROGRAM, *more), ("*.csv", "*.png"), "cuda" in more)], wanted)
+    if where == "gpu":
+        return {name: of_study(name, *scale, "--backend", wanted.backend) for name in MEASURED_ON_DEVICE}
     draw = Command("all", (Command.PYTHON, "-m", "paper_figures.workflow.local", Command.FOLDER, Command.PROGRAM,
                            wanted.scale, "cpu", "illustrations"), ("*/*.png", "*/*.json", "*/*.gz"))
     return {"illustrations": commands_of("illustrations", [draw], wanted),
-            **{job.name: commands_of(job.name, [replace(job, name="all")], wanted) for job in measure}}
+            **{name: of_study(name, *(scale if has_scales else ())) for name, has_scales in MEASURED.items()}}
 
 
 def plan(where, wanted, listed):
@@ -233,7 +241,7 @@ def plan(where, wanted, listed):
     last = {name: book.pop(name) for name in list(book) if name.startswith("windows_")}
     small = replace(wanted, scale="smoke") if wanted.scale == "small" else wanted
     return {**book, **judged(wanted), "laws": laws(wanted), "jittered": jittered(wanted),
-            **studies(small, listed), **(beyond_device(wanted) if where == "cores" else {}), **last}
+            **studies(small, listed), **measured_studies(where, wanted), **last}
 
 
 def accepted_seconds(name, wanted, times):
@@ -388,6 +396,10 @@ def prepared(options):
         if name not in whole:
             raise KeyError(name)
     chosen = {name: whole[name] for name in options.parts or whole}
+    lacking = [] if options.parts or find_spec("numpy") else list(measured_studies(options.where, wanted))
+    if lacking:
+        print(f"evidence: left out, as NumPy is missing: {', '.join(lacking)}", file=sys.stderr)
+        chosen = {name: part for name, part in chosen.items() if name not in lacking}
     before, times = measured_before(options.out), measured_times()
     seconds = {name: before[name]["seconds"] if before.get(name, {}).get("end") in (FINISHED, KEPT)
                else accepted_seconds(name, wanted, times) for name in chosen}

@@ -5,13 +5,16 @@ Usage: everything.py SOURCE_DIR OGC. The standard library is enough.
 """
 
 import csv
+import io
 import json
 import os
+import re
 import subprocess
 import sys
 import tarfile
 import tempfile
 import unittest
+from contextlib import redirect_stderr
 from pathlib import Path
 from unittest import mock
 
@@ -194,9 +197,21 @@ class Plans(unittest.TestCase):
                                               ("cores", "small", "cpu", "ablation_x-smoke-cpu")):
             self.assertEqual(self.plan(where, scale, backend)["ablation_x"].folder, folder)
 
-    def test_each_measured_study_is_a_program(self):
-        for name in everything.MEASURED:
-            self.assertTrue((SOURCE / f"paper_figures/figures/measured/{name}.py").is_file())
+    def test_each_measured_study_is_a_program_with_the_options_that_it_gets(self):
+        for name, has_scales in {**everything.MEASURED, **dict.fromkeys(everything.MEASURED_ON_DEVICE, True)}.items():
+            text = (SOURCE / f"paper_figures/figures/measured/{name}.py").read_text()
+            (said,) = re.findall(r"parser_of_figure\(__doc__\.splitlines\(\)\[0\](.*)\)", text)
+            self.assertEqual(bool(re.match(r", [A-Z(]", said)), has_scales, name)
+            self.assertEqual("has_backend=False" in said, name in ("activation_load", "falling", "radius"), name)
+
+    def test_what_needs_numpy_is_left_out_in_words_where_it_is_missing(self):
+        options = everything.arguments().parse_args(["gpu", "--no-studies"])
+        for there in (True, False):
+            said = io.StringIO()
+            with mock.patch.object(everything, "find_spec", return_value=there or None), redirect_stderr(said):
+                chosen, _ = everything.prepared(options)
+            self.assertEqual("mat_volumes" in chosen, there)
+            self.assertEqual("left out, as NumPy is missing: mat_volumes, yarn_return" in said.getvalue(), not there)
 
     def test_shares_are_everything_once_alike_long_and_keep_together_what_shares_a_run(self):
         chosen = self.plan("gpu", "paper", "cuda")
