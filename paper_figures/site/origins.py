@@ -7,7 +7,7 @@ import re
 from dataclasses import dataclass, replace
 
 from paper_figures.workflow import contents
-from paper_figures.workflow.durations import in_words, measured_times, seconds_between
+from paper_figures.workflow.durations import OF_ALL_RUNS, in_words, measured_times, seconds_between
 from paper_figures.workflow.evidence import NOT_RUN, RESULTS
 
 QUOTIENT = " / "  # between the two sources of a ratio
@@ -16,7 +16,7 @@ QUOTIENT = " / "  # between the two sources of a ratio
 @dataclass(frozen=True)
 class Origin:
     """Holds what is known of a file below the results. `seconds`: how long its run or figure took, None if nobody
-    measured it; `by_rows`: it is the time of the steps in the table's rows alone."""
+    measured it; `by_rows`: it is the time that the table's rows name."""
 
     file: str
     command: str
@@ -29,7 +29,7 @@ class Origin:
     def time(self):
         if self.seconds is None:
             return "not measured: the file has no times of its runs"
-        return in_words(self.seconds) + (", steps alone" if self.by_rows else "")
+        return in_words(self.seconds) + (", by its rows" if self.by_rows else "")
 
     @property
     def machine(self):
@@ -38,11 +38,15 @@ class Origin:
 
 
 def seconds_by_rows(path):
-    """Returns how long the steps in the rows of a table took [s]: of runs by their mean, of single steps by their own
-    time; None if it does not say for each row that was run."""
+    """Returns how long the rows of a table say that they took [s]: the steps of runs by their mean, single steps by
+    their own time, the runs of ablations by the rows about it; None if it does not say for each row that was run, or each scene."""
     if not contents.is_table(path.name):
         return None
     rows = [row for row in contents.rows_of(path) if row.get("status") != NOT_RUN]
+    if rows and "metric" in rows[0]:
+        scenes = lambda found: {(row["study"], row["scene"]) for row in found}  # noqa: E731
+        timed = [row for row in rows if row["metric"] == OF_ALL_RUNS and row["median"]]
+        return sum(float(row["median"]) for row in timed) if scenes(timed) == scenes(rows) else None
     try:
         times = [float(row["step [ms]"]) if "step [ms]" in row
                  else float(row["mean [ms]"]) * (int(row["last step"]) - int(row["first step"]) + 1) for row in rows]

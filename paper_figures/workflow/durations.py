@@ -5,6 +5,7 @@ import csv
 from datetime import datetime
 from pathlib import Path
 
+OF_ALL_RUNS = "time_of_all_runs"  # metric of ablations: of a scene's runs together, from starts to ends
 RESULTS = Path(__file__).parent.parent / "results"
 
 

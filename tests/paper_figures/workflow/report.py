@@ -447,14 +447,16 @@ class JustMade(unittest.TestCase):
         (self.runs / "t").mkdir(parents=True)
         for text, seconds in (("step [ms]\n1500\n2500\n", 4), ("step [ms]\n1500\nnan\n", None),
                               ("mean [ms],first step,last step,status\n2,1,1000,finished\n,,,not run\n", 2),
-                              ("median\n3\n", None), ("step [ms]\n", None)):
+                              ("median\n3\n", None), ("step [ms]\n", None),
+                              ("study,scene,metric,median\ns,a,time_of_all_runs,3\ns,a,m,1\n", 3),
+                              ("study,scene,metric,median\ns,a,time_of_all_runs,3\ns,b,m,1\n", None)):
             path = self.runs / "t/t.csv"
             path.write_text(text)
             self.assertEqual(origins.seconds_by_rows(path), seconds, text)
         found = origins.Origins([])
         times = {name: found.of_file(name).time for name in
                  ("two_cores/fig17_newton_paper.csv", "two_cores/radius_smoke.csv", "two_cores/fig21_paper.csv")}
-        self.assertRegex(times["two_cores/fig17_newton_paper.csv"], r"^\d+ min, steps alone$")
+        self.assertRegex(times["two_cores/fig17_newton_paper.csv"], r"^\d+ min, by its rows$")
         self.assertRegex(times["two_cores/radius_smoke.csv"], "^not measured: the file has no times")
         self.assertRegex(times["two_cores/fig21_paper.csv"], r"^\d+ min$", "the figure was timed")
 
