@@ -189,7 +189,8 @@ def normal(path):
 SOUND = {
     "README.md": "See [the method](compare/method.md), [its energies](compare/method.md#4-energies), `method.md` §4.\n",
     "compare/method.md": "# Method\n\n## 4. Energies\n\n### 4.2 Contact\n\n## 5b. Planes\n\n**In bold.** Words.\n",
-    "compare/deviations.md": "| where | why |\n|---|---|\n| §5.1.3 | the body, `tests/a.cpp`: *a body …*, *… pushes* |\n",
+    "compare/deviations.md": "| where | why |\n|---|---|\n"
+                             "| §5.1.3 | the body, `tests/a.cpp`: *a body …*, *… pushes* |\n",
     "tests/a.cpp": 'TEST_CASE("a body that is "\n          "pushed pushes")\n',
     "fast/kernels/a.hpp": "// Of a contact (method.md §4.2, §4), as the\n// rule of method.md\n// §5b says; "
                           "compare/deviations.md, §5.1.3.\n",
