@@ -39,7 +39,8 @@ class Origin:
 
 def seconds_by_rows(path):
     """Returns how long the rows of a table say that they took [s]: the steps of runs by their mean, single steps by
-    their own time, the runs of ablations by the rows about it; None if it does not say for each row that was run, or each scene."""
+    their own time, the runs of ablations by the rows about it; None if it does not say for each row that was run, or
+    each scene."""
     if not contents.is_table(path.name):
         return None
     rows = [row for row in contents.rows_of(path) if row.get("status") != NOT_RUN]
