@@ -87,7 +87,7 @@ def table(folder):
                                                                     int(path.parent.name.rpartition("_")[2]))):
         run = run_at(path.parent)
         if run and run.manifest["status"] == "finished":
-            memory = taken(folder / f"{path.parent.name}{MEMORY}")
+            memory = taken(folder / f"{path.parent.name}{MEMORY}") or ""  # 0: sampled before it used any
             rows.append(row_of(path.parent.name, run, memory, boxes_of(path.parent)))
     return rows
 
