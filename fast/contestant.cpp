@@ -33,12 +33,12 @@ ResidentState& resident_state(compare::Simulation& simulation) {
 
 BackendInfo backend_info(Backend backend) { return backend == Backend::cpu ? cpu_info() : device_info(); }
 
-compare::Contestant contestant(Backend backend, [[maybe_unused]] const LaunchShape& shape) {
-  if (backend == Backend::cpu) return cpu_contestant();
+compare::Contestant contestant(Backend backend, const LaunchShape& shape) {
+  if (backend == Backend::cpu) return cpu_contestant(shape.devices);
 #if defined(OGC_HAS_CUDA)
   return cuda_contestant(shape);
 #else
-  throw compare::ResourceError("backend cuda: " + device_info().description + ", or use --backend cpu");
+  throw compare::ResourceError("backend cuda: " + device_info().description + ", or use the backend cpu");
 #endif
 }
 

@@ -11,12 +11,14 @@ namespace ogc::fast {
 /// Selects where to compute: on the host's threads, or on one CUDA device.
 enum class Backend { cpu, cuda };
 
-/// Sets how launches are divided into blocks. No result depends on it. Tests of determinism use it to launch on one
+/// Sets how work is divided. No result depends on it. Tests of determinism use it to launch on one
 /// device with the shape of another device.
 struct LaunchShape {
   /// threads of a block: 32, 64, 96 or 128; teams, scans and sorts have other sizes
   int block_threads = 128;
   int multiprocessors = 0;  ///< multiprocessors for which launches are divided; 0: those of the device
+  /// devices that divide a simulation (Contestant::start); on the host, parts that divide it. Stages use one
+  int devices = 1;
 };
 
 /// Returns a contestant with all stages that the backend has. For Backend::cuda, throws compare::ResourceError if the

@@ -111,7 +111,7 @@ template <class Query>
 SearchCount count_searches(const Searches<Query>& searches) {
   SearchCount count;
   for (int i = 0; i < searches.count && !searches.query.is_off(); ++i) {
-    Search search = searches.query.begin(i);
+    Search search = searches.begin(i);
     for_each_near(CountedTree{searches.tree, count.nodes}, search.box, search.from, search.limit,
                   [&](const Offer& offer) {
                     ++count.candidates;

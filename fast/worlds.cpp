@@ -28,7 +28,7 @@ void expect_room(Backend backend, const compare::Scene& scene, std::size_t world
       " of memory at their start, and " + (is_device ? "the device has " : "the machine has ") +
       mebibytes(static_cast<double>(free)) + (is_device ? " free" : "") + ": run at most " +
       std::to_string(free / each) + " worlds" +
-      (is_device ? ", end other programs on the device, or run with --backend cpu" : ""));
+      (is_device ? ", end other programs on the device, or run with the backend cpu" : ""));
 }
 
 std::unique_ptr<Worlds> start_worlds(Backend backend, std::span<const compare::Scene> scenes,
@@ -40,7 +40,7 @@ std::unique_ptr<Worlds> start_worlds(Backend backend, std::span<const compare::S
 #if defined(OGC_HAS_CUDA)
   return start_cuda_worlds(scenes, options);
 #else
-  throw compare::ResourceError("backend cuda: " + backend_info(backend).description + ", or use --backend cpu");
+  throw compare::ResourceError("backend cuda: " + backend_info(backend).description + ", or use the backend cpu");
 #endif
 }
 

@@ -123,7 +123,7 @@ class Stage:
         bar = np.stack([np.interp(shares, np.arange(len(stops)), part) for part in stops.T], axis=1)
         picture.paste(Image.fromarray(np.broadcast_to(bar.round().astype(np.uint8), (12, 240, 3)).copy()), (16, 40))
         draw.rectangle((15, 39, 256, 52), outline="#606060")
-        draw.text((16, 14), f"{self.colour} [{field.unit}]", "#1a1a1a", font)
+        draw.text((16, 14), f"{self.colour} [{field.unit}]" if field.unit else self.colour, "#1a1a1a", font)
         draw.text((16, 58), f"{self.limits[0]:.3g}", "#1a1a1a", font)
         draw.text((256, 58), f"{self.limits[1]:.3g}", "#1a1a1a", font, anchor="ra")
 

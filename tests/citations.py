@@ -14,7 +14,8 @@ A section is the number of a heading ("## 4. Energies", "### 4.2 Contact"), or o
 its beginning is enough.
 
 A source file is cited by its path from the root, in documents and in sources; one named in capitals stands for many
-(compare/stages/STAGE.hpp).
+(compare/stages/STAGE.hpp). A test is cited in a document by its file and its title, `tests/a.cpp`: *a title …*, where …
+stands for words that are left out.
 """
 
 import re
@@ -29,6 +30,9 @@ SKIPPED = {".png", ".gif", ".mp4", ".gz", ".csv", ".h5", ".json", ".obj", ".ply"
 
 CITING = (".md", ".h", ".hpp", ".cpp", ".cu", ".cuh")  # files in which source files are cited
 SOURCE_FILE = re.compile(r"(?<![\w/.-])(([a-z_]+)/(?:\w+/)*(\w+)\.(?:hpp|cpp|cuh?|py))\b")
+
+TESTS = re.compile(r"`(tests/[\w/]+\.\w+)`: ((?:\*[^*]+\*(?:, |; (?=\*))?)+)")
+JOINED = re.compile(r'"\s*\n\s*"')  # a string that continues in the next line
 
 COMMENT = re.compile(r"\n[ \t]*(?://[/<!]*|#+(?![#\w])|\*(?!\*))?[ \t]*")  # a citation may continue in the next line
 NAME = r"(?<![\w/.$-])((?:\.{1,2}/)*(?:[\w-]+/)*[\w-]+\.md)\b(?!\.)"
@@ -64,7 +68,7 @@ class House:
         text = self.files[name]
         found = []
         if name.endswith(".md"):
-            found += self.of_links(name, text)
+            found += self.of_links(name, text) + self.of_tests(name, text)
             text = LINK.sub(lambda link: self.as_citation(name, link[1]), text)
         if name.endswith(CITING):
             found += self.of_source_files(name, text)
@@ -81,6 +85,18 @@ class House:
             is_ours = any(file.startswith(match[2] + "/") for file in self.files)
             if is_ours and not match[3].isupper() and match[1] not in self.files:
                 found.append(f"{name}:{text.count(chr(10), 0, match.start()) + 1}: there is no file {match[1]}")
+        return found
+
+    def of_tests(self, name, text):
+        """Returns findings about titles of tests that their files do not have."""
+        found = []
+        for match in TESTS.finditer(text):
+            source = JOINED.sub("", self.files.get(match[1], ""))
+            for title in re.findall(r"\*([^*]+)\*", match[2]):
+                words = ".*?".join(re.escape(part.strip()) for part in title.split("…"))
+                if source and not re.search(words, source, re.S):
+                    line = text.count("\n", 0, match.start()) + 1
+                    found.append(f"{name}:{line}: {match[1]} has no test '{title}'")
         return found
 
     def as_citation(self, name, target):
@@ -173,7 +189,9 @@ def normal(path):
 SOUND = {
     "README.md": "See [the method](compare/method.md), [its energies](compare/method.md#4-energies), `method.md` §4.\n",
     "compare/method.md": "# Method\n\n## 4. Energies\n\n### 4.2 Contact\n\n## 5b. Planes\n\n**In bold.** Words.\n",
-    "compare/deviations.md": "| where | why |\n|---|---|\n| §5.1.3 | the body |\n",
+    "compare/deviations.md": "| where | why |\n|---|---|\n"
+                             "| §5.1.3 | the body, `tests/a.cpp`: *a body …*, *… pushes* |\n",
+    "tests/a.cpp": 'TEST_CASE("a body that is "\n          "pushed pushes")\n',
     "fast/kernels/a.hpp": "// Of a contact (method.md §4.2, §4), as the\n// rule of method.md\n// §5b says; "
                           "compare/deviations.md, §5.1.3.\n",
     "fast/a.py": '# method.md, 4. And method.md, "Contact": README.md is the start.\n',
@@ -187,6 +205,8 @@ PLANTED = (
     ("fast/kernels/a.hpp", "// (method.md §4, §6)\n", 1, "compare/method.md has no section 6"),
     ("fast/kernels/a.hpp", "// As in fast/kernels/a.hpp,\n// and fast/kernels/b.hpp.\n", 2,
      "there is no file fast/kernels/b.hpp"),
+    ("README.md", "a\nSee `tests/a.cpp`: *a body …*, *a body pulls …*.\n", 2,
+     "tests/a.cpp has no test 'a body pulls …'"),
     ("README.md", "Each fast/NAME.hpp, other/c.cpp and `fast/a.cpp`.\n", 1, "there is no file fast/a.cpp"),
     ("fast/a.py", "# method.md, 7. And so on.\n", 1, "compare/method.md has no section 7"),
     ("fast/a.py", '# method.md, "Forces".\n', 1, 'compare/method.md has no section "Forces"'),

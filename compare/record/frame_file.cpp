@@ -17,13 +17,13 @@ std::int64_t checksum(const Frame& frame) {
   static_assert(std::endian::native == std::endian::little, "the low byte comes first");
   std::uint32_t sum = 0;
   const auto add = [&](const auto& values) {
+    if (std::size(values) == 0) return;  // zlib's crc32 restarts the sum if it gets a null pointer
     const std::size_t size = std::size(values) * sizeof(*std::data(values));
     sum = crc32({reinterpret_cast<const char*>(std::data(values)), size}, sum);
   };
   add(frame.positions), add(frame.velocities), add(frame.bounds);
   add(std::array{frame.step}), add(std::array{frame.time});
-  // zlib's crc32 restarts the sum if it gets a null pointer
-  if (!frame.orientations.empty()) add(as_floats(frame.orientations));
+  add(as_floats(frame.orientations)), add(frame.residual), add(frame.cut);
   return sum;
 }
 
@@ -36,6 +36,17 @@ std::int64_t version_of(const Hdf5File& file, const fs::path& path) {
                      std::to_string(frame_format_version) + ", the newest that this program reads: use a newer ogc");
   return version;
 }
+
+/// Returns a measured value of each vertex; empty if the frame does not have it.
+std::vector<float> measure(const Hdf5File& file, const std::string& name, std::size_t vertices, const fs::path& path) {
+  if (!file.has(name)) return {};
+  if (file.shape(name) != std::vector{vertices})
+    throw InputError(path.string() + ": '" + name + "' is not one number for each of the " + std::to_string(vertices) +
+                     " vertices: the frame is damaged; use another one");
+  return file.read<float>(name);
+}
+
+PackedArray packed(std::span<const float> values) { return values.empty() ? PackedArray{} : pack(values); }
 
 Frame content(const Hdf5File& file, const fs::path& path) {
   const std::int64_t version = version_of(file, path);
@@ -50,7 +61,9 @@ Frame content(const Hdf5File& file, const fs::path& path) {
               as_vectors(file.read<float>("positions")),
               as_vectors(file.read<float>("velocities")),
               file.read<float>("bounds"),
-              read_orientations(file, path.string())};
+              read_orientations(file, path.string()),
+              measure(file, "residual", shape[0], path),
+              measure(file, "cut", shape[0], path)};
   if (version > 1 && file.attribute<std::int64_t>("crc32") != checksum(frame))
     throw InputError(path.string() +
                      ": the frame is damaged, its content is not what its checksum says: restore the file, or remove "
@@ -85,7 +98,9 @@ PackedFrame pack(const Frame& frame) {
           pack(as_floats(frame.positions), 3),
           pack(as_floats(frame.velocities), 3),
           pack(std::span(frame.bounds)),
-          frame.orientations.empty() ? PackedArray{} : pack(as_floats(frame.orientations), 4)};
+          frame.orientations.empty() ? PackedArray{} : pack(as_floats(frame.orientations), 4),
+          packed(frame.residual),
+          packed(frame.cut)};
 }
 
 std::string frame_bytes(const PackedFrame& frame) {
@@ -98,6 +113,8 @@ std::string frame_bytes(const PackedFrame& frame) {
   file.write_packed("velocities", frame.velocities);
   file.write_packed("bounds", frame.bounds);
   if (frame.orientations.rows > 0) file.write_packed("orientations", frame.orientations);
+  if (frame.residual.rows > 0) file.write_packed("residual", frame.residual);
+  if (frame.cut.rows > 0) file.write_packed("cut", frame.cut);
   return file.image();
 }
 
@@ -112,7 +129,9 @@ PackedFrame read_packed_frame(const fs::path& path) {
           file.read_packed("positions"),
           file.read_packed("velocities"),
           file.read_packed("bounds"),
-          frame.orientations.empty() ? PackedArray{} : file.read_packed("orientations")};
+          frame.orientations.empty() ? PackedArray{} : file.read_packed("orientations"),
+          frame.residual.empty() ? PackedArray{} : file.read_packed("residual"),
+          frame.cut.empty() ? PackedArray{} : file.read_packed("cut")};
 }
 
 }  // namespace ogc::compare

@@ -1,6 +1,7 @@
 // Stores the state after step 25 in frames/frame_000025.h5: positions, velocities [vertices × 3] and bounds [vertices].
 // Attributes are format_version, step, time and crc32, a checksum of the bytes of positions, velocities, bounds, step
-// and time. With rods there are also orientations [segments × 4], whose bytes are last in the checksum.
+// and time. What follows is there if the run has it, and its bytes come next in the checksum: orientations of rods
+// [segments × 4], residual and cut [vertices].
 #pragma once
 
 #include <cstdint>
@@ -15,8 +16,8 @@
 namespace ogc::compare {
 
 /// Newest version of frames that this program writes and reads. Format 1 has neither format_version nor a checksum;
-/// format 3 adds orientations if there are rods.
-inline constexpr std::int64_t frame_format_version = 3;
+/// format 3 adds orientations if there are rods, format 4 residual and cut if they are measured.
+inline constexpr std::int64_t frame_format_version = 4;
 
 /// One stored state.
 struct Frame {
@@ -25,6 +26,9 @@ struct Frame {
   std::vector<Vec3f> positions, velocities;  ///< [m], [m/s]
   std::vector<float> bounds;                 ///< b_v of the last detection [m]
   std::vector<Quaternion> orientations{};    ///< orientations of the segments of rods, in the order of Snapshot
+  /// the vertex's part of the residual of the step (Eq. 29), not-a-number unless free; empty if not measured [1]
+  std::vector<float> residual{};
+  std::vector<float> cut{};  ///< 1: the step's last iteration cut the vertex; 0: not; empty if not measured
   friend bool operator==(const Frame&, const Frame&) = default;
 };
 
@@ -35,6 +39,7 @@ struct PackedFrame {
   std::int64_t checksum = 0;                  ///< CRC-32, defined in the head of this file
   PackedArray positions, velocities, bounds;  ///< arrays of Frame
   PackedArray orientations{};                 ///< without rows if there are no rods
+  PackedArray residual{}, cut{};              ///< without rows if not measured
 };
 
 /// Returns "frame_000025", the file name of the state after a step, without extension.
@@ -51,7 +56,8 @@ PackedFrame pack(const Frame& frame);  ///< packs a frame without loss
 std::string frame_bytes(const PackedFrame& frame);
 
 /// Reads one file of frames/. Throws InputError that names the file if it is missing, no frame, damaged (its content
-/// differs from its checksum), or of a newer format, or if an orientation is no unit quaternion.
+/// differs from its checksum), or of a newer format, or if an array has another number of rows than there are vertices,
+/// or if an orientation is no unit quaternion.
 Frame read_frame(const std::filesystem::path& file);
 
 /// Reads and checks a frame as read_frame does, but leaves it packed.

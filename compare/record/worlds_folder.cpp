@@ -23,12 +23,17 @@ std::string cell(const std::string& text) {
 std::string cell(double number) { return shortest(number); }
 
 std::string table_of(const std::vector<WorldRow>& rows) {
-  std::string text =
-      "world,jitter_seed,status,last_step,detections,iterations,repeats,vertex_facet_contacts,edge_edge_contacts,"
+  std::string text = "world,jitter_seed,";
+  if (!rows.empty())
+    for (const auto& [name, value] : rows.front().settings) text += "set_" + name + ",";
+  text +=
+      "status,last_step,detections,iterations,repeats,vertex_facet_contacts,edge_edge_contacts,"
       "smallest_distance [m],largest_lag [m],largest_share_cut,kinetic_energy [J],elastic_energy [J],"
       "contact_energy [J],gravity_energy [J],audited_states,final_hash,failure\n";
   for (const WorldRow& row : rows) {
-    text += std::to_string(row.world) + "," + std::to_string(row.jitter_seed) + "," + row.status;
+    text += std::to_string(row.world) + "," + std::to_string(row.jitter_seed) + ",";
+    for (const auto& [name, value] : row.settings) text += cell(value) + ",";
+    text += row.status;
     for (const std::int64_t count : {row.last_step, row.detections, row.iterations, row.repeats,
                                      row.vertex_facet_contacts, row.edge_edge_contacts})
       text += "," + std::to_string(count);

@@ -1,8 +1,9 @@
-// Writes the folder of a run of many worlds: copies of one scene that run side by side and never see each other.
+// Writes the folder of a run of many worlds: scenes of one mesh that run side by side and never see each other.
 //
 //   run.json           as for a run of one world, with "worlds" and what they have in common
 //   scene/NAME.json    the scene
-//   worlds.csv         one row for each world: its seed, how it ended, its totals; written when the run ends
+//   worlds.csv         one row for each world: its seed, its own settings (set_friction), how it ended, its totals;
+//                      written when the run ends
 //   worlds_steps.csv   the columns of steps.csv (compare/record/steps_csv.hpp) behind the number of the world; grows
 //   ends/world_0003.h5 the last good state of world 3 (compare/record/frame_file.hpp); `ogc run --from-state` begins
 //                      there
@@ -13,6 +14,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compare/files/durable_file.hpp"
@@ -24,8 +26,10 @@ namespace ogc::compare {
 
 /// A row of worlds.csv.
 struct WorldRow {
-  int world = 0;                                             ///< number, from 0
-  std::uint64_t jitter_seed = 0;                             ///< seed of its offsets; 0: it has none
+  int world = 0;                  ///< number, from 0
+  std::uint64_t jitter_seed = 0;  ///< seed of its offsets; 0: it has none
+  /// names and values of the settings that it has of its own, the same names in all rows; empty values: the scene's
+  std::vector<std::pair<std::string, std::string>> settings{};
   std::string status;                                        ///< "finished", "interrupted" or "failed"
   std::string failure;                                       ///< first line of the failure; empty if there is none
   std::int64_t last_step = 0;                                ///< step of the last good state

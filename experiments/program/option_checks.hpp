@@ -15,6 +15,8 @@ namespace ogc::experiments {
 /// Upper limit of counts, such as steps, repetitions and lengths of lists; settings have the same limit
 /// (compare/problem/settings.cpp).
 inline constexpr std::uint64_t most_counted = 1 << 30;
+/// Upper limit of --devices: more than a machine has.
+inline constexpr std::uint64_t most_devices = 64;
 /// Upper limit of --worlds.
 inline constexpr std::uint64_t most_worlds = 1 << 20;
 

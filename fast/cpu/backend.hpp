@@ -25,6 +25,7 @@
 #include "fast/kernels/sweep/update_vertex.hpp"
 #include "fast/kernels/team.hpp"
 #include "fast/stages/backend.hpp"
+#include "fast/stages/hall.hpp"
 
 namespace ogc::fast {
 
@@ -148,8 +149,8 @@ class CpuBackend {
   /// Runs each team in one thread as SerialTeam<W>, in packs if `on_packs` has such a functor. Start has no effect:
   /// each loop ends before the next begins.
   template <int W, class F>
-  void for_each_team(int n, F f, Start) {
-    for_each_range(n, [f = on_packs(f)](int begin, int end) { run_teams<W>(f, begin, end); });
+  void for_each_team(Teams teams, F f, Start) {
+    for_each_range(teams.count, [f = on_packs(f)](int begin, int end) { run_teams<W>(f, begin, end); });
   }
 
   /// Calls f(i, a, b) for each row i of `values`: a is the smallest number, b the number with index F::rank in
@@ -233,6 +234,16 @@ class CpuBackend {
   void synchronize() {}
   void synchronize_device() {}
 
+  const std::uint32_t* meetings() const { return &meetings_; }
+  void join(Hall& hall, int) { hall_ = &hall; }
+  template <class F, class G>
+  void meet(int n, const F& send, const G& end) {
+    for_each(n, send);
+    hall_->meet();
+    end(0);
+    ++meetings_;
+  }
+
  private:
   struct Item {
     std::uint64_t key;
@@ -259,6 +270,8 @@ class CpuBackend {
   }
 
   std::vector<double> replay_milliseconds_;
+  Hall* hall_ = nullptr;  ///< where this backend meets the other parts
+  std::uint32_t meetings_ = 0;
 };
 
 }  // namespace ogc::fast

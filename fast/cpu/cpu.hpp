@@ -19,8 +19,8 @@ BackendInfo cpu_info();
 /// Returns the memory of the machine [B].
 std::size_t cpu_bytes();
 
-/// Returns a contestant that runs all stages on the host's threads.
-compare::Contestant cpu_contestant();
+/// Returns a contestant that runs all stages on the host's threads. `parts`: parts that divide a simulation.
+compare::Contestant cpu_contestant(int parts = 1);
 
 /// Starts worlds on the host's threads (fast/worlds.hpp).
 std::unique_ptr<Worlds> start_cpu_worlds(std::span<const compare::Scene> scenes,

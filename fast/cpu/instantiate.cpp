@@ -12,25 +12,42 @@
 #include "fast/probes/contact_force_engine.hpp"
 #include "fast/probes/guard_engine.hpp"
 #include "fast/probes/probes.hpp"
+#include "fast/stages/parted.hpp"
 #include "fast/stages/simulation.hpp"
 
 namespace ogc::fast {
 
 BackendInfo cpu_info() { return {true, true, std::to_string(tbb::info::default_concurrency()) + " threads"}; }
 
-compare::Contestant cpu_contestant() {
+compare::Contestant cpu_contestant(int parts) {
   compare::Contestant contestant = probe_contestant("cpu", std::make_shared<CpuBackend>());
-  contestant.start = [](const compare::Scene& scene, const compare::SimulationOptions& options) {
-    return start_cpu(scene, options);
+  contestant.start = [parts](const compare::Scene& scene, const compare::SimulationOptions& options) {
+    return parts > 1 ? start_cpu_parts(scene, options, parts) : start_cpu(scene, options);
   };
   return contestant;
 }
 
+namespace {
+
+std::string threads_in_words() {
+  const int threads = tbb::this_task_arena::max_concurrency();
+  return std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+}
+
+}  // namespace
+
+std::unique_ptr<compare::Simulation> start_cpu_parts(const compare::Scene& scene,
+                                                     const compare::SimulationOptions& options, int parts,
+                                                     int list_capacity) {
+  const auto enter = [](int) {};
+  return std::make_unique<PartedSimulation<CpuBackend, decltype(enter)>>(
+      parts, enter, [](int) { return CpuBackend{}; }, scene, options, threads_in_words(), list_capacity);
+}
+
 std::unique_ptr<compare::Simulation> start_cpu(const compare::Scene& scene, const compare::SimulationOptions& options,
                                                int list_capacity) {
-  const int threads = tbb::this_task_arena::max_concurrency();
-  const std::string device = std::to_string(threads) + (threads == 1 ? " thread" : " threads");
-  return std::make_unique<ResidentSimulation<CpuBackend>>(CpuBackend{}, scene, options, device, list_capacity);
+  return std::make_unique<ResidentSimulation<CpuBackend>>(CpuBackend{}, scene, options, threads_in_words(),
+                                                          list_capacity);
 }
 
 namespace {

@@ -78,7 +78,7 @@ void run_searches(const Searches<Query>& searches, int begin, int end) {
   Query query = searches.query;
   query.lists = notes.view();
   for (int i = begin; i < end; ++i) {
-    Search search = query.begin(i);
+    Search search = searches.begin(i);
     Waiting<Query> waiting{.query = query,
                            .notes = notes,
                            .search = search,

@@ -13,4 +13,10 @@ namespace ogc::fast {
 std::unique_ptr<compare::Simulation> start_cpu(const compare::Scene& scene, const compare::SimulationOptions& options,
                                                int list_capacity = 0);
 
+/// Starts a simulation that several parts divide, each with a thread of its own. It is no faster; it shows that parts
+/// compute the bits of a whole. Throws as start_cpu does, and compare::InputError for a scene that cannot be divided.
+std::unique_ptr<compare::Simulation> start_cpu_parts(const compare::Scene& scene,
+                                                     const compare::SimulationOptions& options, int parts,
+                                                     int list_capacity = 0);
+
 }  // namespace ogc::fast

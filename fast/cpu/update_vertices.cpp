@@ -6,7 +6,7 @@
 namespace ogc::fast {
 
 static_assert(HostSums::count == 1);
-template void update_vertices(CpuBackend& backend, int lanes, int count, const UpdateVertex<HostSums::At<0>>& kernel,
+template void update_vertices(CpuBackend& backend, int lanes, Teams teams, const UpdateVertex<HostSums::At<0>>& kernel,
                               Start start);
 template void measure_vertices(CpuBackend& backend, int slots, const MeasureVertex<GatherAll>& kernel);
 

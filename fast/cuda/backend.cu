@@ -14,7 +14,7 @@ void CudaRecording::clear() noexcept {
 CudaBackend::CudaBackend(const LaunchShape& shape)
     : block_threads_(shape.block_threads), multiprocessors_(shape.multiprocessors) {
   const BackendInfo info = cuda_info();
-  if (!info.usable) throw compare::ResourceError(info.description + "; run with --backend cpu");
+  if (!info.usable) throw compare::ResourceError(info.description + "; run with the backend cpu");
   if (block_threads_ % 32 != 0 || block_threads_ <= 0 || block_threads_ > cuda_block_size)
     throw compare::InputError("LaunchShape: " + std::to_string(block_threads_) +
                               " threads a block; give a multiple of 32, at most " + std::to_string(cuda_block_size));
@@ -33,6 +33,12 @@ CudaBackend::CudaBackend(CudaBackend&& other) noexcept
       multiprocessors_(other.multiprocessors_),
       scratch_(std::move(other.scratch_)),
       branch_scratch_(std::move(other.branch_scratch_)),
+      hall_(other.hall_),
+      own_part_(other.own_part_),
+      meetings_(std::move(other.meetings_)),
+      flags_(std::move(other.flags_)),
+      done_(std::move(other.done_)),
+      others_flags_(std::move(other.others_flags_)),
       events_(std::exchange(other.events_, {})),
       is_end_(std::exchange(other.is_end_, {})) {}
 
@@ -166,7 +172,39 @@ void CudaBackend::end_condition(cudaStream_t outer) {
   OGC_CUDA_CHECK(error);
 }
 
+void CudaBackend::join(Hall& hall, int own) {
+  hall_ = &hall;
+  own_part_ = own;
+  const auto parts = static_cast<std::size_t>(hall.parts());
+  meetings_.resize(1), done_.resize(1), flags_.resize(parts);
+  hall.devices[static_cast<std::size_t>(own)] = device_;
+  hall.inbox_flags[static_cast<std::size_t>(own)] = flags_.data();
+  hall.meet();
+  for (const int other : hall.devices) {
+    if (other == device_) continue;
+    int can = 0;
+    OGC_CUDA_CHECK(cudaDeviceCanAccessPeer(&can, device_, other));
+    if (can == 0)
+      throw compare::ResourceError("device " + std::to_string(device_) + " can't write into the memory of device " +
+                                   std::to_string(other) + ": choose others by CUDA_VISIBLE_DEVICES, or one device");
+    const cudaError_t error = cudaDeviceEnablePeerAccess(other, 0);
+    if (error == cudaErrorPeerAccessAlreadyEnabled)
+      cudaGetLastError();
+    else
+      OGC_CUDA_CHECK(error);
+  }
+  others_flags_.upload(hall.inbox_flags.data(), parts);
+  OGC_CUDA_CHECK(cudaDeviceSynchronize());
+  hall.meet();
+}
+
+// A device of several parts waits inside its graph for the others. So all parts come here, with their graphs
+// instantiated and their memory allocated, before one of them launches.
 void CudaBackend::launch(const Recording& recording, int times) {
+  if (hall_ != nullptr) {
+    OGC_CUDA_CHECK(cudaStreamSynchronize(stream_));
+    hall_->meet();
+  }
   const auto record = [this](bool is_end) {
     if (events_.size() == is_end_.size()) {
       cudaEvent_t event = nullptr;

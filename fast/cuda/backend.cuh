@@ -30,11 +30,13 @@
 #include "fast/cuda/collectives.cuh"
 #include "fast/cuda/follow.cuh"
 #include "fast/cuda/least.cuh"
+#include "fast/cuda/meeting.cuh"
 #include "fast/cuda/search.cuh"
 #include "fast/cuda/team.cuh"
 #include "fast/kernels/sweep/sums.hpp"
 #include "fast/kernels/sweep/update_vertex.hpp"
 #include "fast/stages/backend.hpp"
+#include "fast/stages/hall.hpp"
 #include "fast/stages/team_choice.hpp"
 
 namespace ogc::fast {
@@ -275,16 +277,18 @@ class CudaBackend {
   /// they fill it several times. With
   /// Start::overlapping the launch may begin while the previous one still runs.
   template <int W, class F>
-  void for_each_team(int n, F f, Start start) {
+  void for_each_team(Teams teams, F f, Start start) {
+    const int n = teams.count;
     if (n <= 0) return;
-    const bool serial = static_cast<std::int64_t>(n) * W >=
+    // The kind of team depends on the whole launch: kernels of two kinds may round differently (see above).
+    const bool serial = static_cast<std::int64_t>(teams.whole) * W >=
                         std::int64_t{multiprocessors_} * serial_lanes_per_multiprocessor;
-    const int teams = (serial ? serial_block_size : 32) / W;  // in a block
-    const int blocks = (n + teams - 1) / teams;
+    const int in_block = (serial ? serial_block_size : 32) / W;
+    const int blocks = (n + in_block - 1) / in_block, of_whole = (teams.whole + in_block - 1) / in_block;
     const bool early = start == Start::overlapping;
     if (!serial) {
       launch_kernel(current_, early, run_spread_teams<W, F>, blocks, 32 * F::parts, n, f);
-    } else if (!launch_compact<W>(n, f, blocks, early)) {
+    } else if (!launch_compact<W>(n, f, blocks, of_whole, early)) {
       launch_kernel(current_, early, run_serial_teams<W, F>, blocks, serial_block_size, n, f,
                     blocks <= multiprocessors_ * strided_blocks_per_multiprocessor);
     }
@@ -387,6 +391,18 @@ class CudaBackend {
     launch(recording, times);
   }
 
+  const std::uint32_t* meetings() const { return meetings_.data(); }
+  /// Lets this device write into the memory of the other parts' devices. Throws compare::ResourceError if it cannot.
+  void join(Hall& hall, int own);
+  /// Waits on the device (fast/cuda/meeting.cuh).
+  template <class F, class G>
+  void meet(int n, const F& send, const G& end) {
+    const MeetingPlace place{own_part_,        static_cast<int>(flags_.size()),
+                             meetings_.data(), done_.data(),
+                             flags_.data(),    others_flags_.data()};
+    follow(typeid(F), run_meeting<F, G>, std::max(1, blocks(n)), block_threads_, place, n, send, end);
+  }
+
   /// Returns the device time of each repetition since the last call [ms]. Host only, after synchronize.
   std::vector<double> replay_milliseconds();
 
@@ -399,9 +415,9 @@ class CudaBackend {
   /// Launches CompactTeams if F has them, the launch has more than two waves of blocks, and one thread can do the work
   /// after the sum. Returns whether it did.
   template <int W, class F>
-  bool launch_compact(int n, const F& f, int blocks, bool early) {
+  bool launch_compact(int n, const F& f, int blocks, int of_whole, bool early) {
     if constexpr (has_compact_teams<W, F>()) {
-      if (f.shares_end() || !has_waves_of_compact(blocks, multiprocessors_)) return false;
+      if (f.shares_end() || !has_waves_of_compact(of_whole, multiprocessors_)) return false;
       launch_kernel(current_, early, run_compact_teams<W, F>, blocks, serial_block_size, n, f);
       return true;
     }
@@ -413,7 +429,7 @@ class CudaBackend {
   }
   static void require_searchable(const TreeView& tree) {
     if (tree.count > largest_searched_count)
-      throw compare::ResourceError("a mesh of more than 134 million edges or triangles needs --backend cpu");
+      throw compare::ResourceError("a mesh of more than 134 million edges or triangles needs the backend cpu");
   }
   /// Returns the number of searches of a warp. If there are too few searches to fill the device with 32 warps per
   /// multiprocessor, a warp gets one search. With more searches, a warp gets several and has fewer rounds in which
@@ -457,6 +473,11 @@ class CudaBackend {
   bool recording_ = false, follows_ = false, in_branch_ = false;
   int device_ = 0, block_threads_ = cuda_block_size, multiprocessors_ = 1;
   Scratch scratch_, branch_scratch_;
+  Hall* hall_ = nullptr;  // where this part meets the others on the host; null: there are none
+  int own_part_ = 0;
+  CudaBuffer<std::uint32_t> meetings_, flags_;
+  CudaBuffer<unsigned> done_;
+  CudaBuffer<std::uint32_t*> others_flags_;
   std::vector<cudaStream_t> branches_;  // of the current recording
   std::vector<cudaEvent_t> crossings_;  // of the current recording: events where branches begin and end
   std::vector<cudaEvent_t> events_;     // in the order of time; two consecutive events enclose a repetition, or nothing

@@ -29,6 +29,13 @@ compare::Contestant cuda_contestant(const LaunchShape& shape = {});
 std::unique_ptr<compare::Simulation> start_cuda(const compare::Scene& scene, const compare::SimulationOptions& options,
                                                 int list_capacity = 0);
 
+/// Starts a simulation that several devices divide: the current one and those after it. Throws as start_cuda does, and
+/// compare::ResourceError if there are fewer devices or one cannot write into the memory of another;
+/// compare::InputError for a scene that cannot be divided.
+std::unique_ptr<compare::Simulation> start_cuda_parts(const compare::Scene& scene,
+                                                      const compare::SimulationOptions& options, int parts,
+                                                      int list_capacity = 0);
+
 /// Starts worlds on the device (fast/worlds.hpp). Throws as start_cuda does. `list_capacity`: see start_cuda.
 std::unique_ptr<Worlds> start_cuda_worlds(std::span<const compare::Scene> scenes,
                                           const compare::SimulationOptions& options, int list_capacity = 0);

@@ -51,7 +51,7 @@ BackendInfo cuda_info() {
 
 std::size_t cuda_free_bytes() {
   const BackendInfo info = cuda_info();
-  if (!info.usable) throw compare::ResourceError(info.description + "; run with --backend cpu");
+  if (!info.usable) throw compare::ResourceError(info.description + "; run with the backend cpu");
   std::size_t free = 0, total = 0;
   OGC_CUDA_CHECK(cudaMemGetInfo(&free, &total));
   return free;

@@ -10,6 +10,7 @@
 #include "fast/probes/contact_force_engine.hpp"
 #include "fast/probes/guard_engine.hpp"
 #include "fast/probes/probes.hpp"
+#include "fast/stages/parted.hpp"
 #include "fast/stages/simulation.hpp"
 
 namespace ogc::fast {
@@ -17,10 +18,36 @@ namespace ogc::fast {
 compare::Contestant cuda_contestant(const LaunchShape& shape) {
   compare::Contestant contestant = probe_contestant("cuda", std::make_shared<CudaBackend>(shape),
                                                     [shape] { return CudaBackend(shape); });
-  contestant.start = [](const compare::Scene& scene, const compare::SimulationOptions& options) {
-    return start_cuda(scene, options);
+  contestant.start = [parts = shape.devices](const compare::Scene& scene, const compare::SimulationOptions& options) {
+    return parts > 1 ? start_cuda_parts(scene, options, parts) : start_cuda(scene, options);
   };
   return contestant;
+}
+
+namespace {
+
+/// Makes a device current in the calling thread. The current device is the first part's.
+struct EnterDevice {
+  int first = 0, devices = 1;
+  void operator()(int part) const { OGC_CUDA_CHECK(cudaSetDevice((first + part) % devices)); }
+};
+
+}  // namespace
+
+std::unique_ptr<compare::Simulation> start_cuda_parts(const compare::Scene& scene,
+                                                      const compare::SimulationOptions& options, int parts,
+                                                      int list_capacity) {
+  const BackendInfo info = cuda_info();
+  if (!info.usable) throw compare::ResourceError(info.description + "; run with --backend cpu");
+  EnterDevice enter;
+  OGC_CUDA_CHECK(cudaGetDevice(&enter.first));
+  OGC_CUDA_CHECK(cudaGetDeviceCount(&enter.devices));
+  if (parts > enter.devices)
+    throw compare::ResourceError(std::to_string(parts) + " devices are asked for, and this machine shows " +
+                                 std::to_string(enter.devices) + ": ask for at most so many");
+  return std::make_unique<PartedSimulation<CudaBackend, EnterDevice>>(
+      parts, enter, [](int) { return CudaBackend{}; }, scene, options,
+      info.description + ", " + std::to_string(parts) + " devices", list_capacity);
 }
 
 std::unique_ptr<compare::Simulation> start_cuda(const compare::Scene& scene, const compare::SimulationOptions& options,

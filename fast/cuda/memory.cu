@@ -31,7 +31,7 @@ void throw_cuda_error(cudaError_t error, const char* what, const char* file, int
   std::string text = std::string("CUDA: ") + cudaGetErrorName(error) + " (" + cudaGetErrorString(error) + ") in " +
                      what + " at " + file + ":" + std::to_string(line);
   if (is_missing_resource(error))
-    throw compare::ResourceError(text + "; run with --backend cpu, or on a machine with a free device");
+    throw compare::ResourceError(text + "; run with the backend cpu, or on a machine with a free device");
   throw std::runtime_error(
       text + "; the fault may lie in an earlier kernel: run the same command under compute-sanitizer to find it");
 }
@@ -62,8 +62,8 @@ void* device_allocate(std::size_t bytes) {
     OGC_CUDA_CHECK(cudaMemGetInfo(&free, &total));
     throw compare::ResourceError("out of device memory: asked for " + mebibytes(bytes) + ", " + mebibytes(free) +
                                  " of " + mebibytes(total) +
-                                 " are free; use a smaller --scale or detection_radius_cap, end other programs on the "
-                                 "device, or run with --backend cpu");
+                                 " are free; use a smaller scene or detection_radius_cap, end other programs on the "
+                                 "device, or run with the backend cpu");
   }
   OGC_CUDA_CHECK(error);
   return memory;

@@ -65,13 +65,17 @@ template <class Query>
 class WarpSearch {
  public:
   __device__ WarpSearch(const Searches<Query>& searches, SearchMemory& memory)
-      : tree_(searches.tree), query_(searches.query), memory_(at_hand(memory)), lane_(at_hand(threadIdx.x % 32)) {}
+      : searches_(searches),
+        tree_(searches.tree),
+        query_(searches.query),
+        memory_(at_hand(memory)),
+        lane_(at_hand(threadIdx.x % 32)) {}
 
   /// Runs the searches first, first + stride, …, `count` of them.
   __device__ void run(int first, int stride, int count) {
     const int lane = static_cast<int>(lane_);
     if (lane < count) {
-      memory_.searches[lane] = query_.begin(first + lane * stride);
+      memory_.searches[lane] = searches_.begin(first + lane * stride);
       memory_.nodes[lane] = SearchNode::of(tree_.levels - 1, lane, 0);
     }
     node_count_ = static_cast<unsigned>(count);
@@ -150,6 +154,7 @@ class WarpSearch {
     node_count_ += __popc(near & ~leaves);
   }
 
+  const Searches<Query>& searches_;
   const TreeView& tree_;
   const Query& query_;
   SearchMemory& memory_;

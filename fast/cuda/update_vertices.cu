@@ -7,7 +7,7 @@
 namespace ogc::fast {
 
 static_assert(DeviceSums::count == OGC_SUMS, "CMakeLists.txt has OGC_SUMS: the number of DeviceSums");
-template void update_vertices(CudaBackend& backend, int lanes, int count,
+template void update_vertices(CudaBackend& backend, int lanes, Teams teams,
                               const UpdateVertex<DeviceSums::At<OGC_SUM>>& kernel, Start start);
 #if OGC_SUM + 1 == OGC_SUMS
 template void measure_vertices(CudaBackend& backend, int slots, const MeasureVertex<GatherAll>& kernel);

@@ -99,7 +99,7 @@ double CudaPlace::run(const WorldJob* jobs, int count) {
 std::unique_ptr<Worlds> start_cuda_worlds(std::span<const compare::Scene> scenes,
                                           const compare::SimulationOptions& options, int list_capacity) {
   const BackendInfo info = cuda_info();
-  if (!info.usable) throw compare::ResourceError(info.description + "; run with --backend cpu");
+  if (!info.usable) throw compare::ResourceError(info.description + "; run with the backend cpu");
   return std::make_unique<ResidentWorlds<CudaPlace>>(scenes, options, info.description, list_capacity);
 }
 

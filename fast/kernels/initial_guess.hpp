@@ -72,8 +72,8 @@ struct BeginRegions {
 
 /// Sets x to y, truncated to the region. Before this, contacts may shorten the move of a free vertex. The truncation
 /// slides a free vertex along half-spaces with the metric of inertia. From the second round on, a prescribed vertex in
-/// contact stays, because only the sweeps move its neighbours out of its way. Runs once for each vertex; lanes may
-/// share the half-spaces of a vertex.
+/// contact stays, because only the sweeps move its neighbours out of its way. Runs once for each vertex from `first`
+/// on; lanes may share the half-spaces of a vertex.
 struct GuessVertex {
   const Vec* target;        ///< y by vertex [m]
   FeasibleRegions regions;  ///< about X_prev
@@ -85,11 +85,13 @@ struct GuessVertex {
   Vec* position;                 ///< x by vertex [m], written
   StepControl* control;          ///< on the backend; `active` and `rounds` are read, cuts are counted
   const int* prescribed_number;  ///< as in BeginVertex
+  int first = 0;                 ///< number of the first vertex
 
-  OGC_HD void operator()(int v) const { (*this)(v, SerialTeam<1>{}); }
+  OGC_HD void operator()(int i) const { (*this)(i, SerialTeam<1>{}); }
   template <class Lanes>
-  OGC_HD void operator()(int v, const Lanes& lanes) const {
+  OGC_HD void operator()(int i, const Lanes& lanes) const {
     if (control->active == 0) return;
+    const int v = first + i;
     const FeasibleRegion region = regions[v];
     const Vec& stay = region.ball.centre;
     Vec change;

@@ -15,6 +15,8 @@
 // the next one (ListRoom), so that few steps are repeated.
 #pragma once
 
+#include <limits>
+
 #include "fast/contact_view.hpp"
 #include "fast/kernels/arithmetic/atomic.hpp"
 #include "fast/kernels/surface.hpp"
@@ -163,6 +165,13 @@ struct ListsView {
   int* incidence_filled = nullptr;   ///< by row: incidences written so far
   LooseIncidence* loose = nullptr;   ///< row by row, in any order within a row
   Incidence* incidences = nullptr;   ///< row by row, ascending
+  /// vertices that have rows; the rows of others stay empty (fast/kernels/parts.hpp)
+  int first_own = 0, end_own = std::numeric_limits<int>::max();
+
+  /// Returns whether a vertex has rows; −1, no vertex, has none.
+  OGC_HD bool has_rows(int v) const { return first_own <= v && v < end_own; }
+  /// Returns whether all lists were long enough so far.
+  OGC_HD bool fit() const { return *noted_count <= noted_capacity && *contact_count <= capacity && *without_slot == 0; }
 
   /// Notes a pair that is certainly nearer than r (`certain`) or may be nearer. A certain pair is stored with ~second.
   OGC_HD void note(NotedPair pair, bool certain) const {
@@ -198,7 +207,7 @@ struct ListsView {
   OGC_HD void count(int bucket, const RoleVertices& vertices, int amount) const {
     atomic_add(&record_counts[bucket], amount);
     for (const int v : vertices.role) {
-      if (v >= 0) atomic_add(&incidence_counts[rows(v, bucket >= rows.vertex_count)], amount);
+      if (has_rows(v)) atomic_add(&incidence_counts[rows(v, bucket >= rows.vertex_count)], amount);
     }
   }
 
@@ -263,9 +272,7 @@ struct CheckCapacity {
   ListsView lists;
 
   OGC_HD void operator()(int) const {
-    const bool fits = *lists.noted_count <= lists.noted_capacity && *lists.contact_count <= lists.capacity &&
-                      *lists.without_slot == 0;
-    if (*lists.overflow == 0 && !fits) *lists.overflow = 1;
+    if (*lists.overflow == 0 && !lists.fit()) *lists.overflow = 1;
   }
 };
 
@@ -299,14 +306,14 @@ OGC_HD inline void add_incidences(const ListsView& lists, const RoleVertices& ve
   int place[4] = {0, 0, 0, 0}, row[4] = {0, 0, 0, 0};
   for (int k = 0; k < 4; ++k) {
     const int v = vertices.role[k];
-    if (v >= 0) row[k] = lists.rows(v, edge_edge);
+    if (lists.has_rows(v)) row[k] = lists.rows(v, edge_edge);
   }
   for (int k = 0; k < 4; ++k) {  // separate loops, so that the latencies of the four atomics overlap
-    if (vertices.role[k] >= 0)
+    if (lists.has_rows(vertices.role[k]))
       place[k] = lists.incidence_offsets[row[k]] + atomic_add(&lists.incidence_filled[row[k]], 1);
   }
   for (int k = 0; k < 4; ++k) {
-    if (vertices.role[k] >= 0) lists.loose[place[k]] = {code | static_cast<std::uint32_t>(k), row[k]};
+    if (lists.has_rows(vertices.role[k])) lists.loose[place[k]] = {code | static_cast<std::uint32_t>(k), row[k]};
   }
 }
 

@@ -28,8 +28,13 @@ struct alignas(16) Search {  // aligned, so that few instructions read it whole
 template <class Query>
 struct Searches {
   TreeView tree;  ///< refitted at the positions that the query reads
-  int count;      ///< number of searches; Query::begin numbers them
+  int count;      ///< number of searches
   Query query;
+  int first = 0, step = 1;  ///< numbers of the searches for Query::begin: first, first + step, …
+
+  OGC_HD Search begin(int i) const { return query.begin(first + step * i); }
+  /// Returns every n-th of these searches: the i-th, the i + n-th, …
+  Searches every(int n, int i) const { return {tree, (count - i + n - 1) / n, query, first + step * i, step * n}; }
 };
 
 }  // namespace ogc::fast

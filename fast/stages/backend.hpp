@@ -25,12 +25,12 @@
 //         for_each(m, f) and for_each_counted(n, capacity, g) in any order, in one launch on a device; neither reads
 //         what the other writes. If G has `load`, a device may call g(i, g.load(i)); `load` must not read what this
 //         launch writes
-//   for_each_team<W>(int n, F f, Start start)
-//         calls f(i, team). f calls team.sum<Accumulator>(parts...) once, with F::parts parts, in the order of
-//         fast/kernels/team.hpp, so only W can change a bit. The thread for which team.leader() holds has the total and
-//         writes it. Instead of the sum, all teams of a launch may call team.leave(). With Start::overlapping, f may
-//         begin before the previous launch ends. So that launch must not write what f reads before team.sum, or what
-//         the parts `load`; it may write what `add` and `term` read
+//   for_each_team<W>(Teams teams, F f, Start start)
+//         calls f(i, team) for 0 ≤ i < teams.count. f calls team.sum<Accumulator>(parts...) once, with F::parts parts,
+//         in the order of fast/kernels/team.hpp, so only W can change a bit. The thread for which team.leader() holds
+//         has the total and writes it. Instead of the sum, all teams of a launch may call team.leave(). With
+//         Start::overlapping, f may begin before the previous launch ends. So that launch must not write what f reads
+//         before team.sum, or what the parts `load`; it may write what `add` and `term` read
 //   for_each_row(int n, const int* offsets, const float* values, F f)
 //         calls f(i, least, after) for each row values[offsets[i]] … values[offsets[i + 1] − 1], in any order. least:
 //         the smallest number; after: the number with F::rank ≤ 31 others before it in ascending order; infinite if
@@ -56,6 +56,11 @@
 //         cleared. So the body must enqueue the same calls with the same arguments every time; step numbers are counted
 //         on the device. The body must have no effect once *goes_on (on the backend) is 0; a backend may then leave out
 //         the other repetitions
+//   meetings(), join(Hall& hall, int own), meet(int n, F send, G end)
+//         only of a backend that may be one of several parts (fast/stages/parts.hpp). meetings(): the number of
+//         meetings so far, on the backend. join: host only, once; waits for the other parts. meet: calls send(i) for
+//         0 ≤ i < n, which may write into the memory of other parts; waits until every part has done so; calls end(0);
+//         counts the meeting. All parts call it equally often, in the same order
 //   replay_milliseconds()
 //         returns the time of each repetition of all replays since the last call [ms]; after synchronize
 //   synchronize()                        host only, once per frame
@@ -81,6 +86,15 @@ struct Scan {
 /// The bits of a key by which a sort compares: `begin` to `end` − 1. A device takes one pass for each eight bits.
 struct KeyBits {
   int begin = 0, end = 64;
+};
+
+/// The teams of a launch: a number of teams, or those of one part.
+struct Teams {
+  int count;  ///< number of teams
+  int whole;  ///< teams of this launch and of the same launch in other parts; decides which kernel a device runs
+
+  Teams(int all) : count(all), whole(all) {}  // NOLINT: a number of teams is meant
+  Teams(int own, int all) : count(own), whole(all) {}
 };
 
 /// Tells whether a launch begins after the end of the previous launch, or may begin earlier.

@@ -19,6 +19,7 @@
 #include "fast/stages/detect_edge_edge.hpp"
 #include "fast/stages/detect_vertex_facet.hpp"
 #include "fast/stages/lists.hpp"
+#include "fast/stages/parts.hpp"
 #include "fast/stages/planes.hpp"
 #include "fast/stages/surface.hpp"
 
@@ -77,8 +78,11 @@ class Detection {
               const Launches& launches = {}) {
     find(positions, contact_radius, query_radius, launches);
     const auto assemble = [&] {
-      lists_.assemble(backend_, {padded_.data()}, contact_radius, bounded(), bounds(bounds_relaxation),
-                      planes_.distances(), launches);
+      lists_.collect_contacts(backend_, {padded_.data()}, contact_radius, bounded(), bounds(bounds_relaxation),
+                              planes_.distances());
+      if (is_divided())
+        parts_->share_contacts(lists_.view(), {surface_.view()}, distances_of_parts(), bounds(bounds_relaxation));
+      lists_.assemble(backend_, launches);
     };
     if (!planes_.is_used()) return assemble();
     backend_.at_once(
@@ -106,6 +110,17 @@ class Detection {
             .incidences = lists.incidences,
             .bound = bound_.data(),
             .d_min_vertex = planes_.is_used() ? planes_.nearest() : d_min_vertex_.data()};
+  }
+
+  /// Divides the searches and the contacts among the parts of a simulation; `parts` must outlive the detection.
+  void divide(Parts<Backend>& parts) {
+    parts_ = &parts;
+    if (is_divided()) lists_.keep_rows_of(parts.vertices().begin, parts.vertices().end);
+  }
+  /// Adds the arrays that other parts read.
+  void publish(PartArrays& arrays) {
+    arrays.d_min_vertex = d_min_vertex_.data(), arrays.d_min_edge = d_min_edge_.data(),
+    arrays.d_min_triangle = d_min_triangle_.data();
   }
 
   /// Forwards to Planes::divide_by.
@@ -203,8 +218,19 @@ class Detection {
                       Searches<NearVertexFacet>{bvh_.facets(), facet_searches(), {vertex_facet}});
       planes_.measure(backend_, surface, vertex_facet.positions, lists, contact_radius, query_radius);
     } else {
-      backend_.search(searches_of(edge_edge), searches_of(vertex_facet));
+      const Searches<DetectEdgeEdge> edges = searches_of(edge_edge);
+      const Searches<DetectVertexFacet> facets = searches_of(vertex_facet);
+      if (is_divided())
+        backend_.search(edges.every(parts_->count(), parts_->own()), facets.every(parts_->count(), parts_->own()));
+      else
+        backend_.search(edges, facets);
     }
+  }
+
+  bool is_divided() const { return parts_ != nullptr && parts_->is_one_of_several(); }
+  TakeDistances distances_of_parts() {
+    const SurfaceView surface = surface_.view();
+    return {{}, surface.vertex_count, surface.edge_count, surface.triangle_count, lists_.overflow()};
   }
 
   /// Returns the number of searches for facets; 0 if there is no facet.
@@ -231,8 +257,8 @@ class Detection {
   }
 
   /// Returns the number of vertices whose bounds are computed in the first launch of the lists. If bounds are planes,
-  /// they are computed earlier.
-  int bounded() const { return planes_.is_used() ? 0 : surface_.view().vertex_count; }
+  /// they are computed earlier; bounds of several parts need the distances of all.
+  int bounded() const { return planes_.is_used() || is_divided() ? 0 : surface_.view().vertex_count; }
 
   ConservativeBound bounds(float bounds_relaxation) {
     return {.surface = surface_.view(),
@@ -249,6 +275,7 @@ class Detection {
   Bvh<Backend> bvh_;
   Lists<Backend> lists_;
   Planes<Backend> planes_;
+  Parts<Backend>* parts_ = nullptr;
   typename Backend::template Buffer<PaddedVec> padded_;  ///< positions of the last detection
   typename Backend::template Buffer<float> d_min_vertex_, d_min_edge_, d_min_triangle_, bound_;
 };

@@ -27,6 +27,8 @@ class LeftForces {
     reduction_.template add<0, left_columns>(LeftSums{left_.data(), slots_}, 0, Nothing{});
     reduction_.total(totals_.data(), 0, Nothing{}, 0, Nothing{});
   }
+  /// Returns the forces by slot, on the backend.
+  LeftForce* left() { return left_.data(); }
   /// Returns the totals of the last step by LeftColumn, on the backend.
   const double* totals() const { return totals_.data(); }
 

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 
 #include "compare/problem/error.hpp"
@@ -36,6 +37,8 @@ class Lists {
   /// Sets RowNumbers::place, on the backend; null: rows are in the order of vertices. Call it before the first
   /// detection.
   void number_rows(const int* places) { places_ = places; }
+  /// Leaves the rows of other vertices than these empty.
+  void keep_rows_of(int first, int end) { first_own_ = first, end_own_ = end; }
 
   /// Returns the lists as kernels see them.
   ListsView view() {
@@ -64,7 +67,9 @@ class Lists {
             .incidence_offsets = incidence_offsets_.data(),
             .incidence_filled = incidence_filled_.data(),
             .loose = loose_.data(),
-            .incidences = incidences_.data()};
+            .incidences = incidences_.data(),
+            .first_own = first_own_,
+            .end_own = end_own_};
   }
 
   /// Returns the number of vertex–facet records, on the backend.
@@ -78,15 +83,19 @@ class Lists {
   /// Returns the number of noted pairs for which the lists have room.
   int noted_capacity() const { return noted_capacity_; }
 
-  /// Makes records and incidences of the pairs that both searches noted. The first launch also computes `bounds`, which
-  /// need no list, for vertices 0 … `bounded` − 1. `distances`: see CollectContacts. `launches` runs the last launch
-  /// (see Detection::detect).
-  template <class Launches>
-  void assemble(Backend& backend, PaddedVecs positions, float contact_radius, int bounded,
-                const ConservativeBound& bounds, const float* distances, const Launches& launches) {
+  /// Enters the contacts of the pairs that both searches noted. The launch also computes `bounds`, which need no list,
+  /// for vertices 0 … `bounded` − 1. `distances`: see CollectContacts.
+  void collect_contacts(Backend& backend, PaddedVecs positions, float contact_radius, int bounded,
+                        const ConservativeBound& bounds, const float* distances) {
     const ListsView lists = view();
     backend.for_both(bounded, bounds, lists.noted_count, noted_capacity_,
                      collect(positions, contact_radius, distances));
+  }
+
+  /// Makes records and incidences of the contacts. `launches` runs the last launch (see Detection::detect).
+  template <class Launches>
+  void assemble(Backend& backend, const Launches& launches) {
+    const ListsView lists = view();
     backend.exclusive_scans({lists.record_counts, lists.record_offsets, buckets_},
                             {lists.incidence_counts, lists.incidence_offsets, lists.rows.count()});
     backend.for_both(1, CheckCapacity{lists}, lists.contact_count, capacity_,
@@ -185,6 +194,7 @@ class Lists {
   SurfaceView surface_;
   int buckets_, capacity_, noted_capacity_;
   const int* places_ = nullptr;
+  int first_own_ = 0, end_own_ = std::numeric_limits<int>::max();
   Buffer<ListStatus> status_;
   Buffer<NotedPair> noted_;
   Buffer<ContactSlot> table_;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -19,6 +20,7 @@
 #include "compare/way.hpp"
 #include "fast/kernels/frame.hpp"
 #include "fast/resident_state.hpp"
+#include "fast/stages/parts.hpp"
 #include "fast/stages/step.hpp"
 #include "fast/stages/way.hpp"
 
@@ -36,9 +38,9 @@ template <class Backend>
 class ResidentSimulation : public compare::Simulation, public compare::WayTeller, public ResidentState {
  public:
   /// `device` is the result of device(). `list_capacity`: number of contacts for which the lists have room at first; 0:
-  /// what the first detection needs. Lists grow by themselves.
+  /// what the first detection needs. Lists grow by themselves. `hall`, `part`: see Parts.
   ResidentSimulation(Backend backend, const compare::Scene& scene, const compare::SimulationOptions& options,
-                     std::string device, int list_capacity = 0)
+                     std::string device, int list_capacity = 0, std::shared_ptr<Hall> hall = nullptr, int part = 0)
       : backend_(std::move(backend)),
         device_(std::move(device)),
         scene_(rounded(scene)),
@@ -53,13 +55,15 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
                  solid_tables(topology_, volume_tetrahedra(scene_)), asker_rows(scene_, topology_, colouring_.order),
                  sweep_.slots(), sweep_.colour()),
         rods_(scene_, rest_, longest_frame),
+        parts_(backend_, std::move(hall), part, colouring_),
         clock_(backend_, options.profile),
         moving_(static_cast<std::size_t>(compare::bounded_count(topology_, exclusions_.groups))),
-        step_(backend_, state_, detection_, sweep_, volumes_, rods_, clock_,
+        step_(backend_, state_, detection_, sweep_, volumes_, rods_, parts_, clock_,
               step_settings(scene_, moving_, options.energies), static_cast<int>(rest_.mass.size())),
         energies_(options.energies),
         counts_first_(list_capacity == 0) {
     detection_.number_rows(sweep_.row_places());
+    detection_.divide(parts_);
     fill_state();
     reserve();
     const std::vector<compare::Vec3f> positions = compare::to_single(scene_.mesh.positions),
@@ -91,10 +95,15 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     const StepControl control = collect(rows);
     if ((control.status & (compare::step_not_finite | compare::step_bound_violated)) != 0) return false;
     if (control.status == 0) {
-      if (control.short_of_room != 0 && detection_.make_room()) lists_moved();
+      if (control.short_of_room == 0) return true;
+      parts_.wait();  // another part may still read this one's lists
+      if (detection_.make_room()) lists_moved();
+      publish();
       return true;
     }
+    parts_.wait();
     grow();
+    publish();
     ++repeats_;
     return true;
   }
@@ -137,6 +146,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     detection_.reserve(capacities);
     detection_.put_search_limits(snapshot.search_limits);
     lists_moved();
+    publish();
   }
 
   const compare::Vec3f* positions_resident() const override { return rows_of(state_.start); }
@@ -251,7 +261,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
   void begin_at(const std::vector<compare::Vec3f>& positions, const std::vector<compare::Vec3f>& velocities) {
     upload_motion(positions, velocities);
     if constexpr (!shares_launches<Backend>()) {
-      if (!counts_first_) return;
+      if (!counts_first_) return publish();
       count_contacts();
       upload_motion(positions, velocities);
     }
@@ -262,11 +272,14 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     upload_targets(1);
     do {
       lists_moved();
+      publish();
       backend_.for_each(1, BeginFrame{state_.control.data(), since_sort_});
       step_.enqueue_first_detection();
       backend_.synchronize();
+      parts_.wait();  // another part may still read this one's lists
     } while (detection_.grow());
     lists_moved();
+    publish();
     detection_.forget();
     clock_.take();
   }
@@ -282,6 +295,14 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     }
     if (!targets.empty()) state_.prescribed_targets.upload(targets.data(), targets.size());
     rods_.upload_turns(step_number_, count);
+  }
+
+  /// Tells the other parts where this part's arrays are.
+  void publish() {
+    PartArrays arrays;
+    step_.publish(arrays);
+    detection_.publish(arrays);
+    parts_.publish(arrays);
   }
 
   /// Waits for a frame and adds its rows. Returns the control at its end.
@@ -415,7 +436,10 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     lists_moved();
   }
 
-  void reserve() { sweep_.reserve_contacts(detection_.capacity()); }
+  void reserve() {
+    sweep_.reserve_contacts(detection_.capacity());
+    parts_.reserve(detection_.capacity());
+  }
 
   void lists_moved() {
     reserve();
@@ -445,6 +469,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
   Sweep<Backend> sweep_;
   Volumes<Backend> volumes_;
   Rods<Backend> rods_;
+  Parts<Backend> parts_;
   StageClock<Backend> clock_;
   StepState<Backend> state_;
   std::size_t moving_;

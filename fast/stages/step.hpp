@@ -30,6 +30,7 @@
 #include "fast/kernels/sums/volume_sums.hpp"
 #include "fast/stages/detection.hpp"
 #include "fast/stages/left_forces.hpp"
+#include "fast/stages/parts.hpp"
 #include "fast/stages/profile.hpp"
 #include "fast/stages/reduce.hpp"
 #include "fast/stages/rods.hpp"
@@ -87,13 +88,15 @@ class Step {
  public:
   /// `vertices`: number of vertices of the mesh. `state` is filled later.
   Step(Backend& backend, StepState<Backend>& state, Detection<Backend>& detection, Sweep<Backend>& sweep,
-       Volumes<Backend>& volumes, Rods<Backend>& rods, StageClock<Backend>& clock, StepSettings settings, int vertices)
+       Volumes<Backend>& volumes, Rods<Backend>& rods, Parts<Backend>& parts, StageClock<Backend>& clock,
+       StepSettings settings, int vertices)
       : backend_(backend),
         state_(state),
         detection_(detection),
         sweep_(sweep),
         volumes_(volumes),
         rods_(rods),
+        parts_(parts),
         clock_(clock),
         settings_(settings),
         reduction_(backend, vertices),
@@ -102,6 +105,12 @@ class Step {
   /// Sets the observer; null removes it.
   void observe(StepObserver* observer) { observer_ = observer; }
   bool is_observed() const { return observer_ != nullptr; }
+
+  /// Adds the arrays that other parts read or write.
+  void publish(PartArrays& arrays) {
+    arrays.padded = state_.padded.data(), arrays.position = state_.position.data(), arrays.taken = state_.taken.data();
+    arrays.left = left_forces_.left();
+  }
 
   /// Returns r plus the contact margin [m].
   float detection_radius() const { return settings_.detection_radius; }
@@ -244,11 +253,13 @@ class Step {
                             .taken = s.taken.data(),
                             .position = s.position.data(),
                             .control = control(),
-                            .prescribed_number = s.prescribed_number.data()};
+                            .prescribed_number = s.prescribed_number.data(),
+                            .first = parts_.vertices().begin};
     if (guess.regions.has_planes())
-      backend_.template for_each_group<most_planes>(s.vertex_count, guess);
+      backend_.template for_each_group<most_planes>(parts_.vertices().count(), guess);
     else
-      backend_.for_each(s.vertex_count, guess);
+      backend_.for_each(parts_.vertices().count(), guess);
+    parts_.share_guess(s.position.data(), s.taken.data(), s.vertex_count, control());
   }
 
   void guess_loop() {
@@ -269,6 +280,7 @@ class Step {
                           rods_.count(),
                           rods_.begin(s.start.data(), s.position.data(), control())};
     reduction_.template add<0, guess_columns>(vertex_sums({}), begin.count(), begin);
+    parts_.meet();  // before another part's first colour writes into the position buffers
     if (observer_ != nullptr) observer_->after_guess();
   }
 
@@ -334,7 +346,7 @@ class Step {
   void sweep(int iteration, const int* turn, Start start) {
     SweepView view = this->view(iteration);
     view.turn = turn;
-    sweep_.iterate(view, start);
+    sweep_.iterate(view, start, &parts_);
     if (volumes_.has_free())
       backend_.for_each(volumes_.rows(), CountDeepInside{view.volumes, view.position, settings_.contact_radius, turn,
                                                          iteration, control()});
@@ -351,6 +363,7 @@ class Step {
       left_forces_.end(sweep_, other);
     }
     left_forces_.end(sweep_, last);
+    parts_.share_forces(sweep_.vertices(), left_forces_.left(), sweep_.slots());
     left_forces_.add();
   }
 
@@ -438,6 +451,7 @@ class Step {
   Sweep<Backend>& sweep_;
   Volumes<Backend>& volumes_;
   Rods<Backend>& rods_;
+  Parts<Backend>& parts_;
   StageClock<Backend>& clock_;
   StepSettings settings_;
   Reduction<Backend, guess_columns + sum_columns> reduction_;

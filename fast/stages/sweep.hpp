@@ -13,6 +13,7 @@
 #include "fast/kernels/volumes/stream.hpp"
 #include "fast/stages/backend.hpp"
 #include "fast/stages/colouring.hpp"
+#include "fast/stages/parts.hpp"
 #include "fast/stages/rest_state.hpp"
 #include "fast/stages/rod_streams.hpp"
 #include "fast/stages/streams.hpp"
@@ -70,9 +71,9 @@ inline unsigned asked_of_sum(const RestState& rest, const compare::Scene& scene)
          (rest.activation == ContactActivation::ogc ? 0u : asks_any_activation);
 }
 
-/// Updates `count` vertices of a colour, each by a team of `lanes` team lanes.
+/// Updates vertices of a colour, each by a team of `lanes` team lanes.
 template <class Backend, class Sum>
-void update_vertices(Backend& backend, int lanes, int count, const UpdateVertex<Sum>& kernel, Start start);
+void update_vertices(Backend& backend, int lanes, Teams teams, const UpdateVertex<Sum>& kernel, Start start);
 /// Measures the force on the vertex of each slot; one team sums the force of one slot. The number of lanes is fixed,
 /// because no position depends on these sums.
 template <class Backend>
@@ -174,7 +175,9 @@ class Sweep {
   /// Runs one iteration: prescribed vertices, segments, then vertices, colour by colour. Each position is truncated
   /// before it is written, and each cut is counted. Pass `overlapping` only if the sweep reads nothing that the
   /// previous launch writes, except StepControl::turn.
-  void iterate(const SweepView& view, Start start = Start::after_previous) {
+  /// `parts`: null, or the parts of a simulation; then the sweep updates the vertices of its own part alone.
+  void iterate(const SweepView& view, Start start = Start::after_previous, Parts<Backend>* parts = nullptr) {
+    if (parts != nullptr && parts->is_one_of_several()) return iterate_part(view, *parts);
     const int prescribed = static_cast<int>(prescribed_host_.size());
     // The first colour may begin before UpdatePrescribed ends. Only the colour's sums read the positions that
     // UpdatePrescribed writes, and a sum first waits for the previous launch.
@@ -202,6 +205,22 @@ class Sweep {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
   using Sums = typename Backend::Sums;
+
+  /// Does the work of iterate for one part. Each colour ends with a meeting, so no launch overlaps another.
+  void iterate_part(const SweepView& view, Parts<Backend>& parts) {
+    const Range own = parts.vertices();
+    backend_.for_each(static_cast<int>(prescribed_host_.size()),
+                      UpdatePrescribed{view, prescribed_.data(), own.begin, own.end});
+    for (int c = 0; c < colours_; ++c) {
+      const auto k = static_cast<std::size_t>(c);
+      const Range slots = parts.slots(c);
+      Sums::with(sum_, [&](auto sum) {
+        update_vertices(backend_, lanes_, {slots.count(), colour_begin_[k + 1] - colour_begin_[k]},
+                        UpdateVertex<decltype(sum)>{view, slots.begin, false}, Start::after_previous);
+      });
+      parts.share_colour(view, c);
+    }
+  }
 
   template <class T>
   static void upload(Buffer<T>& buffer, const std::vector<T>& items) {

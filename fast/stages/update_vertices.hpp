@@ -9,12 +9,12 @@
 namespace ogc::fast {
 
 template <class Backend, class Sum>
-void update_vertices(Backend& backend, int lanes, int count, const UpdateVertex<Sum>& kernel, Start start) {
+void update_vertices(Backend& backend, int lanes, Teams teams, const UpdateVertex<Sum>& kernel, Start start) {
   switch (lanes) {
-    case 2: return backend.template for_each_team<2>(count, kernel, start);
-    case 4: return backend.template for_each_team<4>(count, kernel, start);
-    case 8: return backend.template for_each_team<8>(count, kernel, start);
-    default: return backend.template for_each_team<16>(count, kernel, start);
+    case 2: return backend.template for_each_team<2>(teams, kernel, start);
+    case 4: return backend.template for_each_team<4>(teams, kernel, start);
+    case 8: return backend.template for_each_team<8>(teams, kernel, start);
+    default: return backend.template for_each_team<16>(teams, kernel, start);
   }
 }
 

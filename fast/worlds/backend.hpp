@@ -108,8 +108,8 @@ class WorldBackend {
     call(BothOperation<F, G>{m, n, capacity, f, g});
   }
   template <int W, class F>
-  void for_each_team(int n, F f, Start) {
-    if (n > 0) call(TeamOperation<W, F>{n, f});
+  void for_each_team(Teams teams, F f, Start) {
+    if (teams.count > 0) call(TeamOperation<W, F>{teams.count, f});
   }
   template <class F>
   void for_each_row(int n, const int* offsets, const float* values, F f) {

@@ -43,7 +43,7 @@ struct HostBlock {
   void search(const Searches<Query>& searches) const {
     if (searches.query.is_off()) return;
     for (int i = 0; i < searches.count; ++i) {
-      Search search = searches.query.begin(i);
+      Search search = searches.begin(i);
       for_each_near(searches.tree, search.box, search.from, search.limit, [&](const Offer& offer) {
         if (!searches.query.is_pair(search, offer)) return;
         const float limit = searches.query.meet(search, offer.primitive, offer.gap);

@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from paper_figures.workflow.evidence import CLAIMS, RESULTS
-from plots import style
 
 MACHINE = RESULTS / "h200"
 TITLE = "Table 1. Time a step, the paper's beside ours, mean / longest"
@@ -109,6 +108,8 @@ def table():
 
 
 def draw(out):
+    from plots import style  # imported here, because it needs matplotlib
+
     plt, rows = style.use(), list(table())
     counts = [sum(colours[i] == FASTER for _, colours in rows for i in (4, 5)),
               sum(colours[i] != "white" for _, colours in rows for i in (4, 5))]

@@ -15,7 +15,6 @@ MEANING = {
     "as printed": "What we set is what the paper prints.",
     "not as printed": "What we set differs from what the paper prints.",
 }
-MEMBRANES = {"stable_neo_hookean": "stable Neo-Hookean", "st_venant_kirchhoff": "St. Venant–Kirchhoff"}
 NO_UNIT = ("1", "", "not printed")
 
 
@@ -69,10 +68,7 @@ class Claim:
     @property
     def note(self):
         """Returns the further remarks as sentences."""
-        text = self.judgement.note
-        for name, words in MEMBRANES.items():
-            text = text.replace(name, words)
-        return f"{text[0].upper()}{text[1:]}." if text else ""
+        return self.judgement.note
 
     @property
     def figure(self):
@@ -136,11 +132,12 @@ def all_claims(judgements, origins, book, fresh=None):
 
 
 def summary(claims):
-    """Returns what the first page says of the claims, as counts by name."""
-    results = [claim for claim in claims if claim.is_result]
-    found = {slug(name).replace("-", "_"): sum(claim.verdict == name for claim in results)
-             for name in verdicts.VERDICTS}
-    studies = [claim for claim in results if claim.about["scene"].startswith("ablation_")]
-    return {**found, "results": len(results), "settings": len(claims) - len(results),
-            "late": sum(claim.judgement.late and claim.verdict == "reproduced" for claim in results),
-            "by_studies": sum(claim.verdict == "reproduced" for claim in studies)}
+    """Returns what the first page says of the claims, as counts by name; the paper's own stand alone, `studies` is of
+    our studies."""
+    own, studies = ([claim for claim in claims if claim.is_result and claim.about["study"] == wanted]
+                    for wanted in (False, True))
+    count = lambda found: {slug(name).replace("-", "_"): sum(claim.verdict == name for claim in found)  # noqa: E731
+                           for name in verdicts.VERDICTS}
+    return {**count(own), "results": len(own), "studies": {**count(studies), "results": len(studies)},
+            "settings": sum(not claim.is_result for claim in claims),
+            "late": sum(claim.judgement.late and claim.verdict == "reproduced" for claim in own)}

@@ -5,6 +5,7 @@ import csv
 from dataclasses import dataclass
 
 from paper_figures.figures import table1_picture
+from paper_figures.workflow import ratios
 from paper_figures.workflow.evidence import RESULTS
 
 GPU, CORES = RESULTS / "h200", RESULTS / "two_cores"
@@ -119,12 +120,24 @@ def peers_sets():
 
 
 def peers_scenes():
-    """Returns scenes in Newton Physics' solver and in ours, audited alike."""
+    """Returns scenes in Newton Physics' solver and in ours, audited alike; the last column says by the rule of ratios
+    whether their times are comparable with ours of the same scene."""
     files = (GPU / "peers_newton_gpu.csv", CORES / "peers_trajectories.csv")
     rows = [(row["scene"], row["scale"], row["device"], f"{PEERS[row['program']]}, {row['variant']}",
              f"{row['steps_done']} of {row['steps']}", rounded(row["mean_ms"]), rounded(row["worst_ms"]),
-             f"{row['states_intersecting']} of {row['states']}", f"{row['motions_meeting']} of {row['motions']}")
-            for path in files for row in rows_of(path)]
+             f"{row['states_intersecting']} of {row['states']}", f"{row['motions_meeting']} of {row['motions']}",
+             comparable(row, found))
+            for found in map(rows_of, files) for row in found]
     return Table("The same scene in Newton Physics and here",
                  ("scene", "scale", "device", "program", "steps", "mean [ms]", "longest [ms]",
-                  "states that intersect", "motions that meet"), tuple(rows), files, 4)
+                  "states that intersect", "motions that meet", "times comparable"), tuple(rows), files, 4)
+
+
+def comparable(row, rows):
+    """Returns "yes", or the reason why not; "–" for our own rows."""
+    if row["program"] == ratios.OURS:
+        return "–"
+    ours = [other for other in rows if other["program"] == ratios.OURS
+            and (other["scene"], other["scale"]) == (row["scene"], row["scale"])]
+    said = {ratios.obstacle((ratios.side_of(other), ratios.side_of(row)), row["program"]) for other in ours}
+    return " ".join(sorted(said - {""})) or "yes"

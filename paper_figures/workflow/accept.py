@@ -5,7 +5,7 @@ a row in provenance.csv (command, program, device, digest) and its duration in d
 The kept files are small (kept.py, thinned.py), and a run that another figure keeps is not kept twice.
 
 Nothing is accepted of an unfinished run, of one that failed its audit, of a program with uncommitted changes, or of
-runs of several commits.
+runs or rows of several commits. What the commits' sources were is kept in contents.csv (contents.py).
 """
 
 import argparse
@@ -19,14 +19,17 @@ import sys
 from fnmatch import fnmatch
 from pathlib import Path
 
-from paper_figures.workflow import captions, recipes
+from paper_figures.workflow import captions, contents, recipes
+from paper_figures.workflow.contents import COLUMNS, merge, rows_of
 from paper_figures.workflow.evidence import NOT_RUN, RESULTS, SCENES, run_at
 from paper_figures.workflow.jobs import ENDED_BY_TIME
 from paper_figures.workflow.kept import MOVIES, PICTURES, AcceptError, file_of, run_files
 
-COLUMNS = ("file", "figure", "scale", "backend", "redo", "commit", "compiler", "device", "ended", "sha256")
 # Bytes of a file, and of a picture or movie; a test limits tables to 10 MB and pictures and movies to 30.
 LARGEST, LARGEST_PICTURE = 2**20, 4 * 2**20
+# There is one Table 1 of the paper's size, whole_runs.csv, which is computed from the kept runs; its table of the runs
+# just made would be a second.
+COMPUTED = {("table1", "paper")}
 
 
 def manifests(folder):
@@ -105,20 +108,37 @@ def pieces(recipe, scale, backend, runs, incomplete=False):
         suffix, data = file_of(picture)
         return [(picture.stem + suffix, data),
                 (f"{recipe.name}.json.gz", gzip.compress((folder / f"{recipe.name}.json").read_bytes(), mtime=0))]
-    outputs = [runs / path for path in recipe.outputs(scale, backend)]
+    outputs = [runs / path for path in recipe.outputs(scale, backend) if not is_computed(recipe, scale, Path(path))]
     missing = [path for path in outputs if not path.is_file()]
     if missing and not incomplete:
         raise AcceptError(f"{missing[0]} is missing: make it with experiments/reproduce {recipe.name} --scale {scale}, "
                           "or keep the figure without it by --incomplete")
     found = [(f"{recipe.name}_{scale}{suffix}", data) for suffix, data in map(file_of, (path for path in outputs
                                                                                         if path not in missing))]
-    found += [(f"{path.stem}_{scale}.csv", path.read_bytes()) for path in sorted(folder.glob("*.csv"))
+    tables = [path for path in sorted(folder.glob("*.csv")) if not is_computed(recipe, scale, path)]
+    check_tables(tables)
+    found += [(f"{path.stem}_{scale}.csv", path.read_bytes()) for path in tables
               if not path.stem.endswith(f"_{scale}")]
     paths = [path for path in sorted(folder.rglob("run.json")) if keeps(recipe, run_name(path, folder))]
     for path in paths:  # one run lies beside its picture, several in a folder
         apart = f"/{run_name(path, folder)}" if len(paths) > 1 else ""
         found += run_files(path, f"{recipe.name}_{scale}{apart}")
     return found
+
+
+def is_computed(recipe, scale, path):
+    return (recipe.name, scale) in COMPUTED and contents.is_table(path.name)
+
+
+def check_tables(paths):
+    """Throws AcceptError if the rows of a table are of several programs, or of one with uncommitted changes."""
+    for path in paths:
+        commits = contents.commits_in(path)
+        changed = [commit for commit in commits if not contents.HEX.fullmatch(commit)]
+        if changed:
+            raise AcceptError(f"{path} has rows of {', '.join(changed)}, which is no commit: commit, build, run again")
+        if len(commits) > 1:
+            raise AcceptError(f"{path} mixes rows of commits {', '.join(commits)}: make all its rows by one program")
 
 
 def keeps(recipe, name):
@@ -220,14 +240,6 @@ def composed(recipe, chosen, scale, backend, runs, ogc):
     return max(found, key=lambda words: words["ended"])
 
 
-def rows_of(table):
-    """Returns the rows of a table; none if there is no such file."""
-    if not table.is_file():
-        return []
-    with table.open(newline="") as file:
-        return list(csv.DictReader(file))
-
-
 def earlier_files(provenance, rows):
     """Returns the files of an earlier acceptance of the figures in `rows`, at the same scale by the same backend, that
     have no successor there."""
@@ -235,18 +247,6 @@ def earlier_files(provenance, rows):
     names = {row["file"] for row in rows}
     return [row["file"] for row in rows_of(provenance) if (row["figure"], row["scale"], row["backend"]) in about
             and row["file"] not in names]
-
-
-def merge(path, columns, rows, key, gone=()):
-    """Replaces rows of a table by those of the same key and removes the rows in `gone`. The table is sorted, so that a
-    new acceptance changes only its own lines."""
-    old = {tuple(row[name] for name in key): row for row in rows_of(path)}
-    old = {name: row for name, row in old.items() if name not in gone}
-    old.update({tuple(row[name] for name in key): row for row in rows})
-    with path.open("w", newline="") as file:
-        writer = csv.DictWriter(file, fieldnames=columns, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(old[name] for name in sorted(old))
 
 
 def main():
@@ -269,6 +269,10 @@ def main():
                       incomplete=options.incomplete, by_hand=options.redo, pictures=options.pictures)
     except (AcceptError, recipes.RecipeError) as error:
         sys.exit(f"accept: {error}")
+    try:
+        contents.write()
+    except contents.ContentsError as error:
+        print(f"accept: results/contents.csv is as it was: {error}", file=sys.stderr)
     print(f"{len(rows)} files accepted into paper_figures/results/{options.machine}; then: python3 -m "
           "paper_figures.workflow.verdicts --write, and look at what changed")
 

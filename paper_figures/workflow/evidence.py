@@ -19,6 +19,7 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
 
+from paper_figures.workflow import ratios
 from paper_figures.workflow.jobs import AUDIT
 from paper_figures.workflow.thinned import Hundreds
 from ogc_testbed.columns import column_and_unit
@@ -31,7 +32,9 @@ PAPER_BOUNDS = "ball"
 SURFACE, VOLUME = "surface", "volume"  # kinds of contact of a body
 NOT_RUN = "not run"  # the status of a table's row about a run that its figure lacks
 TABLES = ("fig*.csv", "table*_*.csv", "ablations*.csv", "ablations*.csv.gz", "radius*.csv", "sphere_off*.csv",
-          "yarn_return*.csv")
+          "yarn_return*.csv", "cpu_windows_*.csv")
+WINDOWS = "cpu_windows"  # the table of steps on the CPU from states of whole runs
+MEMBRANES = {"stable_neo_hookean": "stable Neo-Hookean", "st_venant_kirchhoff": "St. Venant–Kirchhoff"}
 
 
 class EvidenceError(Exception):
@@ -41,7 +44,8 @@ class EvidenceError(Exception):
 @dataclass(frozen=True)
 class Measured:
     """Holds a number and its origin. `source` is a path below the folder of the results, `about` is what a reader must
-    know besides, `membrane` is the model of its cloth, empty if there is none or it is not known."""
+    know besides, as a sentence, `membrane` is the model of its cloth, empty if there is none or it is not known,
+    `sides` are the programs that it compares, one if it compares none."""
 
     value: float
     source: str
@@ -50,6 +54,7 @@ class Measured:
     ended: str
     about: str = ""
     membrane: str = ""
+    sides: tuple = ()
 
 
 def opened(path):
@@ -205,7 +210,11 @@ class RunEvidence:
 
     @property
     def audit_in_words(self):
-        return f"{self.audited_states} states audited, {self.step_count} steps"
+        return f"{self.audited_states:,} states of {self.step_count:,} steps were audited."
+
+    @property
+    def side(self):
+        return ratios.Side(ratios.OURS, self.manifest["commit"][:10], self.manifest["device"])
 
     def matches(self, wanted):
         """Returns whether the run is the one that a claim wants. `wanted`: keys of the manifest, and profiled, audited,
@@ -261,7 +270,7 @@ class RunEvidence:
     def measured(self, value, about=""):
         m = self.manifest
         return Measured(float(value), self.source, m["device"], m["commit"][:10], m["ended"], about,
-                        " and ".join(sorted(self.membranes)))
+                        " and ".join(sorted(self.membranes)), (self.side,))
 
 
 def run_at(folder):
@@ -375,9 +384,11 @@ class Evidence:
         first, second = value_of(a, spec["ratio"][0]), value_of(b, spec["ratio"][1])
         found = a.measured(first / second)
         devices = found.device, b.manifest["device"]
-        on = f"each on {devices[0]}" if len(set(devices)) == 1 else " over ".join(devices)
+        on = (f"Both ran on {devices[0]}." if len(set(devices)) == 1
+              else f"The first ran on {devices[0]}, the second on {devices[1]}.")
         ended = max(a.manifest["ended"], b.manifest["ended"])
-        return Measured(found.value, f"{a.source} / {b.source}", found.device, found.commit, ended, on, found.membrane)
+        return Measured(found.value, f"{a.source} / {b.source}", found.device, found.commit, ended, on, found.membrane,
+                        (a.side, b.side))
 
     def _of_table(self, spec, scale):
         """Returns a cell, or the quotient of two; `column` is then one for both, or a list of one for each. If runs
@@ -391,18 +402,36 @@ class Evidence:
                 continue
             columns = [spec["column"]] * len(rows) if isinstance(spec["column"], str) else spec["column"]
             cells = [_cell(table, row, column) for row, column in zip(rows, columns)]
-            if len({row["commit"] for row in rows}) > 1:
-                raise EvidenceError(f"{table.source} mixes commits "
-                                    f"{', '.join(sorted({row['commit'] for row in rows}))}: make all its rows by one "
-                                    "program")
-            if len({row["device"] for row in rows}) > 1:  # a ratio of two machines means nothing
+            sides = tuple(map(ratios.side_of, rows))
+            if len({side.program for side in sides}) == 1 and len({side.version for side in sides}) > 1:
+                raise EvidenceError(f"{table.source} mixes commits {', '.join(sorted(s.version for s in sides))}: make "
+                                    "all its rows by one program")
+            if len({side.machine for side in sides}) > 1:  # a ratio of two machines means nothing
                 continue
             value = cells[0] / cells[1] if len(cells) > 1 else cells[0]
             is_time = "[ms]" in spec["column"] or rows[0].get("unit") == "ms"
-            on = f"each on {rows[0]['device']}" if len(cells) > 1 and is_time else ""
+            on = f"Both ran on {rows[0]['device']}." if len(cells) > 1 and is_time else ""
             return Measured(value, table.source, rows[0]["device"], rows[0]["commit"], rows[0].get("ended", ""), on,
-                            rows[0].get("membrane", ""))
+                            rows[0].get("membrane", ""), sides)
         return None
+
+    def windows(self, wanted):
+        """Returns what steps on the CPU took in windows from states of the whole run that `wanted` describes, as a
+        sentence; empty if there are none."""
+        name = wanted["scene"] + ("_volumes" if wanted.get("body_contact") == VOLUME else "")
+        for table in reversed([t for t in self.tables if (t.name, t.scale) == (WINDOWS, wanted.get("scale"))]):
+            rows = [row for row in table.rows if row["row"] in (name, f"{name}_planes")]
+            rows = [row for row in rows if row["row"] == name] or rows
+            if rows:
+                means = sorted(float(row["mean step [ms]"]) for row in rows)
+                worst = max(float(row["worst step [ms]"]) for row in rows)
+                first, last, most = (f"{value:,.0f}" if value >= 1000 else f"{value:.3g}"
+                                     for value in (means[0], means[-1], worst))
+                steps = int(rows[0]["steps"])
+                planes = ", with planes," if rows[0]["row"] != name else ""
+                return (f"In windows of {steps} step{'s' * (steps > 1)} from {len(rows)} of its states a step{planes} "
+                        f"takes {first} to {last} ms on average and {most} ms at most ({table.source}).")
+        return ""
 
 
 def _row(table, wanted):

@@ -1,8 +1,10 @@
-"""The generated tables of documents. A document marks the place of each by `<!-- table NAME -->` and `<!-- end -->`:
-the table of an ablation (`ablation_tables.py`), or chosen rows and columns of accepted files, which results/tables.json
-lists by document and name: `files`; `where`, what cells of a row must be; `label`, the columns whose cells name a row;
-`rows`, the names in their order, or all; `columns`, the titles with their columns. Where several rows have one name, a
-cell prints their range.
+"""Writes the tables of documents: README's counts of claims and times, the table of an ablation (`ablation_tables.py`),
+and chosen rows and columns of accepted files. A document marks the place of each by `<!-- table NAME -->` and
+`<!-- end -->`.
+
+results/tables.json lists the last kind by document and name: `files`; `where`, what cells of a row must be; `label`,
+the columns whose cells name a row; `rows`, the names in their order, or all; `columns`, the titles with their columns.
+Where several rows have one name, a cell prints their range.
 
 Usage: python3 -m paper_figures.workflow.page_tables [--write]: checks whether the tables of all documents are those of
 the files, with exit status 1 if they are not, or writes them. The standard library is enough.
@@ -14,11 +16,12 @@ import json
 import re
 import sys
 
-from paper_figures.workflow import ablation_tables
+from paper_figures.workflow import ablation_tables, headline
 from paper_figures.workflow.evidence import RESULTS, ROOM, opened
 
 LISTED = json.loads((RESULTS / "tables.json").read_text())
-DOCUMENTS = [ROOM / "ablations.md", *(RESULTS / name for name in LISTED)]
+README = ROOM.parent / "README.md"
+DOCUMENTS = [README, ROOM / "ablations.md", *(RESULTS / name for name in LISTED)]
 PLACE = re.compile(r"<!-- table (\w+) -->\n.*?<!-- end -->", re.S)
 NOTHING = ("", "nan", "inf")
 
@@ -64,8 +67,11 @@ def rewritten(path, text):
     listed = LISTED.get(path.relative_to(RESULTS).as_posix(), {}) if path.is_relative_to(RESULTS) else {}
 
     def made(place):
-        lines = table(listed[place[1]], path.parent) if place[1] in listed else ablation_tables.table(place[1])
-        return f"<!-- table {place[1]} -->\n\n" + "\n".join(lines) + "\n\n<!-- end -->"
+        name = place[1]
+        if path == README:
+            return f"<!-- table {name} -->\n\n" + headline.PARTS[name](place[0]) + "\n\n<!-- end -->"
+        lines = table(listed[name], path.parent) if name in listed else ablation_tables.table(name)
+        return f"<!-- table {name} -->\n\n" + "\n".join(lines) + "\n\n<!-- end -->"
 
     return PLACE.sub(made, text)
 
@@ -80,7 +86,7 @@ def main():
         if options.write:
             path.write_text(after)
         elif after != before:
-            sys.exit(f"{path.relative_to(ROOM)}: its tables are not those of the files: write them with --write")
+            sys.exit(f"{path.relative_to(ROOM.parent)}: its tables are not those of the files: write them with --write")
 
 
 if __name__ == "__main__":

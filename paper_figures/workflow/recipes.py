@@ -11,17 +11,16 @@ A figure that is not implemented has `title`, `scene` and `missing`: what the pr
 """
 
 import argparse
-import csv
 import hashlib
 import json
 import sys
 from dataclasses import dataclass
-from datetime import datetime
 from pathlib import Path
 
 import yaml
 
 from paper_figures.workflow import parts
+from paper_figures.workflow.durations import in_words, measured_times, seconds_between
 
 HERE = Path(__file__).parent
 ROOM = HERE.parent
@@ -230,10 +229,7 @@ def seconds_of(recipe, scale, backend, runs):
 
 def seconds_of_run(path):
     """Returns the time from a run's start to its end [s]; 0 if it has not ended."""
-    manifest = json.loads(path.read_text())
-    if not manifest.get("ended"):  # "" while it is running, and if it was stopped for good
-        return 0.0
-    return (datetime.fromisoformat(manifest["ended"]) - datetime.fromisoformat(manifest["started"])).total_seconds()
+    return seconds_between(json.loads(path.read_text())) or 0.0
 
 
 def durations(chosen, scale, backend, runs, machine):
@@ -244,22 +240,6 @@ def durations(chosen, scale, backend, runs, machine):
         if took is not None:
             yield {"figure": recipe.name, "scale": "-" if drawn else scale, "backend": "-" if drawn else backend,
                    "seconds": f"{took:.1f}", "machine": machine}
-
-
-def measured_times():
-    """Returns (figure, scale, backend) -> (seconds, machine) of results/*/durations.csv."""
-    result = {}
-    for path in sorted(RESULTS.glob("*/durations.csv")):
-        with path.open(newline="") as file:
-            for row in csv.DictReader(file):
-                result[row["figure"], row["scale"], row["backend"]] = (float(row["seconds"]), row["machine"])
-    return result
-
-
-def in_words(seconds):
-    if seconds < 120:
-        return f"{seconds:.0f} s"
-    return f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
 
 
 def table(recipes, scale, backend, runs):

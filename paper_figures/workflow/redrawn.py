@@ -11,7 +11,7 @@ import json
 import sys
 from pathlib import Path
 
-from paper_figures.workflow import accept, captions
+from paper_figures.workflow import accept, captions, contents
 from paper_figures.workflow.evidence import RESULTS
 from paper_figures.workflow.kept import AcceptError, file_of
 
@@ -34,7 +34,7 @@ def keep(path, machine, figure, scale, backend, redo, origin, results=RESULTS):
     (folder / name).write_bytes(data)
     row = {"file": name, "figure": figure, "scale": scale, "backend": backend, "redo": redo, **origin,
            "sha256": hashlib.sha256(data).hexdigest()[:16]}
-    accept.merge(folder / "provenance.csv", accept.COLUMNS, [row], ("file",), {(other,) for other in gone})
+    contents.merge(folder / contents.PROVENANCE, contents.COLUMNS, [row], ("file",), {(other,) for other in gone})
     captions.keep(folder, {name: path}, gone)
     return name
 

@@ -24,7 +24,7 @@ from paper_figures.site.documents import Documents, documents_of_site
 from paper_figures.site.files import MOVIE, Files
 from paper_figures.site.origins import Origins, seconds_between
 from paper_figures.workflow import recipes, verdicts
-from paper_figures.workflow.evidence import RESULTS, ROOM, Evidence, EvidenceError
+from paper_figures.workflow.evidence import MEMBRANES, RESULTS, ROOM, Evidence, EvidenceError
 from plots.progress import Progress
 
 SITE = ROOM / "site"
@@ -269,7 +269,7 @@ class Site:
         for number, run in enumerate(self.runs_of(name)):
             seconds = seconds_between(run.manifest)
             drawn = self.drawing.draw(run, f"media/curves/{name}_{number}", self.out) if curves.are_drawn(run) else ()
-            membranes = " and ".join(words.MEMBRANES.get(name, name) for name in sorted(run.membranes))
+            membranes = " and ".join(MEMBRANES.get(name, name) for name in sorted(run.membranes))
             found.append(Run(run.source, run.manifest, run.step_count, membranes, audit_in_words(run),
                              "" if seconds is None else recipes.in_words(seconds), tuple(drawn), id(run) in made))
         shown = [figure for figure in self.figures.values() if name in figure.scenes]

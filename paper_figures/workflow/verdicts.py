@@ -9,7 +9,7 @@ Of a setting or a count of a mesh, which whoever sets the run up decides, so tha
   not as printed  it is not
 Of both:
   not comparable  the claim is about another machine or another program; ours is given, and the claim that is comparable
-    is named
+    is named. A claim `against` another program is comparable only by the rule of ratios.py
   not yet run     no accepted run is of the kind that the claim needs; or the number lies outside of the band, and a
     choice of ours is not varied yet (`not_varied` of the claim)
 
@@ -26,7 +26,8 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-from paper_figures.workflow.evidence import CLAIMS, RESULTS, Evidence, EvidenceError
+from paper_figures.workflow import ratios
+from paper_figures.workflow.evidence import CLAIMS, MEMBRANES, RESULTS, Evidence, EvidenceError
 
 KEPT = RESULTS / "verdicts.csv"
 RESULT, SETTING, MESH_COUNT = KINDS = ("result", "setting", "mesh count")
@@ -39,6 +40,7 @@ UNDECIDED = ("not comparable", "not yet run")
 VERDICTS = ("reproduced", "refuted", *UNDECIDED)
 AS_SET = ("as printed", "not as printed", *UNDECIDED)
 STATES = ("smoke", "small")
+STUDY = "ablation_"  # begins the names of the files of our own studies' claims
 # Relative rounding of a number stored in single precision.
 SINGLE = 2.0**-24
 
@@ -46,7 +48,7 @@ SINGLE = 2.0**-24
 @dataclass(frozen=True)
 class Judgement:
     """Holds a claim (as in its file, with scene, figures and kind), its verdict, our number or None, and further
-    remarks; `late`: whether a run that answers it was known when its band was set."""
+    remarks as sentences; `late`: whether a run that answers it was known when its band was set."""
 
     claim: dict
     verdict: str
@@ -56,24 +58,26 @@ class Judgement:
 
 
 def load(folder=CLAIMS):
-    """Returns all claims with their scene, figures and the time when their band was set. Throws EvidenceError if a file
-    is wrong."""
+    """Returns all claims with their scene, figures and the time when their band was set, and whether they are of a
+    `study` of ours, whose files begin with STUDY, not the paper's own. Throws EvidenceError if a file is wrong."""
     result = []
     for path in sorted(Path(folder).glob("*.json")):
         document = json.loads(path.read_text())
         for claim in document["claims"]:
             _check(claim, path)
-            common = {"scene": document["scene"], "figures": document["figures"], "kind": kind_of(claim)}
+            common = {"scene": document["scene"], "figures": document["figures"], "kind": kind_of(claim),
+                      "study": path.name.startswith(STUDY)}
             if common["kind"] == RESULT and "measure" in claim:
                 own = claim.get("choices", [])
                 said = {choice["says"] for choice in own}
                 common["choices"] = [*own, *(each for each in document.get("choices", []) if each["says"] not in said)]
             result.append({**claim, **common, "band_set": claim.get("band_set", document["bands_set"])})
     twice = {claim["id"] for claim in result if sum(other["id"] == claim["id"] for other in result) > 1}
-    unknown = {claim["instead"] for claim in result if "instead" in claim} - {claim["id"] for claim in result}
+    named = {claim["instead"] for claim in result if "instead" in claim}
+    unknown = named - {claim["id"] for claim in result if "against" not in claim}
     if twice or unknown:
-        raise EvidenceError(f"claims: {', '.join(sorted(twice)) or 'none'} twice; named as comparable, but missing: "
-                            f"{', '.join(sorted(unknown)) or 'none'}")
+        raise EvidenceError(f"claims: {', '.join(sorted(twice)) or 'none'} twice; named as comparable, but missing or "
+                            f"against another program: {', '.join(sorted(unknown)) or 'none'}")
     return result
 
 
@@ -101,7 +105,8 @@ def _check(claim, path):
         raise EvidenceError(f"{path.name}: claim {claim['id']}: its kind follows from what is measured; remove `kind`")
     if "band" in claim and "measure" not in claim:
         raise EvidenceError(f"{path.name}: claim {claim['id']} has a band, but nothing is measured")
-    if "band" not in claim and "instead" not in claim and "devices" not in json.dumps(claim.get("measure", "")):
+    explained = {"band", "instead", "against"} & set(claim) or "devices" in json.dumps(claim.get("measure", ""))
+    if not explained:
         raise EvidenceError(f"{path.name}: claim {claim['id']} has no band, so it must name the claim that is "
                             "comparable (instead)")
 
@@ -122,32 +127,63 @@ def _is_empty(measure, measured):
 
 def judge(claim, evidence):
     if "measure" not in claim:
-        return Judgement(claim, "not comparable", None, claim["why"])
+        return Judgement(claim, "not comparable", None, _said(_against(claim, ()), sentence(claim["why"])))
     wanted = {"scene": claim["scene"], **claim.get("run", {})}
     measured = evidence.measure(claim["measure"], wanted)
     if measured is None or _is_empty(claim["measure"], measured):
+        if "against" in claim:
+            return Judgement(claim, "not comparable", None, _against(claim, ()))
         return Judgement(claim, "not yet run", None, _elsewhere(claim, evidence))
-    membrane = [f"membrane: {measured.membrane}"] if measured.membrane and claim["kind"] == RESULT else []
+    membrane = f"The membrane is {MEMBRANES.get(measured.membrane, measured.membrane)}." \
+        if measured.membrane and claim["kind"] == RESULT else ""
+    known = _known_before(claim, evidence, wanted) if "band" in claim else ""
+    late = f"The band was set on {claim['band_set'][:10]}, when this was known: {known}." if known else ""
+    if obstacle := _against(claim, measured.sides):
+        words = _said(obstacle, _own_ratio(claim, measured), measured.about, membrane, late)
+        return Judgement(claim, "not comparable", measured, words, bool(known))
     if "band" not in claim:
-        words = [f"ours over the paper's: {measured.value / claim['value']:.3g}", *membrane]
-        return Judgement(claim, "not comparable", measured, "; ".join(words))
+        times = ("The paper prints no unit." if claim["unit"] == "not printed"
+                 else f"Ours is {measured.value / claim['value']:.3g} times the paper's.")
+        return Judgement(claim, "not comparable", measured, _said(times, membrane))
     also = [other for other in claim.get("also", []) if "band" in other]
     hit = within(measured.value, claim["value"], claim["band"])
     others = [other["place"] for other in also if within(measured.value, other["value"], other["band"])]
-    known = _known_before(claim, evidence, wanted)
-    note = [*([measured.about] if measured.about else []), *membrane]
-    note += [f"as in {', '.join(others)}; the paper says it in two ways"] if others and not hit else []
-    note += [f"the band was set on {claim['band_set'][:10]}, when this was known: {known}"] if known else []
+    note = [measured.about, membrane]
+    note += [f"The paper says it in two ways, and ours is as in {', '.join(others)}."] if others and not hit \
+        else []
+    note.append(late)
     yes, no = (VERDICTS if claim["kind"] == RESULT else AS_SET)[:2]
     if hit or others:
-        return Judgement(claim, yes, measured, "; ".join(note), bool(known))
+        return Judgement(claim, yes, measured, _said(*note), bool(known))
     varied = [(choice["says"], _measured_with(choice, claim, evidence, wanted)) for choice in claim.get("choices", [])
               if "membrane" not in choice or measured.membrane not in ("", choice["membrane"])]
     otherwise = _other_choices(claim, varied)
     if "not_varied" in claim:
-        words = [f"outside of the band: {measured.value:.3g} ({measured.source})", *otherwise]
-        return Judgement(claim, "not yet run", None, "; ".join([*words, f"not varied: {claim['not_varied']}"]))
-    return Judgement(claim, no, measured, "; ".join(note + otherwise), bool(known))
+        words = f"Our number, {measured.value:.3g}, lies outside of the band ({measured.source})."
+        wait = f"It is not called refuted before this is varied: {claim['not_varied']}."
+        return Judgement(claim, "not yet run", None, _said(words, *otherwise, wait))
+    return Judgement(claim, no, measured, _said(*note, *otherwise), bool(known))
+
+
+def sentence(text):
+    """Returns a text that begins with a capital and ends with a full stop."""
+    return f"{text[0].upper()}{text[1:]}{'' if text.endswith('.') else '.'}"
+
+
+def _said(*sentences):
+    return " ".join(filter(None, sentences))
+
+
+def _against(claim, sides):
+    """Returns why the claim's ratio with another program is not comparable, as a sentence; empty if it is."""
+    return ratios.obstacle(sides, claim["against"]) if "against" in claim else ""
+
+
+def _own_ratio(claim, measured):
+    """Returns a sentence about the ratio that stands beside one with another program."""
+    return (f"This testbed's own ratio, of its own solvers, is {measured.value:.3g}, where the paper prints "
+            f"{claim['value']:g}.") if measured.sides and len(measured.sides) > 1 else \
+        f"Beside it stands our {measured.value:.3g}, where the paper prints {claim['value']:g}."
 
 
 def _other_choices(claim, varied):
@@ -155,13 +191,23 @@ def _other_choices(claim, varied):
     `says`, and what differs in the measure), and about choices that no run made. This is no verdict, but a claim that
     fails as printed may hold with another choice."""
     missing = [says for says, value in varied if value is None]
-    made = [each for each in varied if each[1] is not None and not math.isnan(each[1])]
+    made = [(says, value) for says, value in varied if value is not None and not math.isnan(value)]
     hits = [each for each in made if within(each[1], claim["value"], claim["band"])]
     misses = [each for each in made if each not in hits]
-    words = [f"{head} {'; '.join(f'{says}: {value:.3g}' for says, value in found)}"
-             for head, found in (("with", hits), ("not with" if hits else "nor with", misses)) if found]
-    return ([f"not with the printed parameters, {', '.join(words)}"] if words else []) + (
-        [f"no row with {'; '.join(missing)}"] if missing else [])
+    listed = lambda found: "; ".join(f"{says} ({value:.3g})" for says, value in found)  # noqa: E731
+    one = lambda found: len(found) == 1  # noqa: E731
+    words = []
+    if hits:
+        words.append(f"{'This other choice brings' if one(hits) else 'These other choices bring'} it into the band: "
+                     f"{listed(hits)}.")
+    if misses and hits:
+        words.append(f"{'This one does' if one(misses) else 'These do'} not: {listed(misses)}.")
+    elif misses:
+        words.append(f"{'This other choice does' if one(misses) else 'These other choices do'} not bring it into the "
+                     f"band: {listed(misses)}.")
+    if missing:
+        words.append(f"No run made {'this choice' if one(missing) else 'these choices'}: {'; '.join(missing)}.")
+    return words
 
 
 def _measured_with(choice, claim, evidence, wanted):
@@ -186,13 +232,16 @@ def _known_before(claim, evidence, wanted):
 
 
 def _elsewhere(claim, evidence):
-    """Returns the value of the same measure at a smaller scale. This is no verdict, but worth knowing."""
-    notes = [claim["waits_for"]] if "waits_for" in claim else []
+    """Returns sentences about what is missing, and about the same measure in windows or at a smaller scale. This is no
+    verdict, but worth knowing."""
+    notes = [f"It waits for {claim['waits_for']}."] if "waits_for" in claim else []
+    if claim.get("run", {}).get("backend", claim.get("backend")) == "cpu":
+        notes.append(evidence.windows({"scene": claim["scene"], **claim["run"]}))
     for scale in STATES:
         found = at_another_scale(claim, evidence, scale)
         if found and claim.get("band") != "stored" and claim.get("unit") == "1":
-            notes.append(f"at {scale}, not judged: {found.value:.3g}")
-    return "; ".join(notes)
+            notes.append(f"At scale {scale} it is {found.value:.3g}, which is not judged.")
+    return _said(*notes)
 
 
 def at_another_scale(claim, evidence, scale):
@@ -219,23 +268,33 @@ def apart(judgements):
     return [[j for j in judgements if (j.claim["kind"] == RESULT) == wanted] for wanted in (True, False)]
 
 
+def by_origin(judgements):
+    """Returns (judgements about the paper's own results, those about results of our studies of it)."""
+    results = apart(judgements)[0]
+    return [[j for j in results if j.claim["study"] == wanted] for wanted in (False, True)]
+
+
 def headline(judgements):
-    """Returns the first line of the report: results alone count; settings stand beside them."""
-    results, given = apart(judgements)
-    found, settings = counts(results), counts(given, AS_SET)
-    late = sum(j.late for j in results if j.verdict == "reproduced")
-    mark = f" ({late} by a band set after a run)" if late else ""
-    undecided = ", ".join(f"{found[name]} {name}" for name in UNDECIDED)
+    """Returns the first lines of the report: the paper's own results count; our studies and settings stand beside."""
+    given = apart(judgements)[1]
+    settings = counts(given, AS_SET)
     beside = ", ".join(f"{settings[name]} {name}" for name in AS_SET)
-    return (f"{found['reproduced']} of {len(results)} claims about results are reproduced{mark}, "
-            f"{found['refuted']} refuted, {undecided}. "
+    own, studies = map(_in_words, by_origin(judgements))
+    return (f"Of the paper's own {own}. Of our studies' {studies}. "
             f"Beside them stand {len(given)} settings and counts of meshes, which are no results: {beside}.")
+
+
+def _in_words(results):
+    found, late = counts(results), sum(j.late for j in results if j.verdict == "reproduced")
+    mark = f" ({late} by a band set after a run)" if late else ""
+    return (f"{len(results)} claims about results {found['reproduced']} are reproduced{mark}, "
+            f"{found['refuted']} refuted, " + ", ".join(f"{found[name]} {name}" for name in UNDECIDED))
 
 
 def unjudged(judgements):
     """Returns claims that are not yet run, of scenes with accepted results, unless they name what they wait for or what
     is not varied; and claims that name it although they are judged."""
-    judged = {j.claim["scene"] for j in judgements if j.measured or "not judged" in j.note}
+    judged = {j.claim["scene"] for j in judgements if j.measured or "is not judged" in j.note}
     silent = [j.claim["id"] for j in judgements if j.verdict == "not yet run" and j.claim["scene"] in judged
               and not {"waits_for", "not_varied"} & set(j.claim)]
     stale = [j.claim["id"] for j in judgements if j.verdict != "not yet run"
@@ -259,13 +318,14 @@ def as_table(judgements):
     """Returns CSV with a row for each claim: results first, settings and counts of meshes below them."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(["claim", "kind", "verdict", "paper", "unit", "band", "band set after a run",
+    writer.writerow(["claim", "kind", "verdict", "of", "paper", "unit", "band", "band set after a run",
                      "ours", "device", "commit", "source", "note"])
     for j in (j for group in apart(judgements) for j in group):
         m = j.measured
         paper = (f"{j.claim['value']:g}", j.claim["unit"], band_in_words(j.claim), "yes" if j.late else "")
         ours = (f"{m.value:.6g}", m.device, m.commit, m.source) if m else ("",) * 4
-        writer.writerow([j.claim["id"], j.claim["kind"], j.verdict, *paper, *ours, j.note])
+        of = "study" if j.claim["study"] else "paper"
+        writer.writerow([j.claim["id"], j.claim["kind"], j.verdict, of, *paper, *ours, j.note])
     return out.getvalue()
 
 

@@ -13,9 +13,10 @@ import statistics
 import sys
 
 from paper_figures.figures.table1 import ROWS, paper
-from paper_figures.workflow import commands, verdicts
+from paper_figures.workflow import commands, contents, verdicts
 from paper_figures.workflow.evidence import RESULTS, Evidence, EvidenceError
 
+TABLE = "whole_runs.csv"
 COSTS = ("step alone [ms]", "a detection [ms]", "10⁵ contacts [ms]", "residual of the fit [ms]")
 
 
@@ -91,7 +92,9 @@ def main():
     except EvidenceError as error:
         sys.exit(f"whole_runs: {error}")
     if options.write:
-        (folder / "whole_runs.csv").write_text(text)
+        (folder / TABLE).write_text(text)
+        contents.keep(folder / TABLE, f".venv/bin/python -m {__spec__.name} {options.machine} --write")
+        contents.write()
     else:
         sys.stdout.write(text)
 

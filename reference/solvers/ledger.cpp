@@ -54,6 +54,7 @@ class LedgerWriter::Writer : private RoundedScene {
       throw std::invalid_argument("ledger: a step begins with a detection");
     ledger_ = {};
     cut_.clear();
+    is_cut_.assign(start.size(), 0);
     query_radius_ = trace.query_radius;
     start_ = x_ = widened(start);
     target_ = widened(trace.target);
@@ -69,6 +70,8 @@ class LedgerWriter::Writer : private RoundedScene {
     ledger_.vertices_held = count_still(start, trace.position, cut_);
     return ledger_;
   }
+
+  const std::vector<std::uint8_t>& cut() const { return is_cut_; }
 
  private:
   static void subtract(compare::Vec3& from, const compare::Vec3& a) {
@@ -164,13 +167,16 @@ class LedgerWriter::Writer : private RoundedScene {
   /// free vertices differ from their proposals. So the remaining cuts are assigned to the free vertices farthest from
   /// their proposals. The proposals of all other free vertices are set to their stored positions.
   void find_cut(State& proposed, const State& stored, Index cut) {
-    const auto behind = std::ranges::count_if(prescribed_, [&](std::size_t v) { return proposed[v] != stored[v]; });
+    std::ranges::fill(is_cut_, std::uint8_t{0});
+    for (const std::size_t v : prescribed_) is_cut_[v] = proposed[v] != stored[v] ? 1 : 0;
+    const auto behind = std::ranges::count(is_cut_, 1);
     const auto taken = [&](std::size_t v) { return length(proposed[v] - stored[v]); };
     cut_ = free_;
     const auto end = cut_.begin() + std::clamp<std::ptrdiff_t>(cut - behind, 0, std::ssize(cut_));
     std::ranges::nth_element(cut_, end, std::ranges::greater{}, taken);
     for (auto v = end; v != cut_.end(); ++v) proposed[*v] = stored[*v];
     cut_.erase(end, cut_.end());
+    for (const std::size_t v : cut_) is_cut_[v] = 1;
   }
 
   /// Adds the momentum that truncation removed from the cut vertices: the total, and the parts across and against the
@@ -230,9 +236,10 @@ class LedgerWriter::Writer : private RoundedScene {
   State start_, target_, x_;
   double energy_ = 0;  ///< energy at x_ [J]
   float query_radius_ = 0;
-  std::vector<Vec3f> previous_;   ///< X_prev of the last detection
-  std::vector<Nearest> nearest_;  ///< by vertex, at X_prev
-  std::vector<std::size_t> cut_;  ///< free vertices that the last sweep cut
+  std::vector<Vec3f> previous_;       ///< X_prev of the last detection
+  std::vector<Nearest> nearest_;      ///< by vertex, at X_prev
+  std::vector<std::size_t> cut_;      ///< free vertices that the last sweep cut
+  std::vector<std::uint8_t> is_cut_;  ///< by vertex: see LedgerWriter::cut
   StepLedger ledger_;
 };
 
@@ -243,5 +250,7 @@ StepLedger LedgerWriter::of(const std::vector<Vec3f>& start, const std::vector<V
                             const compare::StepOut& trace, const ContactSets& contacts_at_end) {
   return writer_->write(start, velocity, trace, contacts_at_end);
 }
+
+const std::vector<std::uint8_t>& LedgerWriter::cut() const { return writer_->cut(); }
 
 }  // namespace ogc::reference

@@ -4,6 +4,7 @@
 // the ledger.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -24,6 +25,8 @@ class LedgerWriter {
   /// with a detection.
   compare::StepLedger of(const std::vector<compare::Vec3f>& start, const std::vector<compare::Vec3f>& velocity,
                          const compare::StepOut& trace, const ContactSets& contacts_at_end);
+  /// Returns by vertex whether the last sweep of that step cut it (1) or not (0). Their sum is the number in the trace.
+  const std::vector<std::uint8_t>& cut() const;
 
  private:
   class Writer;

@@ -1,5 +1,7 @@
 #include "reference/solvers/residual.hpp"
 
+#include <limits>
+
 #include "reference/solvers/contact_step.hpp"
 #include "reference/solvers/vertex_system.hpp"
 
@@ -51,10 +53,25 @@ class ResidualMeter::Meter : private Problem, private ContactStep {
  private:
   Residual measured(const ContactSets& contacts) {
     systems_.read_contacts();
-    const double force = systems_.mean_force(x_);
+    const std::vector<double> forces = systems_.forces(x_);
+    const double force = systems_.mean_over_free(forces);
     set_residual(force);
-    return {residual_, force, Potential::total(potential_.terms(x_)), potential_.rods().mean_torque(x_),
-            static_cast<std::int64_t>(contacts.vertex_facet.size() + contacts.edge_edge.size())};
+    return {residual_,
+            force,
+            Potential::total(potential_.terms(x_)),
+            potential_.rods().mean_torque(x_),
+            static_cast<std::int64_t>(contacts.vertex_facet.size() + contacts.edge_edge.size()),
+            shares(forces)};
+  }
+
+  std::vector<float> shares(const std::vector<double>& forces) const {
+    std::vector<float> result;
+    for (std::size_t v = 0; v < forces.size(); ++v) {
+      const double share = reference_force_ > 0 ? forces[v] / reference_force_ : 0;
+      const bool is_free = potential_.mobility()[v] == Mobility::free;
+      result.push_back(is_free ? static_cast<float>(share) : std::numeric_limits<float>::quiet_NaN());
+    }
+    return result;
   }
 
   VertexSystems systems_;

@@ -19,6 +19,9 @@ struct Residual {
   double energy = 0;  ///< incremental potential without friction [J]
   double torque = 0;  ///< mean torque ‖(I − q qᵀ)(M q + b)‖ over free segments (compare/rods.md) [N m]
   std::int64_t contacts = 0;
+  /// by vertex: ‖f_v‖ divided by the same value, so that `share` is their mean over free vertices; not-a-number for a
+  /// vertex that is not free [1]
+  std::vector<float> shares{};
 };
 
 /// Measures residuals in double. The force of a state is the sum of the forces of all energies; friction takes λ, n and

@@ -142,7 +142,7 @@ VertexSystem VertexSystems::at(Index vertex, const SweepView& x) const {
   return sum;
 }
 
-double VertexSystems::mean_force(const State& x) const {
+std::vector<double> VertexSystems::forces(const State& x) const {
   const std::vector<Index> colour(x.size(), 0);
   std::vector<double> force(x.size(), 0);
   tbb::parallel_for(std::size_t{0}, x.size(), [&](std::size_t v) {
@@ -150,6 +150,12 @@ double VertexSystems::mean_force(const State& x) const {
     const Triple<double> f = at(static_cast<Index>(v), {x, x, colour}).force;
     force[v] = std::hypot(f[0], f[1], f[2]);
   });
+  return force;
+}
+
+double VertexSystems::mean_force(const State& x) const { return mean_over_free(forces(x)); }
+
+double VertexSystems::mean_over_free(const std::vector<double>& force) const {
   double sum = 0;
   for (const double f : force) sum += f;
   return potential_.free_count() > 0 ? sum / static_cast<double>(potential_.free_count()) : 0;

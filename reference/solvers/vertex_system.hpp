@@ -44,8 +44,12 @@ class VertexSystems {
   void read_contacts();
   /// Returns the system of a free vertex. λ, n and w of friction come from the positions that the update reads.
   VertexSystem at(compare::Index vertex, const SweepView& x) const;
+  /// Returns ‖f‖ of each vertex [N]; 0 for a vertex that is not free.
+  std::vector<double> forces(const State& x) const;
   /// Returns the mean ‖f‖ over free vertices [N], the numerator of the residual in Eq. 29.
   double mean_force(const State& x) const;
+  /// Returns the mean of forces(x) over free vertices.
+  double mean_over_free(const std::vector<double>& force) const;
 
  private:
   /// A stencil and the vertex's place in it.

@@ -209,6 +209,9 @@ TEST_CASE("contact_sets: without CUDA the backend says so and what to do", "[uni
   if (info.usable) return;
   CHECK_FALSE(info.description.empty());
   CHECK_THROWS_AS(fast::contestant(fast::Backend::cuda), compare::ResourceError);
+  // The command line and Python spell the choice differently, so the library's messages spell neither.
+  CHECK_THROWS_WITH(fast::contestant(fast::Backend::cuda),
+                    Catch::Contains("the backend cpu") && !Catch::Contains("--backend"));
   CHECK_THROWS_AS(fast::ContactFinder(fast::Mesh(0, {}), fast::Backend::cuda), compare::ResourceError);
   CHECK(fast::backend_info(fast::Backend::cpu).usable);
 }

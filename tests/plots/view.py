@@ -98,6 +98,12 @@ class Pages(unittest.TestCase):
             self.assertLessEqual(error, page.error + 4 * np.spacing(float(np.abs(frames).max()) + extent))
             self.assertGreater(error, page.error / 2)  # 1050 random numbers come near half a step
 
+    def test_equal_values_have_one_colour_and_missing_ones_are_grey(self):
+        with np.errstate(all="raise"):
+            colours = motion.scaled(np.array([0, np.nan, 0], np.float32), (0.0, 0.0))
+        expected = [motion.rgb(name) for name in (motion.SCALE[0], motion.STILL, motion.SCALE[0])]
+        self.assertEqual(colours.tolist(), np.array(expected).tolist())
+
     def test_values_are_one_of_255_and_missing_ones_are_missing(self):
         frames, values = np.zeros((2, 9, 3), np.float32), np.random.default_rng(2).uniform(3, 7, (2, 9))
         frames[1] = 1
@@ -333,6 +339,27 @@ class Program(Scratch):
             self.assertGreater(int((image == colour).all(axis=2).sum()), 50, colour)
         self.assertGreater(int((image[40:50, 16:250] != image[40:50, 16:17]).any(axis=2).sum()), 500, "no legend")
 
+    def test_what_a_run_measures_of_each_vertex_colours_it(self):
+        folder = self.folder / "measured"
+        done = ogc("run", "cloth_on_sphere", "--scale", "smoke", "--audit", "off", "--residual", "--ledger", "--set",
+                   "frame_steps=20", "--out", folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        run = Run(folder)
+        shown = motion_of_run(run)
+        rows = [int(step) - 1 for step in shown.steps]
+        self.assertTrue(np.isnan(shown.field("residual").of(0)).all(), "the start has no step before it")
+        for i, row in enumerate(rows[1:], 1):
+            mean = np.nanmean(shown.field("residual").of(i).astype(float))
+            # each part is rounded to single precision once
+            self.assertAlmostEqual(mean / run.column("residual")[row], 1, delta=2**-23)
+            self.assertEqual(shown.field("cut").of(i).sum(), run.column("vertices_cut")[row])
+        self.assertEqual(shown.thinned(2).limits("cut"), (0, 1))
+        self.assertGreater(run.column("vertices_cut")[rows[1:]].sum(), 0)
+        step = str(shown.steps[1:][np.argmax(run.column("vertices_cut")[rows[1:]])])
+        plain = self.shown(folder, "--step", step)
+        for colour in ("cut", "residual"):
+            self.assertGreater(np.abs(self.shown(folder, "--step", step, "--colour", colour) - plain).max(), 50)
+
     def test_meshes_and_scenes_are_shown(self):
         for words in ([self.folder / "two.obj"], ["cloth_on_sphere", "--scale", "smoke"]):
             self.assertGreater(self.shown(*words).std(), 5)
@@ -386,7 +413,7 @@ class Program(Scratch):
         png = ("--png", self.folder / "none.png")
         empty = self.folder / "empty"
         empty.mkdir()
-        cases = [((self.run_folder, "--colour", "cut", *png), {}, "has no cut: a run keeps it for each step"),
+        cases = [((self.run_folder, "--colour", "cut", *png), {}, "has no cut: its frames hold none; ogc run --ledger"),
                  ((self.run_folder, "--colour", "heat", *png), {}, "there is no colour 'heat'; run has: body"),
                  ((self.folder / "two.obj", "--colour", "speed", *png), {}, "a mesh has positions alone"),
                  ((self.folder / "nothing.obj", *png), {}, "nothing.obj"),

@@ -29,7 +29,7 @@ std::string introduction(const RunRequest& request) {
 }
 
 /// RunOptions that are allowed with --resume, because they change no bit of the results.
-constexpr std::array<std::string_view, 6> free_options{"--resume", "--threads", "--checkpoint",
+constexpr std::array<std::string_view, 7> free_options{"--resume", "--threads", "--devices", "--checkpoint",
                                                        "--json",   "--view",    "--view-png"};
 
 ResumedRun resumed(const RunOptions& options, const std::string& folder, const CLI::App& command) {
@@ -44,14 +44,19 @@ ResumedRun resumed(const RunOptions& options, const std::string& folder, const C
         ". For other ones begin a new run, from a frame of this one with --from-state if you like");
   ResumedRun run = resumed_run(folder);
   run.request.checkpoint_seconds = options.checkpoint_seconds;
+  run.options.devices = options.devices;
   return run;
 }
 
 int make_worlds(const RunOptions& options, const CommandContext& context) {
   RunRequest request = request_of(options, context);
+  check_worlds(request);
+  const auto count = static_cast<std::size_t>(options.worlds);
+  std::vector<World> worlds = options.world_settings.empty() ? equal_worlds(request, count)
+                                                             : read_worlds(options.world_settings, request, count);
   catch_interrupts();
-  log_line(std::to_string(options.worlds) + " times " + introduction(request));
-  const WorldsSummary summary = run_worlds(std::move(request), options.worlds);
+  log_line(std::to_string(worlds.size()) + " times " + introduction(request));
+  const WorldsSummary summary = run_worlds(std::move(request), std::move(worlds));
   if (context.json) {
     print_result(to_json(summary));
   } else {
@@ -89,8 +94,10 @@ int make_run(const RunOptions& options, const std::string& resume, const LiveVie
   if (options.scene.empty() && resume.empty())
     throw compare::InputError("run needs a scene (" + scene_names() +
                               "), a scene file, a mesh file, or --resume RUN; see ogc run --help");
-  if (resume.empty() && options.worlds > 0) {
-    if (view.any()) throw compare::InputError("--view shows a run of one world; leave it or --worlds out");
+  if (resume.empty() && (options.worlds > 0 || !options.world_settings.empty())) {
+    if (view.any())
+      throw compare::InputError("--view shows a run of one world; leave it out, or --worlds and --world-settings");
+    if (options.devices > 1) throw compare::InputError("worlds run on one device; leave them or --devices out");
     return make_worlds(options, context);
   }
   ResumedRun run = resume.empty() ? ResumedRun{options, request_of(options, context)}
@@ -134,6 +141,16 @@ void add_run_command(CLI::App& app, CommandContext& context) {
                    "So many copies run side by side and never see each other; with --jitter, copy w begins with the "
                    "offsets of seed + w. A copy that fails is named, and the others go on")
       ->check(whole_number(1, most_worlds));
+  command
+      ->add_option("--devices", options->devices,
+                   "So many CUDA devices of this machine divide the run (cloth and solids, bounds=ball), with the same "
+                   "bits as one; worthwhile from some 100,000 vertices on")
+      ->check(whole_number(1, most_devices));
+  command->add_option("--world-settings", options->world_settings,
+                      "The lines of this table (CSV) are worlds, as many as there are lines. Its first line names "
+                      "settings of --set; a value of a line belongs to its world alone, and an empty one is the "
+                      "scene's. A world with fewer steps ends before the others. Column jitter_seed is its seed for "
+                      "--jitter. data, body_contact and frame_steps are common to all worlds");
   add_threads_option(*command, options->threads);
   auto view = std::make_shared<LiveView>();
   command->add_flag(
@@ -152,6 +169,7 @@ void add_run_command(CLI::App& app, CommandContext& context) {
       "  ogc run shirt.obj --ground 0 --steps 200\n"
       "  ogc run knot --scale smoke --jitter 1e-6 --seed 7   # and 8, 9, …: what do they have in common?\n"
       "  ogc run cloth_on_sphere --scale smoke --backend cuda --worlds 256 --jitter 1e-6   # copies side by side\n"
+      "  ogc run twist --scale smoke --world-settings worlds.csv   # friction,steps / 0.1,60 / 0.5,90 are two worlds\n"
       "  ogc run --resume runs/twist-paper-20250801-120000\n"
       "  ogc scenes twist --write mine && ogc run mine/twist.json --set iterations=20 --set contact_radius=0.003\n\n"
       "An audit is exact: no edge meets a triangle, no vertex moved beyond its bound, no bound is larger than the "

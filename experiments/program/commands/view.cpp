@@ -86,8 +86,10 @@ void add_view_command(CLI::App& app, CommandContext& context) {
   command->add_option("--mp4", options->mp4, "This file gets a movie of all frames; no display is needed");
   command->add_option("--html", options->html, "This file gets a page that any browser opens offline, with a timeline");
   command
-      ->add_option("--colour,--color", options->colour,
-                   "body, speed, bound, distance (to the nearest) or contact force: what vertices are coloured by")
+      ->add_option(
+          "--colour,--color", options->colour,
+          "What vertices are coloured by: body, speed, bound, distance (to the nearest), contact force; and, of "
+          "runs with --residual or --ledger, residual or cut")
       ->capture_default_str();
   command->add_flag("--contacts", options->contacts, "A segment joins the closest points of each contact");
   command->add_flag("--planes", options->planes, "A cross lies in the plane across the middle of each contact");

@@ -77,7 +77,9 @@ class MeasuredSimulation : public compare::Simulation {
       if (after.step == before.step) break;
       if (meter_) {
         meter_->begin_step(before.positions, before.velocities, after.step, before.orientations);
-        rows.back().residual = meter_->at(after.positions, after.orientations).share;
+        reference::Residual left = meter_->at(after.positions, after.orientations);
+        rows.back().residual = left.share;
+        vertices_.residual = std::move(left.shares);
       }
       if (is_told)
         add_meetings(way, after.positions, rows.back());
@@ -91,9 +93,13 @@ class MeasuredSimulation : public compare::Simulation {
   }
 
   Snapshot snapshot() override { return inner_->snapshot(); }
-  void restore(const Snapshot& snapshot) override { inner_->restore(snapshot); }
+  void restore(const Snapshot& snapshot) override {
+    inner_->restore(snapshot);
+    vertices_ = {};
+  }
   std::vector<std::string> stage_names() const override { return inner_->stage_names(); }
   std::string device() const override { return inner_->device(); }
+  const VertexMeasures& vertices() const { return vertices_; }
 
  private:
   /// Returns the scene whose first step is the step after `before`, because a trace always covers the first step of a
@@ -127,7 +133,10 @@ class MeasuredSimulation : public compare::Simulation {
     const compare::StepOut trace = contestant_.step({&scene, &topology_});
     if (trace.position != after.positions)
       throw std::logic_error("the trace of step " + std::to_string(step.step) + " ends in another state than the step");
-    if (ledger_) step.ledger = ledger_->of(before.positions, before.velocities, trace, contacts_at(after.positions));
+    if (ledger_) {
+      step.ledger = ledger_->of(before.positions, before.velocities, trace, contacts_at(after.positions));
+      vertices_.cut.assign(ledger_->cut().begin(), ledger_->cut().end());
+    }
     if (has_rows_) add_iterations(trace, step);
     if (meetings_ && meetings_->holds(step.step)) add_meetings(detected_at(trace), trace.position, step);
   }
@@ -221,6 +230,7 @@ class MeasuredSimulation : public compare::Simulation {
   std::optional<reference::LedgerWriter> ledger_;
   reference::ContactSets contacts_;       ///< contacts of the trace's last detection
   std::vector<compare::Vec3f> previous_;  ///< positions at that detection
+  VertexMeasures vertices_;               ///< of the last step
 };
 
 }  // namespace
@@ -238,6 +248,12 @@ StepRange step_range(const std::string& text) {
 }
 
 std::string text_of(const StepRange& range) { return std::to_string(range.first) + ":" + std::to_string(range.last); }
+
+const VertexMeasures& vertex_measures(const compare::Simulation& simulation) {
+  static const VertexMeasures none;
+  const auto* measured = dynamic_cast<const MeasuredSimulation*>(&simulation);
+  return measured != nullptr ? measured->vertices() : none;
+}
 
 compare::Contestant measured(compare::Contestant contestant, const Measured& what) {
   compare::Contestant result = contestant;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "compare/contestant.hpp"
 
@@ -30,6 +31,17 @@ struct Measured {
   /// Returns whether anything is selected.
   bool any() const { return residual || iterations || ledger || meetings; }
 };
+
+/// What is measured at each vertex in the last step of a simulation; an array is empty if it is not measured.
+struct VertexMeasures {
+  /// with `residual` or `iterations`: the vertex's part of the residual (StepMetrics::residual is the mean over free
+  /// vertices); not-a-number for a vertex that is not free [1]
+  std::vector<float> residual;
+  std::vector<float> cut;  ///< with `ledger`: 1 if the last iteration cut the vertex, else 0
+};
+/// Returns the measures of the vertices in the last step of a simulation; they are empty unless a contestant of
+/// `measured` started it and it did a step.
+const VertexMeasures& vertex_measures(const compare::Simulation& simulation);
 
 /// Returns a contestant that also measures what `what` selects.
 ///

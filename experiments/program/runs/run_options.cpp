@@ -76,7 +76,8 @@ bool set_model(compare::Scene& scene, const std::string& key, std::string_view w
   return true;
 }
 
-/// Throws if --set has no key of this name.
+}  // namespace
+
 void expect_setting(const std::string& key) {
   std::vector<std::string_view> names{"membrane", "bending", "body_contact"};
   for (const MaterialSetting& constant : material_settings()) names.push_back(constant.name);
@@ -85,7 +86,7 @@ void expect_setting(const std::string& key) {
   throw compare::InputError(compare::unknown_setting(key, names));
 }
 
-void set(compare::Scene& scene, const std::string& key, const std::string& value) {
+void set_in_scene(compare::Scene& scene, const std::string& key, const std::string& value) {
   using compare::Material;
   expect_setting(key);
   if (!set_material(scene, key, value) &&
@@ -93,6 +94,8 @@ void set(compare::Scene& scene, const std::string& key, const std::string& value
       !set_model(scene, key, "bending", value, compare::choice_names<compare::BendingModel>, &Material::bending))
     compare::set_setting(scene.settings, key, value);
 }
+
+namespace {
 
 /// Sets body_contact. This precedes all settings, because it changes the setting detection_fraction.
 void apply_contact(compare::Scene& scene, const std::string& value) {
@@ -111,7 +114,7 @@ void apply_settings(compare::Scene& scene, const RunOptions& options) {
     if (equals == std::string::npos || equals == 0)
       throw compare::InputError("--set " + assignment + ": give key=value, for example --set iterations=20");
     if (!assignment.starts_with(data_key) && !assignment.starts_with(contact_key))
-      set(scene, assignment.substr(0, equals), assignment.substr(equals + 1));
+      set_in_scene(scene, assignment.substr(0, equals), assignment.substr(equals + 1));
   }
   if (options.steps > 0) compare::set_setting(scene.settings, "steps", std::to_string(options.steps));
 }
@@ -181,14 +184,15 @@ CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions
   command.add_flag("--profile", options->profile,
                    "steps.csv gets the time of each stage, which slows the run down a little");
   command.add_flag("--residual", options->residual,
-                   "steps.csv gets the residual of Eq. 29 with the contacts and the friction of the end of the step; "
-                   "it is measured beside the run (slow)");
+                   "steps.csv gets the residual of Eq. 29 with the contacts and the friction of the end of the step, "
+                   "and frames each vertex's part of it; it is measured beside the run (slow)");
   command.add_flag("--iterations", options->iterations,
                    "iterations.csv gets a row an iteration, which is measured beside the run");
   command.add_flag(
       "--ledger", options->ledger,
       "vbd: steps.csv gets what each part of a step does to energy and momentum, what truncation takes and in which "
-      "direction, and how many vertices stand still (reference/ledger.md); it is measured beside the run (slow)");
+      "direction, and how many vertices stand still (reference/ledger.md), and frames which vertices the last "
+      "iteration cut; it is measured beside the run (slow)");
   command.add_flag("--condition", options->condition,
                    "newton: iterations.csv gets the condition number of each matrix, of it without friction, and of it "
                    "without contact (slow)");
@@ -292,6 +296,12 @@ RunRequest request_of(const RunOptions& options, const CommandContext& context) 
   request.backend = options.backend;
   request.iterations = options.iterations || options.condition;
   request.condition = options.condition;
+  if (options.devices > 1 && options.backend != "cuda")
+    throw compare::InputError("--devices " + std::to_string(options.devices) +
+                              ": only CUDA devices divide a run; add --backend cuda, or leave --devices out");
+  if (options.devices > 1 && (options.profile || options.iterations || options.ledger))
+    throw compare::InputError("--devices " + std::to_string(options.devices) +
+                              ": --profile, --iterations and --ledger follow one device; leave them or --devices out");
   request.audit_beside = options.backend == "cuda";
   request.residual = options.residual;
   request.ledger = options.ledger;
@@ -314,7 +324,7 @@ compare::Contestant contestant_of(const RunOptions& options, const std::optional
                       .iterations = options.iterations && options_of(solver).has_traced_rows,
                       .ledger = options.ledger,
                       .meetings = meetings};
-  const compare::Contestant contestant = contestant_of(solver, options.backend == "cuda");
+  const compare::Contestant contestant = contestant_of(solver, options.backend == "cuda", options.devices);
   return what.any() ? measured(contestant, what) : contestant;
 }
 

@@ -22,6 +22,8 @@ struct RunOptions {
   std::optional<double> ground;                            ///< y of the ground below the mesh of a mesh file [m]
   std::optional<double> deepest;                           ///< --deepest [m]
   int worlds = 0;                                          ///< number of worlds; 0: one run
+  int devices = 1;                                         ///< CUDA devices that divide the run
+  std::string world_settings;                              ///< table of settings by world; empty: none
   int threads = 0;                                         ///< number of CPU threads; 0: all
   double checkpoint_seconds = default_checkpoint_seconds;  ///< least time between two checkpoints [s]
 };
@@ -33,6 +35,12 @@ CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions
 std::string scene_names();
 /// Returns the table of settings for the help text.
 std::string settings_help();
+
+/// Throws compare::InputError if --set has no key of this name.
+void expect_setting(const std::string& key);
+/// Sets a value that --set accepts, except data and body_contact, which make the scene. Throws compare::InputError for
+/// an unknown key, and for a value that is not valid.
+void set_in_scene(compare::Scene& scene, const std::string& key, const std::string& value);
 
 /// Returns the folder of the last "data=DIR" among the assignments; empty if there is none. "data" is a property of the
 /// scene, not a setting.

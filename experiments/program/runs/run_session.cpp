@@ -37,14 +37,16 @@ std::int64_t frame_steps(const compare::Settings& settings) {
   return std::max<std::int64_t>(1, std::llround(1 / (60 * settings.time_step)));
 }
 
-RunRequest checked(RunRequest request) {
-  compare::round_to_single(request.scene);
+void check_scene(compare::Scene& scene, const compare::MeshSources& sources) {
+  compare::round_to_single(scene);
   // A scene from a file contains no dust (tiny numbers in place of 0). Dust in the positions of a stored frame is kept.
-  if (const std::string dust = describe(clear_dust(request.scene)); !dust.empty())
-    log_line("ogc: " + request.scene.name + ": " + dust);
-  const std::string problems = compare::describe(
-      compare::validate(request.scene, 10, compare::ElementNames(request.scene, request.sources)));
-  if (!problems.empty()) throw compare::InputError("the scene '" + request.scene.name + "' can't be run:\n" + problems);
+  if (const std::string dust = describe(clear_dust(scene)); !dust.empty()) log_line("ogc: " + scene.name + ": " + dust);
+  const std::string problems = compare::describe(compare::validate(scene, 10, compare::ElementNames(scene, sources)));
+  if (!problems.empty()) throw compare::InputError("the scene '" + scene.name + "' can't be run:\n" + problems);
+}
+
+RunRequest checked(RunRequest request) {
+  check_scene(request.scene, request.sources);
   if (!request.resume) compare::expect_new_run_folder(request.folder);
   return request;
 }
@@ -166,6 +168,8 @@ void RunSession::reopen_folder() {
   writer_->keep_frames([this](std::int64_t step) {
     return step == summary_.first_step || step % frame_steps_ == 0 || step == settings_.steps;
   });
+  // The checkpoint's own frame is in the folder, with measures that a checkpoint does not have.
+  if (is_frame(step_)) last_frame_ = step_;
   remember_starts(rows);
   count(rows);
   summary_.audited_states = static_cast<std::size_t>(request_.resume->audited_states);
@@ -274,6 +278,7 @@ void RunSession::offer_state(std::int64_t before) {
   step_ = snapshot.step;
   if (step_ <= offered_step_ || step_ >= before || !finite(snapshot)) return;
   offered_step_ = step_;
+  if (is_frame(step_) || interrupted()) measures_[step_] = vertex_measures(*simulation_);
   // The loss of momentum is measured only in steps after a frame. An interrupted run has the same frames as an
   // uninterrupted run, so both runs report the same loss.
   if (is_frame(step_)) momentum_.begin_after(step_, snapshot.velocities);
@@ -395,8 +400,11 @@ void RunSession::reject(const Verdict& verdict, const Snapshot& snapshot) {
 
 void RunSession::store_frame(const Snapshot& snapshot) {
   if (snapshot.step == last_frame_) return;
+  VertexMeasures measures = std::exchange(measures_[snapshot.step], {});
+  measures_.erase(measures_.begin(), measures_.upper_bound(snapshot.step));
   writer_->add_frame({snapshot.step, static_cast<double>(snapshot.step) * settings_.time_step, snapshot.positions,
-                      snapshot.velocities, snapshot.bounds, snapshot.orientations});
+                      snapshot.velocities, snapshot.bounds, snapshot.orientations, std::move(measures.residual),
+                      std::move(measures.cut)});
   last_frame_ = snapshot.step;
 }
 

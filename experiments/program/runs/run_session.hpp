@@ -6,6 +6,7 @@
 #include <chrono>
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -116,6 +117,8 @@ std::string guarantee_text(const RunSummary& summary);
 
 /// Returns the number of steps between frames. If the scene does not set it, a simulated second has about 60 frames.
 std::int64_t frame_steps(const compare::Settings& settings);
+/// Brings a scene to single precision and removes its dust. Throws compare::InputError for an invalid scene.
+void check_scene(compare::Scene& scene, const compare::MeshSources& sources);
 /// Returns the request with its scene in single precision and without dust. Throws compare::InputError for an invalid
 /// scene or an unusable folder.
 RunRequest checked(RunRequest request);
@@ -190,6 +193,7 @@ class RunSession {
   std::unique_ptr<compare::RunWriter> writer_;
   std::deque<compare::Snapshot> offered_;  ///< states whose verdict is not yet known
   compare::Snapshot start_, last_good_;
+  std::map<std::int64_t, VertexMeasures> measures_;  ///< of states that may become frames, by step
   std::int64_t step_ = 0, last_frame_ = -1, frame_steps_ = 1;
   std::int64_t offered_step_ = 0;  ///< step of the last offered state
   Pace pace_;

@@ -63,7 +63,7 @@ void require_settings(Solver solver, std::span<const std::string> assigned, comp
   compare::refuse_unread(settings, name);
 }
 
-compare::Contestant contestant_of(Solver solver, bool on_device) {
+compare::Contestant contestant_of(Solver solver, bool on_device, int devices) {
   switch (solver) {
     case Solver::vbd: break;
     case Solver::newton: return reference::newton();
@@ -71,7 +71,7 @@ compare::Contestant contestant_of(Solver solver, bool on_device) {
     case Solver::ipc: return reference::ipc();
     case Solver::penalty: return reference::penalty();
   }
-  return fast::contestant(on_device ? fast::Backend::cuda : fast::Backend::cpu);
+  return fast::contestant(on_device ? fast::Backend::cuda : fast::Backend::cpu, {.devices = devices});
 }
 
 }  // namespace ogc::experiments

@@ -34,6 +34,6 @@ SolverOptions options_of(Solver solver);
 void require_settings(Solver solver, std::span<const std::string> assigned, compare::Settings& settings);
 
 /// Returns the solver's contestant. `on_device`: for solvers with backends.
-compare::Contestant contestant_of(Solver solver, bool on_device);
+compare::Contestant contestant_of(Solver solver, bool on_device, int devices = 1);
 
 }  // namespace ogc::experiments

@@ -25,22 +25,24 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-std::string name_of(int world) { return "world " + std::to_string(world); }
-
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 /// Runs worlds and writes their folder.
 class WorldsSession {
  public:
-  WorldsSession(RunRequest request, int count)
-      : request_(checked(std::move(request))), judge_(request_.scene, request_.sources) {
-    expect_memory(static_cast<std::size_t>(count));
-    starts_.resize(static_cast<std::size_t>(count));
-    for (std::size_t w = 0; w < starts_.size(); ++w) begin_world(w);
+  WorldsSession(RunRequest request, std::vector<World> worlds)
+      : request_(checked(std::move(request))), given_(std::move(worlds)) {
+    expect_memory(given_.size());
+    judges_.push_back(std::make_unique<StateJudge>(request_.scene, request_.sources));
+    starts_.resize(given_.size());
+    for (std::size_t w = 0; w < starts_.size(); ++w) {
+      check_world(w);
+      begin_world(w);
+    }
   }
 
   WorldsSummary run() {
-    worlds_ = fast::start_worlds(backend(), std::vector<compare::Scene>(starts_.size(), request_.scene));
+    worlds_ = fast::start_worlds(backend(), take_scenes());
     for (std::size_t w = 0; w < starts_.size(); ++w) worlds_->reset(static_cast<int>(w), starts_[w]);
     good_ = starts_;
     summary_.scene = request_.scene.name;
@@ -65,6 +67,33 @@ class WorldsSession {
  private:
   fast::Backend backend() const { return request_.backend == "cuda" ? fast::Backend::cuda : fast::Backend::cpu; }
 
+  /// Checks the scene of a world that has settings of its own, and makes its judge, because bounds depend on settings.
+  void check_world(std::size_t w) {
+    World& world = given_[w];
+    if (has_own_scene(w)) {
+      try {
+        check_scene(world.scene, request_.sources);
+      } catch (const compare::InputError& error) {
+        throw compare::InputError(world.name + ": " + error.what());
+      }
+      judges_.resize(w + 1);
+      judges_[w] = std::make_unique<StateJudge>(world.scene, request_.sources);
+    }
+    const compare::Settings& settings = has_own_scene(w) ? world.scene.settings : request_.scene.settings;
+    ends_.push_back(settings.steps);
+    time_steps_.push_back(settings.time_step);
+  }
+  bool has_own_scene(std::size_t w) const { return !given_[w].settings.empty(); }
+  const StateJudge& judge(std::size_t w) const { return *judges_[has_own_scene(w) ? w : 0]; }
+
+  /// Returns the scenes of the worlds. Only the start reads them, so the worlds keep none.
+  std::vector<compare::Scene> take_scenes() {
+    std::vector<compare::Scene> scenes;
+    for (std::size_t w = 0; w < given_.size(); ++w)
+      scenes.push_back(has_own_scene(w) ? std::exchange(given_[w].scene, {}) : request_.scene);
+    return scenes;
+  }
+
   /// Makes the start of a world, and audits it.
   void begin_world(std::size_t w) {
     Snapshot& start = starts_[w];
@@ -75,20 +104,21 @@ class WorldsSession {
     compare::WorldRow& row = summary_.worlds.emplace_back();
     row.world = static_cast<int>(w);
     row.smallest_distance = std::numeric_limits<double>::infinity();
+    row.settings = given_[w].settings;
     if (request_.jitter.largest > 0) {
-      Jitter own = request_.jitter;
-      row.jitter_seed = own.seed += w;
+      const Jitter own{request_.jitter.largest, given_[w].jitter_seed};
+      row.jitter_seed = own.seed;
       add_jitter(own, request_.scene, start.positions);
     } else if (w > 0) {
       return;  // the start of world 0
     }
-    const compare::AuditResult result = judge_.audit(start.positions);
+    const compare::AuditResult result = judge(w).audit(start.positions);
     if (result.count > 0)
       throw compare::InputError("the scene '" + request_.scene.name + "' starts with " +
-                                counted(result.count, "intersection") + " in " + name_of(row.world) +
+                                counted(result.count, "intersection") + " in " + given_[w].name +
                                 "; no method that starts from a penetration can promise to have none. Move these "
                                 "apart:\n" +
-                                judge_.describe(result));
+                                judge(w).describe(result));
   }
 
   /// Says how much memory the worlds need. Throws if it is not there.
@@ -101,46 +131,53 @@ class WorldsSession {
   }
 
   void simulate() {
-    Progress progress(0, request_.scene.settings.steps, "step");
+    const std::int64_t last = std::ranges::max(ends_);
+    Progress progress(0, last, "step");
     std::int64_t step = 0;
-    while (step < request_.scene.settings.steps && !interrupted() && failed_ < starts_.size()) {
+    while (step < last && !interrupted() && failed_ < starts_.size()) {
       const std::int64_t steps = chunk(step);
       const Clock::time_point begin = Clock::now();
-      const auto rows = worlds_->advance(steps_of(steps));
+      const auto rows = worlds_->advance(steps_of(step, steps));
       const double seconds = seconds_since(begin);
       summary_.step_seconds += seconds;
       step_ms_.push_back(1000 * seconds / static_cast<double>(steps));
       step += steps;
       for (std::size_t w = 0; w < rows.size(); ++w) add_rows(w, rows[w]);
-      if (is_audited(step) || step == request_.scene.settings.steps || interrupted()) take_states();
+      take_states(step);
       progress.show(step, number(step_ms_.back()) + " ms a step of all worlds" +
                               (failed_ > 0 ? ", " + counted(failed_, "world") + " failed" : ""));
     }
     progress.end();
     summary_.steps = step;
-    summary_.was_interrupted = step < request_.scene.settings.steps && failed_ < starts_.size();
+    summary_.was_interrupted = step < last && failed_ < starts_.size();
   }
 
-  /// Returns the number of steps until the next audit or the end.
+  /// Returns the number of steps until the next audit or the next end of a world.
   std::int64_t chunk(std::int64_t step) const {
     const std::int64_t frame = frame_steps(request_.scene.settings);
-    const std::int64_t to_state = request_.audit == AuditMode::every ? 1 : frame - step % frame;
-    return std::min(to_state, request_.scene.settings.steps - step);
+    std::int64_t steps = request_.audit == AuditMode::every ? 1 : frame - step % frame;
+    for (const std::int64_t end : ends_)
+      if (end > step) steps = std::min(steps, end - step);
+    return steps;
   }
+  /// Returns whether the states of all worlds are audited after this step; each world's last state is audited, too.
   bool is_audited(std::int64_t step) const {
-    if (request_.audit == AuditMode::off) return false;
-    return request_.audit != AuditMode::end || step == request_.scene.settings.steps;
+    if (request_.audit == AuditMode::every) return true;
+    return request_.audit == AuditMode::frame && step % frame_steps(request_.scene.settings) == 0;
   }
-  std::vector<std::int64_t> steps_of(std::int64_t steps) const {
+  /// Returns for each world how many of the `steps` steps behind `step` it does.
+  std::vector<std::int64_t> steps_of(std::int64_t step, std::int64_t steps) const {
     std::vector<std::int64_t> all;
-    for (const compare::WorldRow& row : summary_.worlds)
-      all.push_back(row.failure.empty() && !worlds_->has_failed(row.world) ? steps : 0);
+    for (std::size_t w = 0; w < ends_.size(); ++w) {
+      const compare::WorldRow& row = summary_.worlds[w];
+      all.push_back(row.failure.empty() && !worlds_->has_failed(row.world) && step < ends_[w] ? steps : 0);
+    }
     return all;
   }
 
   void add_rows(std::size_t w, const std::vector<StepMetrics>& rows) {
     compare::WorldRow& world = summary_.worlds[w];
-    if (!world.failure.empty()) return;
+    if (!world.failure.empty() || good_[w].step == ends_[w]) return;
     writer_->add_steps(world.world, rows);
     for (const StepMetrics& row : rows) {
       world.detections += row.discrete_detections;
@@ -167,13 +204,15 @@ class WorldsSession {
   void fail(compare::WorldRow& world, const std::string& failure) {
     world.failure = first_line(failure);
     ++failed_;
-    log_line("ogc: " + name_of(world.world) + ": " + failure);
+    log_line("ogc: " + given_[static_cast<std::size_t>(world.world)].name + ": " + failure);
   }
 
-  /// Takes the state of each world that goes on.
-  void take_states() {
+  /// Takes the state of each world that goes on, if an audit of it is due after this step, or that ends with it.
+  void take_states(std::int64_t step) {
     for (std::size_t w = 0; w < starts_.size(); ++w)
-      if (summary_.worlds[w].failure.empty()) take_state(w);
+      if (summary_.worlds[w].failure.empty() && step <= ends_[w] &&
+          (is_audited(step) || step == ends_[w] || interrupted()))
+        take_state(w);
   }
 
   /// Takes the state of a world, after its audit, as its last good one.
@@ -183,13 +222,13 @@ class WorldsSession {
     if (state.step == good_[w].step) return;
     if (request_.audit != AuditMode::off) {
       const Clock::time_point begin = Clock::now();
-      const Verdict verdict = judge_.judge(state);
+      const Verdict verdict = judge(w).judge(state);
       summary_.audit_seconds += seconds_since(begin);
       ++summary_.audited_states;
       const bool is_too_deep = request_.deepest && verdict.volumes.deepest > *request_.deepest;
       if (!verdict.kept() || is_too_deep)
         return fail(world, "the audit of step " + std::to_string(state.step) +
-                               " failed; the last good state is kept:\n" + judge_.describe(verdict));
+                               " failed; the last good state is kept:\n" + judge(w).describe(verdict));
       ++world.audited_states;
     }
     good_[w] = std::move(state);
@@ -202,9 +241,9 @@ class WorldsSession {
       compare::WorldRow& world = summary_.worlds[w];
       world.last_step = end.step;
       world.final_hash = state_hash(end.positions);
-      world.status = !world.failure.empty() ? "failed" : summary_.was_interrupted ? "interrupted" : "finished";
-      ends.push_back({end.step, static_cast<double>(end.step) * request_.scene.settings.time_step, end.positions,
-                      end.velocities, end.bounds, end.orientations});
+      world.status = !world.failure.empty() ? "failed" : end.step < ends_[w] ? "interrupted" : "finished";
+      ends.push_back({end.step, static_cast<double>(end.step) * time_steps_[w], end.positions, end.velocities,
+                      end.bounds, end.orientations});
     }
     summary_.failed = failed_;
     summary_.step_ms = median(step_ms_);
@@ -222,7 +261,11 @@ class WorldsSession {
   }
 
   RunRequest request_;
-  StateJudge judge_;
+  std::vector<World> given_;  ///< by world; without scenes once they have started
+  /// by world if worlds have settings of their own; else one for all
+  std::vector<std::unique_ptr<StateJudge>> judges_;
+  std::vector<std::int64_t> ends_;       ///< by world: number of its steps
+  std::vector<double> time_steps_;       ///< by world [s]
   std::vector<Snapshot> starts_, good_;  ///< by world; good: last good states
   std::unique_ptr<fast::Worlds> worlds_;
   std::optional<compare::WorldsWriter> writer_;
@@ -233,11 +276,11 @@ class WorldsSession {
 
 }  // namespace
 
-void check_worlds(const RunRequest& request, int worlds) {
+void check_worlds(const RunRequest& request) {
   const auto refuse = [](const std::string& option) {
-    throw compare::InputError(option + " belongs to a run of one world; leave it or --worlds out");
+    throw compare::InputError(option +
+                              " belongs to a run of one world; leave it out, or --worlds and --world-settings");
   };
-  if (worlds < 1) throw compare::InputError("--worlds " + std::to_string(worlds) + ": give at least 1");
   if (request.solver != "vbd") refuse("--solver " + request.solver);
   if (request.profile) refuse("--profile");
   if (request.iterations) refuse("--iterations");
@@ -249,9 +292,9 @@ void check_worlds(const RunRequest& request, int worlds) {
   if (!request.show.empty()) refuse("--show");
 }
 
-WorldsSummary run_worlds(RunRequest request, int worlds) {
-  check_worlds(request, worlds);
-  return WorldsSession(std::move(request), worlds).run();
+WorldsSummary run_worlds(RunRequest request, std::vector<World> worlds) {
+  check_worlds(request);
+  return WorldsSession(std::move(request), std::move(worlds)).run();
 }
 
 Json to_json(const WorldsSummary& summary) {
@@ -266,6 +309,7 @@ Json to_json(const WorldsSummary& summary) {
                {"smallest_distance", row.smallest_distance},
                {"final_hash", row.final_hash}};
     if (row.jitter_seed > 0) world["jitter_seed"] = row.jitter_seed;
+    for (const auto& [name, value] : row.settings) world["settings"][name] = value;
     if (!row.failure.empty()) world["failure"] = row.failure;
     worlds.push_back(std::move(world));
   }
@@ -293,8 +337,8 @@ std::string describe(const WorldsSummary& summary) {
                      summary.status + " after step " + std::to_string(summary.steps) + "\n";
   for (const compare::WorldRow& row : summary.worlds)
     if (!row.failure.empty())
-      text += "  " + name_of(row.world) + ", last good step " + std::to_string(row.last_step) + ": " + row.failure +
-              "\n";
+      text += "  world " + std::to_string(row.world) + ", last good step " + std::to_string(row.last_step) + ": " +
+              row.failure + "\n";
   std::int64_t least = std::numeric_limits<std::int64_t>::max(), most = 0;
   std::size_t kept = 0;
   for (const compare::WorldRow& row : summary.worlds) {

@@ -13,6 +13,9 @@ REACH = 4  # distances are searched up to this many contact radii
 FRONTS, BACKS, STILL = ("#4C86B8", "#7FB0D4", "#2F6393"), ("#E2B458", "#EFD08C", "#C9952F"), "#B9BDC4"
 # These are nine colours of viridis. Their lightness grows evenly, so colour-blind readers can order them, too.
 SCALE = ("#440154", "#472D7B", "#3B528B", "#2C728E", "#21918C", "#28AE80", "#5EC962", "#ADDC30", "#FDE725")
+# what frames hold only if the run measured it: name, option of `ogc run`, meaning, limits
+MEASURES = (("cut", "--ledger", "1: the step's last iteration cut the vertex", (0.0, 1.0)),
+            ("residual", "--residual", "‖f‖ that the step leaves over its mean ‖f*‖ (Eq. 29); of free vertices", None))
 CONTACTS, PLANES = "#D55E00", "#0072B2"  # colours of segments
 
 
@@ -24,6 +27,7 @@ def rgb(colour):
 def scaled(values, limits):
     """Returns the colour of each value on SCALE, uint8 (n, 3), grey where it is not finite. `limits`: values of the
     ends."""
+    values = np.asarray(values, float)  # the smallest range is no float32
     stops = np.array([rgb(colour) for colour in SCALE], float)
     share = np.clip((values - limits[0]) / max(limits[1] - limits[0], 1e-300), 0, 1) * (len(stops) - 1)
     share = np.where(np.isfinite(share), share, 0)
@@ -35,11 +39,13 @@ def scaled(values, limits):
 
 @dataclass
 class Field:
-    """A number at each vertex of each frame: `of(i)` is float32 (V,), NaN where there is none."""
+    """A number at each vertex of each frame: `of(i)` is float32 (V,), NaN where there is none. `limits`: least and
+    largest value of any frame, if they are known without looking."""
 
     unit: str
     of: Callable
     meaning: str
+    limits: tuple = None
 
 
 @dataclass
@@ -87,6 +93,8 @@ class Motion:
 
     def limits(self, name, frames=None):
         """Returns the least and the largest finite value of a field over the frames (all without an argument)."""
+        if self.field(name).limits:
+            return self.field(name).limits
         values = [self.field(name).of(i) for i in (range(len(self)) if frames is None else frames)]
         finite = [part[np.isfinite(part)] for part in values]
         finite = [part for part in finite if part.size]
@@ -105,7 +113,7 @@ class Motion:
         pick = lambda of: lambda i: of(int(kept[i]))  # noqa: E731
         return Motion(self.name, self.triangles, self.edges, self.body, self.bodies, self.still, self.steps[kept],
                       self.times[kept], pick(self.at),
-                      {name: Field(f.unit, pick(f.of), f.meaning) for name, f in self.fields.items()},
+                      {name: Field(f.unit, pick(f.of), f.meaning, f.limits) for name, f in self.fields.items()},
                       {name: pick(of) for name, of in self.segments.items()}, self.missing, self.radius, self.run)
 
 
@@ -271,10 +279,22 @@ def motion_of_run(run, every=1):
         "speed": Field("m/s", lambda i: np.linalg.norm(frame(i).velocities, axis=1).astype(np.float32),
                        "at the frame's end"),
         "bound": Field("m", lambda i: _bounds_of(frame(i), motion), "b_v of the last detection (Eq. 21)")})
-    for what in ("cut", "residual"):
-        motion.missing[what] = "a run keeps it for each step (steps.csv), not for each vertex"
+    # the start has no measures, nor has a state that a continued run took from its checkpoint
+    only_start = run.status == "running" and len(run.frames) == 1
+    recent = [run.frame(path) for path in run.frames[-2:]]
+    for what, option, meaning, limits in MEASURES:
+        if only_start or any(getattr(state, what).size for state in recent):
+            motion.fields[what] = Field("", lambda i, what=what: _measure(frame(i), what), meaning, limits)
+        else:
+            motion.missing[what] = f"its frames hold none; ogc run {option} measures it for new runs"
     _add_contacts_of_run(motion, run, bodies, len(first.positions))
     return motion if every == 1 else motion.thinned(every)
+
+
+def _measure(frame, what):
+    """Returns a measure, NaN where there is none, as in the start."""
+    values = getattr(frame, what)
+    return values if values.size else np.full(len(frame.positions), np.nan, np.float32)
 
 
 def _bounds_of(frame, motion):

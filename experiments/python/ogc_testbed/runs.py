@@ -19,7 +19,7 @@ class RunError(Exception):
 @dataclass
 class Frame:
     """Holds one stored state: positions [m], velocities [m/s], bounds [m], orientations of rods' segments [n, 4] as x,
-    y, z, w."""
+    y, z, w. Of runs that measure them also residual [V], NaN unless free, and cut [V], 1 or 0; else both are empty."""
 
     step: int
     time: float
@@ -27,6 +27,8 @@ class Frame:
     velocities: np.ndarray
     bounds: np.ndarray
     orientations: np.ndarray = field(default_factory=lambda: np.empty((0, 4), np.float32))
+    residual: np.ndarray = field(default_factory=lambda: np.empty(0, np.float32))
+    cut: np.ndarray = field(default_factory=lambda: np.empty(0, np.float32))
 
 
 class Run:
@@ -108,9 +110,9 @@ class Run:
 
     def frame(self, path):
         with _opened(path) as file:
+            arrays = {name: file[name][:] for name in ("orientations", "residual", "cut") if name in file}
             frame = Frame(int(file.attrs["step"]), float(file.attrs["time"]),
-                          file["positions"][:], file["velocities"][:], file["bounds"][:],
-                          file["orientations"][:] if "orientations" in file else np.empty((0, 4), np.float32))
+                          file["positions"][:], file["velocities"][:], file["bounds"][:], **arrays)
             expected = int(file.attrs.get("crc32", _checksum(frame)))  # frames of format 1 have no checksum
         if expected != _checksum(frame):
             raise RunError(f"{path} is damaged: its content is not what its checksum says; "
@@ -152,11 +154,12 @@ def _opened(path):
 
 
 def _checksum(frame):
-    """Returns the CRC-32 of the bytes of positions, velocities, bounds, step, time and orientations, in the order of
-    the writer."""
+    """Returns the CRC-32 of the bytes of positions, velocities, bounds, step, time, orientations, residual and cut, in
+    the order of the writer."""
     step, time = np.array(frame.step, "<i8"), np.array(frame.time, "<f8")
     result = 0
-    for part in (frame.positions, frame.velocities, frame.bounds, step, time, frame.orientations):
+    for part in (frame.positions, frame.velocities, frame.bounds, step, time, frame.orientations, frame.residual,
+                 frame.cut):
         result = zlib.crc32(part.tobytes(), result)
     return result
 

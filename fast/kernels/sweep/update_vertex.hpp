@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "fast/kernels/arithmetic/solve3.hpp"
 #include "fast/kernels/held.hpp"
@@ -86,6 +87,8 @@ struct UpdateVertex {
 struct UpdatePrescribed {
   SweepView view;
   const int* prescribed = nullptr;  ///< indices of the prescribed vertices
+  /// cuts are counted for these vertices; each part of a simulation moves all vertices and counts its own
+  int first_own = 0, end_own = std::numeric_limits<int>::max();
 
   OGC_HD void operator()(int i) const {
     if (view.is_off()) return;
@@ -99,7 +102,7 @@ struct UpdatePrescribed {
     const FeasibleRegion region = view.regions[v];
     const Truncated kept = held_on_path(region, old, target);
     view.write(v, kept.position);
-    count_behind(*view.control, kept, region.ball.centre, view.regions);
+    if (first_own <= v && v < end_own) count_behind(*view.control, kept, region.ball.centre, view.regions);
   }
 };
 

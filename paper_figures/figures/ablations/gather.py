@@ -1,7 +1,8 @@
 """One table of the studies that were run, as results keep it: `python3 -m paper_figures.figures.ablations.gather
 FOLDER... --out ablations_SCALE.csv`, where study.py wrote the FOLDERs. Long tables are compressed, as .csv.gz. `--keep
 TABLE` takes scenes that the folders lack from an older table. A metric with the same value in every run of a scene is
-left out, because it does not distinguish settings. The number of runs that kept the guarantee is always kept."""
+left out, because it does not distinguish settings. The number of runs that kept the guarantee, and the time that they
+took, are always kept."""
 
 import argparse
 import csv
@@ -11,6 +12,7 @@ import sys
 from pathlib import Path
 
 from paper_figures.figures.ablations.study import KEPT, TABLE
+from paper_figures.workflow.durations import OF_ALL_RUNS
 from paper_figures.workflow.kept import compressed
 from paper_figures.workflow.runs import write_table
 
@@ -22,7 +24,8 @@ def told(rows):
     values = {}
     for row in rows:
         values.setdefault(row["metric"], set()).update(row[name] for name in NUMBERS if row[name] not in ("", "nan"))
-    return [row for row in rows if row["metric"] == KEPT or len(values[row["metric"]]) > 1 and row["median"]]
+    return [row for row in rows
+            if row["metric"] in (KEPT, OF_ALL_RUNS) or len(values[row["metric"]]) > 1 and row["median"]]
 
 
 def by_scene(path):

@@ -22,6 +22,7 @@ from pathlib import Path
 
 import yaml
 
+from paper_figures.workflow.durations import OF_ALL_RUNS, seconds_between
 from paper_figures.workflow.evidence import membranes_of
 from paper_figures.workflow.runs import write_table
 from plots import ablation, style
@@ -136,6 +137,19 @@ def rows(folder, study, scene):
         yield {"study": study, "scene": scene, "metric": KEPT, "point": point, "unit": "1", "runs": len(runs),
                "finished": ended, **dict.fromkeys(("median", "smallest", "largest"), kept), **made_by,
                "membrane": membrane(folder, point)}
+
+
+    yield from time_of(folder, {"study": study, "scene": scene, **made_by})
+
+
+def time_of(folder, about):
+    """Returns the row about the time that all runs of a scene took; none if a run does not say when it ended."""
+    took = [seconds_between(json.loads(path.read_text())) for path in sorted(folder.glob("*/run.json"))]
+    if took and None not in took:
+        point = next(iter(of_points(folder)))
+        yield {"study": about["study"], "scene": about["scene"], "metric": OF_ALL_RUNS, "point": point, "unit": "s",
+               "runs": len(took), "finished": len(took), **dict.fromkeys(("median", "smallest", "largest"), sum(took)),
+               "commit": about["commit"], "device": about["device"], "membrane": membrane(folder, point)}
 
 
 def of_points(folder):

@@ -252,6 +252,32 @@ TEST_CASE("a frame without rods has no trace of them", "[unit]") {
   CHECK(bytes.find("orientations") == std::string::npos);
 }
 
+TEST_CASE("a frame holds measures of vertices if the run has them, and refuses those of another number", "[unit]") {
+  const Scratch folder;
+  Frame frame = recorded_frame(7);
+  CHECK(frame_bytes(pack(frame)).find("residual") == std::string::npos);
+  for (std::size_t v = 0; v < frame.positions.size(); ++v) {
+    frame.residual.push_back(static_cast<float>(v) / 3);
+    frame.cut.push_back(v % 2 == 0 ? 1.0f : 0.0f);
+  }
+  write_durably(folder / "frame.h5", frame_bytes(pack(frame)));
+  CHECK(read_frame(folder / "frame.h5") == frame);
+  const PackedFrame packed = read_packed_frame(folder / "frame.h5");
+  CHECK(frame_bytes(packed) == text_of(folder / "frame.h5"));
+  // A change of either is noticed: both are in the checksum.
+  for (std::vector<float> Frame::*measure : {&Frame::residual, &Frame::cut}) {
+    Frame other = frame;
+    (other.*measure)[3] += 1;
+    PackedFrame changed = pack(other);
+    changed.checksum = packed.checksum;
+    write_durably(folder / "frame.h5", frame_bytes(changed));
+    CHECK_THROWS_WITH(read_frame(folder / "frame.h5"), ContainsSubstring("damaged"));
+  }
+  frame.cut.pop_back();
+  write_durably(folder / "frame.h5", frame_bytes(pack(frame)));
+  CHECK_THROWS_WITH(read_frame(folder / "frame.h5"), ContainsSubstring("'cut' is not one number for each of the 10"));
+}
+
 TEST_CASE("frames of a newer format are refused by name, those of the oldest, without a checksum, are read", "[unit]") {
   const Scratch folder;
   const Frame frame = recorded_frame(7);

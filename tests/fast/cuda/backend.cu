@@ -564,7 +564,7 @@ TEST_CASE("a request that does not fit says what was asked for and what to do", 
   } catch (const ogc::compare::ResourceError& error) {
     const std::string text = error.what();
     CHECK(text.find("268435456.0 MiB") != std::string::npos);
-    CHECK(text.find("--backend cpu") != std::string::npos);
+    CHECK(text.find("run with the backend cpu") != std::string::npos);
   }
   buffer.resize(8);
   CHECK((on_host(buffer) == std::vector<double>(8, 0.0)));

@@ -119,7 +119,7 @@ class WatchedBackend : public CpuBackend {
     CpuBackend::for_both(m, f, n, capacity, g);
   }
   template <int W, class F>
-  void for_each_team(int n, F f, Start start) {
+  void for_each_team(Teams n, F f, Start start) {
     note_launch<F>();
     CpuBackend::for_each_team<W>(n, f, start);
   }

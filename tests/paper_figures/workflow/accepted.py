@@ -24,7 +24,7 @@ try:
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
-from paper_figures.workflow import accept, captions, check, kept, recipes, step_costs  # noqa: E402
+from paper_figures.workflow import accept, captions, check, contents, kept, recipes, step_costs  # noqa: E402
 from paper_figures.workflow.evidence import (RESULTS, Evidence, EvidenceError, RunEvidence, manifest_at,  # noqa: E402
                                              run_at)
 
@@ -193,7 +193,7 @@ class Accepting(Scratch):
             (self.runs / "fig18-paper-cuda/run/audit.json").write_text(json.dumps({"states": 101, "clean": clean}))
             if clean:
                 self.accept("fig18")
-                self.assertEqual(Evidence(self.results).runs[0].audit_in_words, "101 states audited, 100 steps")
+                self.assertEqual(Evidence(self.results).runs[0].audit_in_words, "101 states of 100 steps were audited.")
             else:
                 with self.assertRaisesRegex(accept.AcceptError, "failed its audit"):
                     self.accept("fig18")
@@ -365,7 +365,7 @@ class Accepting(Scratch):
                       pictures=True)
         after = {path.name: path.read_bytes() for path in (self.results / "machine").glob("fig18_paper_*")}
         self.assertEqual(before, after)
-        rows = {row["file"]: row for row in accept.rows_of(self.results / "machine/provenance.csv")}
+        rows = {row["file"]: row for row in contents.rows_of(self.results / "machine/provenance.csv")}
         self.assertEqual(set(rows), {"fig18_paper.png", *before})
         self.assertEqual(rows["fig18_paper.png"]["sha256"],
                          hashlib.sha256((self.results / "machine/fig18_paper.png").read_bytes()).hexdigest()[:16])
@@ -379,6 +379,29 @@ class Accepting(Scratch):
                 self.accept("fig18")
             shutil.rmtree(self.runs)
         self.assertFalse(self.results.exists())
+
+    def test_a_table_of_two_programs_or_of_a_changed_one_is_refused(self):
+        table = self.runs / "fig18-paper-cuda/fig18.csv"
+        for commits, words in (("cccccccccc dddddddddd", "mixes rows of commits cccccccccc, dddddddddd"),
+                               ("cccccccccc - cccccccccc", ""), ("cccccccccc cccccccccc(dirty)", "is no commit"),
+                               ("cccccccccc unknown", "rows of unknown, which is no commit")):
+            self.finished()
+            table.write_text("\n".join(["commit,device", *(f"{commit},d" for commit in commits.split())]) + "\n")
+            if words:
+                with self.assertRaisesRegex(accept.AcceptError, words):
+                    self.accept("fig18")
+                self.assertFalse((self.results / "machine/fig18_paper.csv").exists())
+            else:
+                self.accept("fig18")
+                shutil.rmtree(self.results)
+            shutil.rmtree(self.runs)
+
+    def test_the_paper_sized_table_1_of_a_call_is_not_kept_beside_the_one_of_kept_runs(self):
+        for scale, there in (("paper", False), ("small", True)):
+            self.make_run(f"table1-{scale}-cuda/twist/whole")
+            (self.runs / f"table1-{scale}-cuda/table1_{scale}.csv").write_text("scene,commit\ntwist,\n")
+            accept.accept([self.BOOK["table1"]], scale, "cuda", self.runs, "machine", "no program", self.results)
+            self.assertEqual((self.results / f"machine/table1_{scale}.csv").is_file(), there)
 
     def test_a_mixture_of_commits_and_a_missing_picture_are_refused(self):
         for number, commit in enumerate("ab"):
@@ -425,7 +448,7 @@ class Accepting(Scratch):
 
         def redo_after(*recipes, by_hand):
             accept.accept(recipes, "paper", "cuda", self.runs, "machine", "no program", self.results, by_hand=by_hand)
-            return {row["file"]: row["redo"] for row in accept.rows_of(self.results / "machine/provenance.csv")}
+            return {row["file"]: row["redo"] for row in contents.rows_of(self.results / "machine/provenance.csv")}
 
         self.finished()
         redo_after(self.BOOK["fig18"], by_hand="on the device")
@@ -448,8 +471,8 @@ class Accepting(Scratch):
     def test_rows_of_other_figures_stay(self):
         table = self.results / "t.csv"
         self.results.mkdir()
-        accept.merge(table, ("file", "n"), [{"file": "b", "n": 1}, {"file": "a", "n": 1}], ("file",))
-        accept.merge(table, ("file", "n"), [{"file": "b", "n": 2}], ("file",))
+        contents.merge(table, ("file", "n"), [{"file": "b", "n": 1}, {"file": "a", "n": 1}], ("file",))
+        contents.merge(table, ("file", "n"), [{"file": "b", "n": 2}], ("file",))
         self.assertEqual(table.read_text(), "file,n\na,1\nb,2\n")
 
 

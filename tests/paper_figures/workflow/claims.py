@@ -5,8 +5,10 @@ Usage: claims.py SOURCE_DIR. The standard library is enough.
 """
 
 import copy
+import csv
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -17,7 +19,7 @@ from types import SimpleNamespace
 
 SOURCE = Path(sys.argv.pop(1)) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else Path(__file__).parents[2]
 sys.path.insert(0, str(SOURCE))
-from paper_figures.workflow import verdicts  # noqa: E402
+from paper_figures.workflow import ratios, verdicts  # noqa: E402
 from paper_figures.workflow.evidence import RESULTS, Evidence, EvidenceError, manifest_at, value_of  # noqa: E402
 from paper_figures.workflow.thinned import Hundreds  # noqa: E402
 
@@ -26,7 +28,8 @@ GUARANTEE = {"measure": {"guarantee": "penetration-free"}, "band": [0, 0]}
 
 
 def claim(**changes):
-    return {"id": "s.c", "scene": "cloth_on_sphere", "figures": [], "band_set": "2000-01-01", "value": 1, "unit": "1",
+    return {"id": "s.c", "scene": "cloth_on_sphere", "figures": [], "study": False, "band_set": "2000-01-01",
+            "value": 1, "unit": "1",
             "place": "p", "says": "w", "why": "y",
             "kind": verdicts.RESULT, "run": {"scale": "paper", "backend": "cuda"},
             "measure": {"steps": "wall", "statistic": "mean"}, "band": [0, 1], **changes}
@@ -90,7 +93,7 @@ class Kinds(unittest.TestCase):
                   for changes in ({"band": [0, 100]}, {"band": [50, 100]}, setting, count)]
         self.assertEqual([j.verdict for j in judged], ["reproduced", "refuted", "as printed", "not as printed"])
         words = verdicts.headline(judged)
-        self.assertRegex(words, "^1 of 2 claims about results are reproduced.* 1 refuted")
+        self.assertRegex(words, "^Of the paper's own 2 claims about results 1 are reproduced.* 1 refuted")
         self.assertRegex(words, "2 settings and counts of meshes.*1 as printed, 1 not as printed")
         kinds = [line.split(",")[1] for line in verdicts.as_table(judged[::-1]).splitlines()[1:]]
         self.assertEqual(kinds[:2], [verdicts.RESULT] * 2, "what was set stands below the results")
@@ -221,15 +224,16 @@ class Judging(unittest.TestCase):
                 about = claim(measure=measure, band=band, choices=[*choices, *more])
                 found = verdicts.judge(about, Evidence(name))
                 return found.verdict, found.note
-            self.assertEqual(judged([0, 2]), ("refuted",
-                                              "not with the printed parameters, with κ = b: 1, not with κ = c: 7"))
-            self.assertEqual(judged([8, 9]), ("refuted",
-                                              "not with the printed parameters, nor with κ = b: 1; κ = c: 7"))
+            self.assertEqual(judged([0, 2]), ("refuted", "This other choice brings it into the band: κ = b (1). "
+                                              "This one does not: κ = c (7)."))
+            self.assertEqual(judged([8, 9]), ("refuted", "These other choices do not bring it into the band: "
+                                              "κ = b (1); κ = c (7)."))
             no_number = [{"says": "κ = n", "where": {"kind": "n"}}]
             self.assertEqual(judged([8, 9], more=no_number), judged([8, 9]), "it was varied")
             for missing in ({"where": {"kind": "x"}}, {"column": "older than it"}):
                 more = [{"says": "κ = z", **missing}]
-                self.assertEqual(judged([8, 9], more=more), ("refuted", f"{judged([8, 9])[1]}; no row with κ = z"))
+                self.assertEqual(judged([8, 9], more=more),
+                                 ("refuted", f"{judged([8, 9])[1]} No run made this choice: κ = z."))
                 self.assertEqual(judged([3, 5], more=more), ("reproduced", ""))
             self.assertEqual(judged([3, 5]), ("reproduced", ""))
             self.assertEqual(judged([8, 9], [measure]), judged([8, 9]),
@@ -237,8 +241,8 @@ class Judging(unittest.TestCase):
             waiting = verdicts.judge(claim(measure=measure, band=[8, 9], choices=choices, not_varied="ε"),
                                      Evidence(name))
             self.assertEqual((waiting.verdict, waiting.note),
-                             ("not yet run", f"outside of the band: 4 (fig99_paper.csv); {judged([8, 9])[1]}; "
-                                             "not varied: ε"))
+                             ("not yet run", "Our number, 4, lies outside of the band (fig99_paper.csv). "
+                                             f"{judged([8, 9])[1]} It is not called refuted before this is varied: ε."))
 
     def test_a_run_is_told_from_others_by_its_activation(self):
         runs = Evidence().runs_as({"scene": "activation_drop", "scale": "small"})
@@ -275,10 +279,109 @@ class Judging(unittest.TestCase):
         ours = verdicts.judge(claim(), Evidence()).measured
         found = verdicts.judge(claim(band=[ours.value + 1, None], not_varied="membrane"), Evidence())
         self.assertEqual((found.verdict, found.measured, found.note), ("not yet run", None,
-                         f"outside of the band: {ours.value:.3g} ({ours.source}); not varied: membrane"))
+                         f"Our number, {ours.value:.3g}, lies outside of the band ({ours.source}). "
+                         "It is not called refuted before this is varied: membrane."))
         within = verdicts.judge(claim(band=[ours.value, None], not_varied="membrane"), Evidence())
         self.assertEqual(within.verdict, "reproduced")
         self.assertEqual(verdicts.unjudged([found, within]), ([], ["s.c"]))
+
+
+class OtherPrograms(unittest.TestCase):
+    """One rule for ratios with other programs: both sides on one machine, each of a program whose version is named."""
+
+    AGAINST = {"measure": {"table": "fig99", "column": "mean [ms]", "over": {"solver": "ipc"},
+                           "under": {"solver": "vbd"}}, "band": [4, None], "value": 5, "against": "C-IPC"}
+
+    def judged(self, theirs, ours="ogc,c1,vbd,2,GPU,c1", **changes):
+        head = "program,version,solver,mean [ms],device,commit"
+        with tempfile.TemporaryDirectory() as name:
+            (Path(name) / "fig99_paper.csv").write_text("\n".join([head, theirs, ours]) + "\n")
+            return verdicts.judge(claim(**{**self.AGAINST, **changes}), Evidence(name))
+
+    def test_both_sides_on_one_machine_with_named_versions_are_comparable(self):
+        for theirs, verdict in (("C-IPC,1.2,ipc,10,GPU,-", "reproduced"), ("C-IPC,1.2,ipc,6,GPU,-", "refuted"),
+                                ("C-IPC,1.2,ipc,10,\"GPU, CUDA 13.0\",-", "reproduced")):
+            self.assertEqual(self.judged(theirs).verdict, verdict, theirs)
+
+    def test_anything_else_is_not_whatever_the_ratio_and_ours_stands_beside_it(self):
+        for theirs, words in (("ogc,c1,ipc,10,GPU,c1", "No run of C-IPC .* own ratio, .* is 5, where the paper prints"),
+                              ("ogc,c1,ipc,1,GPU,c1", "No run of C-IPC .* is 0.5, where the paper prints 5"),
+                              ("C-IPC,,ipc,10,GPU,-", "version of C-IPC is not named"),
+                              ("C-IPC,unknown,ipc,10,GPU,-", "version of C-IPC is not named"),
+                              ("C-IPC,1.2,ipc,10,GPU 2,-", "No run of C-IPC")):
+            found = self.judged(theirs)
+            self.assertEqual(found.verdict, "not comparable", theirs)
+            self.assertRegex(found.note, words)
+
+    def test_machines_are_told_apart_without_their_drivers(self):
+        ours, alike, other = (ratios.Side("ogc", "c1", device) for device in ("GPU, CUDA 13.0", "GPU", "GPU 2"))
+        theirs = lambda side: ratios.Side("newton", "1.8.0", side.device)  # noqa: E731
+        self.assertEqual(ratios.obstacle((ours, theirs(alike)), "newton"), "")
+        self.assertRegex(ratios.obstacle((ours, theirs(other)), "newton"), "different machines: ogc on GPU, newton on")
+        self.assertRegex(ratios.obstacle((theirs(alike),), "newton"), "Only newton ran")
+
+    def test_without_a_run_or_a_measure_the_rule_is_the_same(self):
+        for changes in ({"measure": {**self.AGAINST["measure"], "table": "fig98"}}, {"measure": None, "band": None}):
+            changed = {key: value for key, value in changes.items() if value is not None}
+            about = {key: value for key, value in claim(**{**self.AGAINST, **changed}).items() if key not in changes
+                     or key in changed}
+            with tempfile.TemporaryDirectory() as name:
+                found = verdicts.judge(about, Evidence(name))
+            self.assertEqual((found.verdict, found.measured), ("not comparable", None))
+            self.assertRegex(found.note, "^No run of C-IPC")
+
+    def test_every_claim_that_names_another_program_is_under_the_rule(self):
+        """A claim of the paper about a time of C-IPC, GIPC or IPC's release, or a ratio with one."""
+        other = {each["id"] for each in verdicts.load()
+                 if re.search("IPC's time|, C-IPC|step of G?IPC", each["quantity"])}
+        self.assertGreaterEqual(len(other), 8)
+        self.assertEqual(other, {each["id"] for each in verdicts.load() if "against" in each})
+
+    def test_a_claim_is_not_said_to_be_comparable_by_one_against_another_program(self):
+        first, second = claim(against="IPC"), claim(id="s.d", instead="s.c")
+        document = {"scene": "s", "figures": [], "bands_set": "2000",
+                    "claims": [{k: v for k, v in each.items() if k not in ("kind", "study")}
+                               for each in (first, {k: v for k, v in second.items() if k != "band"})]}
+        with tempfile.TemporaryDirectory() as name:
+            (Path(name) / "s.json").write_text(json.dumps(document))
+            with self.assertRaisesRegex(EvidenceError, "against another program: s.c"):
+                verdicts.load(name)
+
+    def test_ratios_with_newton_physics_on_the_gpu_are_comparable_and_others_are_not_called_so(self):
+        found = {}
+        for path in (RESULTS / "h200/peers_newton_gpu.csv", RESULTS / "two_cores/peers_trajectories.csv"):
+            with path.open(newline="") as file:
+                rows = list(csv.DictReader(file))
+            for row in rows:
+                ours = [other for other in rows if other["program"] == "ogc"
+                        and (other["scene"], other["scale"]) == (row["scene"], row["scale"])]
+                if row["program"] != "ogc":
+                    pairs = {ratios.obstacle((ratios.side_of(each), ratios.side_of(row)), "newton") for each in ours}
+                    found.setdefault(path.stem, set()).update(pairs)
+        self.assertEqual(found["peers_newton_gpu"], {""})
+        self.assertEqual(found["peers_trajectories"], {"The sides ran on different machines: ogc on 2 threads, newton "
+                                                       "on CPU."})
+
+
+class Notes(unittest.TestCase):
+    """A person reads them: sentences of a length that can be read aloud, lists apart, and no name of a setting."""
+
+    def test_each_note_is_made_of_sentences(self):
+        verbs = r"\b(is|are|was|were|has|had|ran|runs|waits|lies|takes|brings?|does?|do|made|prints?|quotes|say|says)\b"
+        for judgement in verdicts.judge_all():
+            for part in re.split(r"(?<!Fig\.)(?<!St\.)(?<=\.) (?=[A-Z0-9])", judgement.note) if judgement.note else ():
+                self.assertRegex(part, r"^[A-Z0-9].*\.$", judgement.claim["id"])
+                self.assertRegex(part, verbs, judgement.claim["id"])
+                self.assertLessEqual(len(part.partition(":")[0].split()), 45, part)
+            self.assertNotRegex(judgement.note, r"[a-z]_[a-z]+[^.\w]*(;|\.$)|\bnan\b", judgement.claim["id"])
+
+    def test_a_waiting_claim_about_the_processor_says_what_windows_take(self):
+        notes = {j.claim["id"]: j.note for j in verdicts.judge_all()}
+        with (RESULTS / "h200/cpu_windows_paper.csv").open(newline="") as file:
+            rows = [row for row in csv.DictReader(file) if row["row"] == "knot"]
+        worst = max(float(row["worst step [ms]"]) for row in rows)
+        self.assertRegex(notes["knot.cpu_average"], f"^It waits for a whole run on 16 CPU threads. In windows of 6 "
+                                                    f"steps from {len(rows)} .* and {worst:.3g} ms at most")
 
 
 class Runs(unittest.TestCase):
@@ -327,10 +430,10 @@ class Runs(unittest.TestCase):
     def test_a_verdict_about_penetrations_says_how_many_states_were_audited(self):
         for j in verdicts.judge_all():
             if j.measured and "guarantee" in j.claim["measure"]:
-                self.assertRegex(j.note, r"^[1-9]\d* states audited, \d+ steps", j.claim["id"])
+                self.assertRegex(j.note, r"^[1-9][\d,]* states of [\d,]+ steps were audited\.", j.claim["id"])
 
     def test_an_audit_afterwards_counts_as_one_beside_the_run(self):
-        said = "61 states audited, 100 steps; membrane: st_venant_kirchhoff"
+        said = "61 states of 100 steps were audited. The membrane is St. Venant–Kirchhoff."
         wanted = {"run": {"scale": "paper", "steps": 100, "audited": True}}
         for found, verdict, note in ((None, "not yet run", ""), ({"states": 61, "clean": True}, "reproduced", said),
                                      ({"states": 61, "clean": False}, "refuted", said),
@@ -413,12 +516,12 @@ class OneSceneOfTwoFigures(unittest.TestCase):
         narrow = {**about, "band": [1, 1.001]}
         self.make("1_old", "st_venant_kirchhoff", 1)
         note = verdicts.judge(narrow, Evidence(self.folder)).note
-        self.assertRegex(note, "^membrane: st_venant_kirchhoff; .*no row with stable Neo-Hookean$")
+        self.assertRegex(note, "^The membrane is St. Venant–Kirchhoff. .*made this choice: stable Neo-Hookean.$")
         self.make("2_new", "stable_neo_hookean", 2)
         judged = verdicts.judge(narrow, Evidence(self.folder))
         self.assertEqual(judged.measured.source, "2_new/run.json")
-        self.assertRegex(judged.note, r"^membrane: stable_neo_hookean; .*nor with St. Venant–Kirchhoff: [\d.]+$")
-        self.assertNotIn("with stable", judged.note)
+        self.assertRegex(judged.note, r"^The membrane is stable Neo-Hookean. .*not .*St. Venant–Kirchhoff \([\d.]+\).$")
+        self.assertNotIn("No run made", judged.note)
 
     def test_a_failed_audit_counts_with_any_material(self):
         self.make("1_table", "st_venant_kirchhoff", 1)
@@ -450,7 +553,7 @@ class OneSceneOfTwoFigures(unittest.TestCase):
         found = {j.claim["id"]: j.note for j in judged if j.claim["id"].startswith("cloth_on_sphere.ipc_over")}
         self.assertEqual(len(found), 2)
         for note in found.values():
-            self.assertRegex(note, r"^each on \d+ threads")
+            self.assertRegex(note, r" Both ran on \d+ threads\.")
 
     def test_a_ratio_is_of_the_same_materials(self):
         cpu = {"backend": "cpu", "device": "8 threads"}

@@ -18,7 +18,7 @@ try:
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
-from paper_figures.workflow import accept, captions  # noqa: E402
+from paper_figures.workflow import accept, captions, contents  # noqa: E402
 from paper_figures.workflow.evidence import RESULTS, runs_in  # noqa: E402
 from paper_figures.workflow.kept import PICTURES  # noqa: E402
 from ogc_testbed.columns import column_and_unit  # noqa: E402
@@ -29,17 +29,12 @@ WORDS = 12  # of a text for a picture, at least
 
 
 class Kept(unittest.TestCase):
-    def test_every_file_has_a_provenance_and_is_unchanged(self):
-        """In the table, or, of a table that no run of a figure made, by name in the README."""
-        for folder in (path.parent for path in RESULTS.glob("*/provenance.csv")):
-            known = {row["file"]: row for row in accept.rows_of(folder / "provenance.csv")}
-            for name, row in known.items():
-                self.assertEqual(hashlib.sha256((folder / name).read_bytes()).hexdigest()[:16], row["sha256"], name)
-                self.assertNotIn("dirty", row["commit"])
-            words = (folder / "README.md").read_text()
-            there = {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
-            unknown = {name for name in there - set(known) if not (name.endswith(".csv") and f"`{name}`" in words)}
-            self.assertLessEqual(unknown, {"README.md", "provenance.csv", "durations.csv", "captions.csv"}, folder.name)
+    def test_every_file_is_the_one_that_its_provenance_says(self):
+        """That each has its row is a test of contents.py."""
+        for provenance in RESULTS.glob(f"*/{contents.PROVENANCE}"):
+            for row in contents.rows_of(provenance):
+                data = (provenance.parent / row["file"]).read_bytes()
+                self.assertEqual(hashlib.sha256(data).hexdigest()[:16], row["sha256"], row["file"])
 
     def test_all_of_them_are_small(self):
         sizes = {seen: sum(path.stat().st_size for path in RESULTS.rglob("*") if path.is_file()

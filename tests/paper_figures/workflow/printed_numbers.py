@@ -14,6 +14,7 @@ import sys
 import unittest
 from decimal import Decimal
 from pathlib import Path
+from unittest import mock
 
 SOURCE = Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(SOURCE))
@@ -22,7 +23,7 @@ try:
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
-from paper_figures.workflow import page_tables, whole_runs  # noqa: E402
+from paper_figures.workflow import contents, headline, page_tables, verdicts, whole_runs  # noqa: E402
 from paper_figures.workflow.evidence import RESULTS  # noqa: E402
 
 DOCUMENTS = ("README.md", "fast/PERFORMANCE.md", "reference/README.md", "paper_figures/ablations.md",
@@ -135,7 +136,7 @@ class Documents(unittest.TestCase):
             tried += len(found)
             # One digit may make another number of the row.
             self.assertLessEqual(len(missed), 0.1 * len(found), f"{name}: {missed}")
-        self.assertGreater(tried, 300)
+        self.assertGreater(tried, 200)
 
     def test_a_wrong_number_in_a_sentence_is_found(self):
         words = "It takes 1.85 ms in `twist` ([rows](whole_runs.csv)).\n"
@@ -154,7 +155,7 @@ class Documents(unittest.TestCase):
 
     def test_each_table_that_is_listed_has_its_place(self):
         studies = [path.stem for path in (SOURCE / "paper_figures/figures/ablations").glob("*.yaml")]
-        listed = {page_tables.ROOM / "ablations.md": studies,
+        listed = {page_tables.README: list(headline.PARTS), page_tables.ROOM / "ablations.md": studies,
                   **{RESULTS / name: list(tables) for name, tables in page_tables.LISTED.items()}}
         for path, names in listed.items():
             self.assertEqual(sorted(page_tables.PLACE.findall(path.read_text())), sorted(names), path)
@@ -162,6 +163,27 @@ class Documents(unittest.TestCase):
     def test_a_row_that_no_file_has_is_refused(self):
         listed = dict(page_tables.LISTED["h200/README.md"]["quality"], rows=["knot, ball, 1"])
         self.assertRaises(KeyError, page_tables.table, listed, RESULTS / "h200")
+
+    def test_readme_counts_the_papers_claims_apart_and_says_how_many_files_are_old(self):
+        """By another way than the one that writes it: the kept verdicts, and each file's commit asked of git."""
+        text = (SOURCE / "README.md").read_text()
+        rows = [row for row in rows_of(verdicts.KEPT) if row["kind"] == "result"]
+        for of, name in (("paper", "the paper's own"), ("study", "our studies'")):
+            mine = [row for row in rows if row["of"] == of]
+            count = lambda verdict: sum(row["verdict"] == verdict for row in mine)  # noqa: E731
+            late = sum(row["verdict"] == "reproduced" and row["band set after a run"] == "yes" for row in mine)
+            self.assertIn(f"| {name} | {len(mine)} | {count('reproduced')} ({late}) | {count('refuted')} | "
+                          f"{count('not comparable')} | {count('not yet run')} |", text)
+        there = sum(len(rows_of(path)) for path in RESULTS.glob("*/provenance.csv"))
+        self.assertRegex(text, rf"\n\d+ of {there} accepted files are of \[other sources\]")
+
+    def test_where_there_is_no_repository_the_count_of_old_files_stays(self):
+        text, path = (SOURCE / "README.md").read_text(), page_tables.README
+        with mock.patch.object(contents, "in_words", side_effect=contents.ContentsError("none")):
+            self.assertEqual(page_tables.rewritten(path, text), text)
+
+    def test_readme_is_read_in_four_minutes(self):
+        self.assertLessEqual(len((SOURCE / "README.md").read_text().split()), 1100)
 
     def test_the_table_of_whole_runs_is_computed_from_the_runs_that_are_kept(self):
         for path in RESULTS.glob("*/whole_runs.csv"):

@@ -22,7 +22,7 @@ try:
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
-from paper_figures.workflow import ablation_tables, accept, captions, recipes, redrawn, restored  # noqa: E402
+from paper_figures.workflow import ablation_tables, accept, captions, contents, recipes, redrawn, restored  # noqa: E402
 from paper_figures.workflow.evidence import RESULTS, EvidenceError, run_at, runs_in  # noqa: E402
 
 ORIGIN = {"commit": "c" * 40, "compiler": "GNU", "device": "d", "ended": "2026-01-01T00:00:00Z"}
@@ -61,7 +61,7 @@ class Kept(unittest.TestCase):
             for image, kept in ((Image.new("RGB", (9, 9), "red"), "fig99_paper.png"), (noise, "fig99_paper.webp")):
                 self.assertEqual(self.keep(name, image), kept)
                 self.assertEqual({path.name for path in results.iterdir()}, {kept, "provenance.csv", "captions.csv"})
-                row, = accept.rows_of(results / "provenance.csv")
+                row, = contents.rows_of(results / "provenance.csv")
                 self.assertEqual((row["file"], row["redo"], row["commit"]), (kept, "a command", ORIGIN["commit"]))
                 self.assertEqual(captions.kept(results / kept)["alt"], "what is seen")
 

@@ -28,9 +28,9 @@ try:
 except ImportError as error:
     print(f"SKIPPED: {error}")
     sys.exit(77)
-from paper_figures.site import claims, curves, documents, figures, files  # noqa: E402
+from paper_figures.site import claims, curves, documents, figures, files, origins  # noqa: E402
 from paper_figures.workflow import recipes, report, verdicts  # noqa: E402
-from paper_figures.workflow.evidence import RESULTS, manifest_at  # noqa: E402
+from paper_figures.workflow.evidence import MEMBRANES, RESULTS, manifest_at  # noqa: E402
 
 VOID = {"img", "br", "hr", "meta", "link", "input", "wbr"}
 WORDS = 3  # of a text for a picture, at least
@@ -163,11 +163,14 @@ def faults(site):
 
 def faults_of_first_page(words, rows):
     results = [row for row in rows if row["kind"] == "result"]
-    count = lambda verdict: sum(row["verdict"] == verdict for row in results)  # noqa: E731
-    wanted = [f"Of the paper's {len(results)} claims about results {count('reproduced')} are reproduced",
-              f"for {sum(r['verdict'] == 'reproduced' and r['band set after a run'] != '' for r in results)} of them",
+    own, studies = ([row for row in results if row["of"] == name] for name in ("paper", "study"))
+    count = lambda verdict, among=own: sum(row["verdict"] == verdict for row in among)  # noqa: E731
+    wanted = [f"Of the paper's own {len(own)} claims about results {count('reproduced')} are reproduced",
+              f"for {sum(r['verdict'] == 'reproduced' and r['band set after a run'] != '' for r in own)} of them",
               f"{count('refuted')} are refuted", f"{count('not comparable')} are not comparable",
-              f"{count('not yet run')} are not yet run", f"stand {len(rows) - len(results)} settings"]
+              f"{count('not yet run')} are not yet run", f"stand {len(rows) - len(results)} settings",
+              f"Of {len(studies)} claims of our own studies {count('reproduced', studies)} are reproduced and "
+              f"{count('refuted', studies)} refuted"]
     return [f"index.html does not say '{each}'" for each in wanted if each not in words]
 
 
@@ -237,10 +240,10 @@ class OfSite(unittest.TestCase):
         self.assertTrue(any("can't be read" in fault for fault in faults(self.folder)))
         picture.write_bytes(good)
 
-    def test_five_sentences_say_what_there_is(self):
+    def test_six_sentences_say_what_there_is(self):
         summary = re.search(r'<div id="summary">(.*?)</div>', (self.folder / "index.html").read_text(), re.S)[1]
         words = Page(summary).words.strip()
-        self.assertEqual(len(re.findall(r"[a-z]\. |[a-z]\.$", words)), 5, words)
+        self.assertEqual(len(re.findall(r"[a-z]\. |[a-z]\.$", words)), 6, words)
 
     def test_each_claim_stands_on_the_page_of_its_figure(self):
         for claim in self.site.claims:
@@ -266,7 +269,7 @@ class OfSite(unittest.TestCase):
         self.assertEqual(set(claims.MEANING), {*verdicts.VERDICTS, *verdicts.AS_SET})
         for claim in self.site.claims:
             self.assertTrue(claim.sentence or claim.note, claim.id)
-            self.assertFalse([name for name in claims.MEMBRANES if name in claim.note], claim.id)
+            self.assertFalse([name for name in MEMBRANES if name in claim.note], claim.id)
             self.assertNotIn("not printed", claim.paper + claim.ours + claim.sentence, claim.id)
 
     def test_a_figure_without_a_picture_says_the_command_that_makes_it(self):
@@ -433,12 +436,29 @@ class JustMade(unittest.TestCase):
 
     def test_table_1_is_shown_where_it_was_made(self):
         self.assertNotIn("just made", Page(self.site("paper").table1()).words)
-        made = self.runs / "table1-paper-cuda/table1_paper.csv"
+        made = self.runs / "table1-small-cuda/table1_small.csv"
         made.parent.mkdir()
-        made.write_bytes((RESULTS / "h200/table1_paper.csv").read_bytes())
-        page = Page(self.site("paper").table1())
-        self.assertIn("Table 1 at scale paper, just made", page.words)
-        self.assertIn("files/new/table1_paper.csv", page.links)
+        made.write_bytes((RESULTS / "two_cores/table1_small.csv").read_bytes())
+        page = Page(self.site("small").table1())
+        self.assertIn("Table 1 at scale small, just made", page.words)
+        self.assertIn("files/new/table1_small.csv", page.links)
+
+    def test_the_time_of_a_table_is_that_of_its_rows_steps_or_is_said_to_be_not_measured(self):
+        (self.runs / "t").mkdir(parents=True)
+        for text, seconds in (("step [ms]\n1500\n2500\n", 4), ("step [ms]\n1500\nnan\n", None),
+                              ("mean [ms],first step,last step,status\n2,1,1000,finished\n,,,not run\n", 2),
+                              ("median\n3\n", None), ("step [ms]\n", None),
+                              ("study,scene,metric,median\ns,a,time_of_all_runs,3\ns,a,m,1\n", 3),
+                              ("study,scene,metric,median\ns,a,time_of_all_runs,3\ns,b,m,1\n", None)):
+            path = self.runs / "t/t.csv"
+            path.write_text(text)
+            self.assertEqual(origins.seconds_by_rows(path), seconds, text)
+        found = origins.Origins([])
+        times = {name: found.of_file(name).time for name in
+                 ("two_cores/fig17_newton_paper.csv", "two_cores/radius_smoke.csv", "two_cores/fig21_paper.csv")}
+        self.assertRegex(times["two_cores/fig17_newton_paper.csv"], r"^\d+ min, by its rows$")
+        self.assertRegex(times["two_cores/radius_smoke.csv"], "^not measured: the file has no times")
+        self.assertRegex(times["two_cores/fig21_paper.csv"], r"^\d+ min$", "the figure was timed")
 
     def test_what_an_audit_did_not_look_at_is_said(self):
         unseen = "the ways between them were not looked at"

@@ -18,7 +18,7 @@ from unittest import mock
 SOURCE = Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(SOURCE))
 try:
-    from paper_figures.figures.ablations import study
+    from paper_figures.figures.ablations import gather, study
     from paper_figures.workflow import job, parts, recipes
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
@@ -220,16 +220,32 @@ echo 'median_step: iterations=5 is 2.33 times default' > "$out/ablation_findings
         table.write_text(table.read_text() + same.format("default") + same.format("iterations=5"))
         out = self.runs / "ablations_smoke.csv"
 
-        def gather(*folders):
+        def gathered(*folders):
             words = [sys.executable, "-m", "paper_figures.figures.ablations.gather", *folders, "--out", out]
             return subprocess.run(words, capture_output=True, text=True, check=False,
                                   env={**os.environ, "PYTHONPATH": str(SOURCE)})
 
-        self.assertEqual(gather(table.parent).returncode, 0)
+        self.assertEqual(gathered(table.parent).returncode, 0)
         self.assertNotIn("largest_lag", out.read_text())
         for metric in ("median_step", "guarantee_kept"):
             self.assertEqual(out.read_text().count(f"twist,{metric},"), 2)
-        self.assertIn(f"no ablations.csv in {self.runs}: run the study first", gather(self.runs).stderr)
+        self.assertIn(f"no ablations.csv in {self.runs}: run the study first", gathered(self.runs).stderr)
+
+    def test_the_time_of_a_scene_is_that_of_its_runs_together_and_stays_when_tables_are_gathered(self):
+        folder = self.runs / "twist"
+        for seed, ended in ((1, "2026-01-01T00:00:30Z"), (2, "2026-01-01T00:01:30Z")):
+            (folder / f"seed={seed}").mkdir(parents=True)
+            (folder / f"seed={seed}/run.json").write_text(json.dumps(
+                {"started": "2026-01-01T00:00:00Z", "ended": ended, "scene": {"name": "twist", "bodies": []}}))
+        (folder / "ablation.csv").write_text("iterations,seed,status\n,1,finished\n,2,finished\n")
+        about = {"study": "s", "scene": "twist", "commit": "c", "device": "d"}
+        (row,) = study.time_of(folder, about)
+        self.assertEqual([row[key] for key in ("metric", "point", "unit", "runs", "median")],
+                         ["time_of_all_runs", "default", "s", 2, 120.0])
+        self.assertEqual(gather.told([row]), [row])
+        (folder / "seed=2/run.json").write_text(json.dumps({"started": "2026-01-01T00:00:00Z", "ended": "",
+                                                            "scene": {"name": "twist", "bodies": []}}))
+        self.assertEqual(list(study.time_of(folder, about)), [])
 
     def test_a_study_that_audits_nothing_counts_nobody_who_kept_the_guarantee(self):
         audited = self.ABLATE

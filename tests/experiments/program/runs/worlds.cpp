@@ -66,6 +66,81 @@ TEST_CASE("world w of a run is the run alone with seed + w, and its state begins
   CHECK(contains(again.err, {"holds a run already"}));
 }
 
+TEST_CASE("a world with settings of its own is the run alone with these settings, and ends at its own step",
+          "[property]") {
+  const TemporaryFolder folder;
+  const std::string scene = "twist --scale smoke --jitter 1e-6 ",
+                    table = folder
+                                .write("table.csv",
+                                       "friction, steps, iterations, bounds, jitter_seed\n"
+                                       "0.1,,,,\n\n"
+                                       "0.4,4,7,planes,9\r\n"
+                                       ",9,,,")
+                                .string();
+  const fs::path out = folder / "worlds";
+  const json worlds = run(scene + "--seed 5 --steps 6 --audit frame --set frame_steps=3 --world-settings " + table +
+                          " --out " + out.string());
+  const std::vector<std::string> alone{"--seed 5 --set friction=0.1 --steps 6",
+                                       "--seed 9 --set friction=0.4 --set iterations=7 --set bounds=planes --steps 4",
+                                       "--seed 7 --steps 9"};
+  REQUIRE(worlds.at("worlds").size() == alone.size());
+  const std::vector<std::size_t> last_steps{6, 4, 9}, audits{2, 2, 3};
+  for (std::size_t w = 0; w < alone.size(); ++w) {
+    const json& world = worlds.at("worlds").at(w);
+    const json single = run(scene + alone[w] + " --audit off --out " +
+                            (folder / ("alone" + std::to_string(w))).string());
+    INFO("world " << w);
+    CHECK(world.at("status") == "finished");
+    CHECK(world.at("last_step") == last_steps[w]);
+    CHECK(world.at("final_hash") == single.at("final_hash"));
+    CHECK(lines_of(out / "worlds_steps.csv", static_cast<int>(w)).size() == last_steps[w]);
+    // Of each world, states at frames and the last one are audited: 3 and 6; 3 and 4; 3, 6 and 9.
+    CHECK(lines_of(out / "worlds.csv", static_cast<int>(w))
+              .at(0)
+              .find("," + std::to_string(audits[w]) + "," + world.at("final_hash").get<std::string>()) !=
+          std::string::npos);
+  }
+  CHECK(worlds.at("steps") == 9);
+  CHECK(worlds.at("audited_states") == 7);
+  CHECK(worlds.at("worlds").at(1).at("settings").at("friction") == "0.4");
+  CHECK(contains(
+      compare::read_bytes(out / "worlds.csv"),
+      {"world,jitter_seed,set_friction,set_steps,set_iterations,set_bounds,status,", "\n1,9,0.4,4,7,planes,fin"}));
+}
+
+TEST_CASE("a table of worlds says which file, line and column is wrong, and what to do", "[unit]") {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& table, std::initializer_list<std::string> words,
+                           const std::string& options = "") {
+    const std::string file = folder.write("table.csv", table).string();
+    const ProgramResult result = run_ogc("run twist --scale smoke --steps 2 --world-settings " + file + options +
+                                         " --out " + (folder / "out").string());
+    INFO(table << "\n" << result.err);
+    CHECK(result.status == 2);
+    CHECK(contains(result.err, {"table.csv"}));
+    CHECK(contains(result.err, words));
+    CHECK_FALSE(fs::exists(folder / "out"));
+  };
+  refused("", {"is empty", "first line names settings"});
+  refused("friction\n\n", {"no line behind its first"});
+  refused("frict\n0.1\n", {"line 1, column 'frict'", "friction"});
+  refused("friction,friction\n0.1,0.2\n", {"line 1, column 'friction'", "occurs twice"});
+  refused("data\ninput\n", {"line 1, column 'data'", "one mesh", "--set data="});
+  refused("body_contact\nvolume\n", {"line 1, column 'body_contact'", "--set body_contact="});
+  refused("frame_steps\n4\n", {"line 1, column 'frame_steps'", "--set frame_steps="});
+  refused("jitter_seed\n4\n", {"line 1, column 'jitter_seed'", "--jitter"});
+  refused("jitter_seed\n-4\n", {"line 2, column 'jitter_seed'", "'-4'"}, " --jitter 1e-6");
+  refused("friction,steps\n0.1,2\n0.1\n", {"line 3", "1 value", "2 columns"});
+  refused("friction,steps\n0.1,2\n\n0.1,none\n", {"line 4, column 'steps'", "none"});
+  refused("friction\n0.1\n-1\n", {"line 3, column 'friction'", "-1"});
+  refused("newton_truncation\npair\n", {"line 2", "newton_truncation", "--solver newton"});
+  refused("contact_radius\n\n1e-6\n", {"line 3", "--jitter", "contact_radius"}, " --jitter 1e-6");
+  refused("friction\n0.1\n0.2\n", {"2 worlds", "--worlds says 3"}, " --worlds 3");
+  const ProgramResult none = run_ogc("run twist --scale smoke --world-settings /nowhere/table.csv");
+  CHECK(none.status == 2);
+  CHECK(contains(none.err, {"/nowhere/table.csv"}));
+}
+
 TEST_CASE("a run of worlds states its memory before the first step, and run.json has their number", "[unit]") {
   const TemporaryFolder folder;
   const ProgramResult result = run_ogc("run twist --scale smoke --steps 2 --worlds 2 --audit off --out " +

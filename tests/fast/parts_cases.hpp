@@ -1,0 +1,75 @@
+// Holds what the tests of parts (fast/kernels/parts.hpp) on the host and on devices share.
+#pragma once
+
+#include <cstring>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <tbb/global_control.h>
+
+#include "compare/record/steps_csv.hpp"
+#include "tests/catch.hpp"
+#include "tests/fast/scenes.hpp"
+
+namespace ogc::fast::test {
+
+/// Returns two sheets that fall askew on a fixed one, and of which one edge is carried along: contacts of all kinds
+/// between all parts, prescribed vertices, several detections a step.
+inline compare::Scene falling_sheets() {
+  compare::Scene scene = empty_scene();
+  add_sheet(scene, 12, 0.10, 0.012, false);
+  add_sheet(scene, 11, 0.10, 0.020, false);
+  add_sheet(scene, 9, 0.12, 0, true);
+  compare::PrescribedMotion carried;
+  for (compare::Index v = 0; v < 12; ++v) carried.vertices.push_back(v);
+  carried.velocity = {0.2, -0.4, 0.1};
+  for (compare::Index v = 144; v < 155; ++v) carried.vertices.push_back(v);
+  scene.motions.push_back(carried);
+  for (compare::Index v = 0; v < 144 + 121; ++v) {
+    compare::Vec3& x = scene.mesh.positions[static_cast<std::size_t>(v)];
+    x.y += 0.1 * x.x + 0.05 * x.z;
+    scene.velocities[static_cast<std::size_t>(v)] = {0.1, -0.5, 0.05};
+  }
+  return scene;
+}
+
+/// The rows and the end of a run.
+struct Outcome {
+  std::vector<compare::StepMetrics> rows;
+  compare::Snapshot end;
+};
+
+/// Runs steps.
+inline Outcome run(compare::Simulation& simulation, std::int64_t steps) {
+  // One thread a part: idle threads of many parts would only take the processors from those that others wait for.
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+  Outcome outcome;
+  outcome.rows = simulation.advance(steps);
+  outcome.end = simulation.snapshot();
+  return outcome;
+}
+
+template <class T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+/// Returns a row as text; equal rows have equal text.
+inline std::string lines(const compare::StepMetrics& row) { return compare::step_lines(std::span(&row, 1), 0); }
+
+/// Requires the same states, bounds and rows.
+inline void require_equal(const Outcome& parts, const Outcome& whole) {
+  CHECK(same_bits(parts.end.positions, whole.end.positions));
+  CHECK(same_bits(parts.end.velocities, whole.end.velocities));
+  CHECK(same_bits(parts.end.bounds, whole.end.bounds));
+  REQUIRE(parts.rows.size() == whole.rows.size());
+  for (std::size_t k = 0; k < whole.rows.size(); ++k) {
+    compare::StepMetrics row = parts.rows[k];
+    row.wall_ms = whole.rows[k].wall_ms;  // the only column that may differ, beside the repeats of grown lists
+    row.repeats = whole.rows[k].repeats, row.status = whole.rows[k].status;
+    CHECK(lines(row) == lines(whole.rows[k]));
+  }
+}
+
+}  // namespace ogc::fast::test
