@@ -87,7 +87,7 @@ def table(folder):
                                                                     int(path.parent.name.rpartition("_")[2]))):
         run = run_at(path.parent)
         if run and run.manifest["status"] == "finished":
-            memory = taken(folder / f"{path.parent.name}{MEMORY}")
+            memory = taken(folder / f"{path.parent.name}{MEMORY}") or ""  # 0: sampled before it used any
             rows.append(row_of(path.parent.name, run, memory, boxes_of(path.parent)))
     return rows
 
@@ -140,7 +140,7 @@ def draw(rows, out):
             density.plot(x, [row["contacts a vertex"] for row in line], mark + "-", color=colour)
         if len(line) > 1:
             slope, factor = exponent(line)
-            time.plot(x, [factor * n**slope for n in x], "--", color=colour, linewidth=1,
+            time.plot(x, [factor * n**slope for n in x], ":" if bounds == PLANES else "--", color=colour, linewidth=1,
                       label=f"∝ vertices^{slope:.3f}")
     time.set(xscale="log", yscale="log", xlabel="free vertices", ylabel="median time a step [ms]",
              title="Time a step at one contact density")
