@@ -1,0 +1,121 @@
+"""Lists the runs of Fig. 2, half a turn of a cloth, with a contact radius r of one edge and of ten. Needs only Python's
+own library.
+
+The paper leaves open how stiff IPC's barrier is, and which neighbours on the sheet OGC leaves out (none by Eq. 12 and
+17; the first author's later public code leaves out two rings). So IPC runs with its own stiffness, which adapts, and
+with one as stiff as OGC's contact; its contact set also runs in OGC's solver, with OGC's law and k_c; and OGC runs with
+all neighbours, and without those on the sheet that are nearer than r at rest.
+"""
+
+import json
+import subprocess
+from dataclasses import dataclass
+
+from paper_figures.workflow.commands import NEO_HOOKEAN, TWIST, on, shared
+from paper_figures.workflow.jobs import Job
+
+SIDES = {"smoke": 16, "small": 60, "paper": 200}  # vertices along a side
+RADIUS = 0.995  # of the scene [edges]
+STIFFNESS = 100  # k_c [N/m]
+# A barrier of this κ r²/k_c pushes as hard as OGC's contact where faces of one sheet are nearest, at r/√2: there
+# κ d/dd(−(d² − r²)² ln(d²/r²)) = 1.687 κ r³, and k_c (r − d) = 0.293 k_c r.
+AS_STIFF = 0.1737
+RINGS = 2.9  # reach of what is left out at r = one edge: two rings of neighbours [edges]
+FEW = 24  # steps of a run that is torn or takes minutes a step
+# What could tear OGC's cloth at ten edges, one choice at a time: folder -> setting.
+VARIANTS = {"printed": "", "stiffness_10": "contact_stiffness=10", "stiffness_1": "contact_stiffness=1",
+            "stiffness_0.1": "contact_stiffness=0.1", "stiffness_0.01": "contact_stiffness=0.01",
+            "quadratic": "contact_activation=quadratic", "cubic": "contact_activation=cubic",
+            "sweeps_200": "iterations=200", "detection_each_sweep": "detection_every=1",
+            "tenth_of_a_step": "time_step=3.3333333e-4", "no_friction": "friction=0", "planes": "bounds=planes",
+            "relaxation_0.2": "bounds_relaxation=0.2", "one_guess_round": "guess_rounds=1",
+            "query_4r": "detection_radius_cap=4", "isometric_bending": "bending=isometric_quadratic",
+            "st_venant": "membrane=st_venant_kirchhoff", "damping_per_vertex": "damping=per_vertex"}
+
+
+def edge(scale):
+    """Returns the rest length of the edges along the sides [m]."""
+    return 1 / (SIDES[scale] - 1)
+
+
+def wide(scale):
+    """Returns the options of r = ten edges; the query radius is r, because all else would only take longer."""
+    return "--set", f"contact_radius={10 * RADIUS * edge(scale):.6g}", "--set", "detection_radius_cap=1"
+
+
+def near_pairs(side, reach):
+    """Yields the pairs of vertices of a square grid that are at most `reach` edges apart at rest."""
+    whole = int(reach)
+    offsets = [(i, j) for i in range(whole + 1) for j in range(-whole, whole + 1)
+               if (i, j) > (0, 0) and i * i + j * j <= reach * reach]
+    for x in range(side):
+        for y in range(side):
+            for i, j in offsets:
+                if x + i < side and 0 <= y + j < side:
+                    yield [x * side + y, (x + i) * side + y + j]
+
+
+@dataclass(frozen=True)
+class LeftOut:
+    """Holds the scene in which pairs of faces with vertices nearer than `reach` edges at rest are no contacts, written
+    to a file below the folder of the runs (jobs.Job)."""
+
+    scale: str
+    reach: float
+
+    @property
+    def path(self):
+        return f"scenes/{self.reach:g}/{TWIST}.json"
+
+    def write(self, program, root):
+        """Writes the scene if it is missing."""
+        path = root / self.path
+        if path.is_file():
+            return
+        subprocess.run([str(program), "scenes", TWIST, "--scale", self.scale, "--write", str(path.parent), "--force"],
+                       check=True, stdout=subprocess.DEVNULL)
+        scene = json.loads(path.read_text())
+        name = scene["bodies"][0]["name"]
+        pairs = list(near_pairs(SIDES[self.scale], self.reach))
+        path.write_text(json.dumps({**scene, "excluded_pairs": [{"bodies": [name, name], "vertices": pairs}]}))
+
+
+def ogc(scale, backend="cpu", membrane=NEO_HOOKEAN):
+    """Returns OGC's runs: r of one edge and of a fifth; without two rings of neighbours; ten edges as printed, with a
+    softer contact, and without the neighbours on the sheet nearer than r."""
+    base, more = (TWIST, *shared(scale, membrane)), ("--audit", "frame", *on(backend))
+    length = edge(scale)
+    jobs = [Job("vbd", (*base, *more))]
+    if scale == "paper":
+        return jobs
+    jobs += [Job("vbd_thin", (*base, *more, "--set", f"contact_radius={RADIUS * length / 5:.6g}")),
+             Job("vbd_rings", more, scene=LeftOut(scale, RINGS))]
+    if scale == "smoke":  # ten edges are two thirds of the cloth
+        return jobs
+    return [*jobs, Job("vbd_wide", (*base, *more, *wide(scale), "--steps", FEW)),
+            *(Job(f"vbd_wide_k{k:g}", (*base, *more, *wide(scale), "--steps", FEW, "--set", f"contact_stiffness={k:g}"))
+              for k in (10, 1, 0.1)),
+            Job("vbd_wide_excluded", (*more, *wide(scale)), scene=LeftOut(scale, 11.5))]
+
+
+def ipc(scale, membrane=NEO_HOOKEAN):
+    """Returns IPC's runs on the CPU: with a stiffness that adapts, r of one edge and of ten; as stiff as OGC's contact;
+    and its contact set in OGC's solver."""
+    base, by = (TWIST, *shared(scale, membrane)), ("--solver", "ipc", "--profile", "--audit", "frame")
+    r = RADIUS * edge(scale)
+    jobs = [Job("ipc", (*base, *by)),
+            Job("ipc_stiff", (*base, *by, "--set", f"ipc_stiffness={AS_STIFF * STIFFNESS / r**2:.6g}")),
+            Job("pairs", (*base, "--solver", "reference_vbd", "--set", "reference_contact_set=pairs",
+                          "--audit", "off"))]
+    if scale == "small":
+        jobs.append(Job("ipc_wide", (*base, *by, "--set", f"contact_radius={10 * r:.6g}", "--set",
+                                     f"ipc_distance={10 * r:.6g}", "--steps", FEW)))
+    return jobs
+
+
+def variants(scale, backend="cpu"):
+    """Returns OGC's first steps at ten edges, with one choice of ours varied in each."""
+    base = (TWIST, *shared(scale), "--audit", "off", *on(backend), "--set", "frame_steps=8", *wide(scale))
+    return [Job(f"variants/{name}", (*base, "--steps", 10 * FEW if "time_step" in setting else FEW,
+                                     *(("--set", setting) if setting else ())))
+            for name, setting in VARIANTS.items()]
