@@ -26,6 +26,7 @@ VISIBLE = 0.03  # angle defect of bulges of a tenth of an edge, which turn faces
 TORN = 1.5  # median stretch from which a cloth is called torn
 # Names in pictures and at curves, by the run's folder.
 NAMES = {OGC: "OGC", "vbd_thin": "OGC, r = 1/5 edge", "vbd_rings": "OGC without two rings",
+         "vbd_k10": "OGC, k_c = 10 N/m", "vbd_k1": "OGC, k_c = 1 N/m",
          "ipc": "IPC", "ipc_stiff": "IPC, as stiff as OGC", "pairs": "IPC's contact set in OGC's solver",
          "ipc_wide": "IPC, r = ten edges", "vbd_wide": "OGC, r = ten edges",
          "vbd_wide_k10": "OGC, ten edges, k_c = 10 N/m", "vbd_wide_k1": "OGC, ten edges, k_c = 1 N/m",

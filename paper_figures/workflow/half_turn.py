@@ -81,14 +81,15 @@ class LeftOut:
 
 
 def ogc(scale, backend="cpu", membrane=NEO_HOOKEAN):
-    """Returns OGC's runs: r of one edge and of a fifth; without two rings of neighbours; ten edges as printed, with a
-    softer contact, and without the neighbours on the sheet nearer than r."""
+    """Returns OGC's runs: r of one edge and of a fifth; with a softer contact; without two rings of neighbours; ten
+    edges with all neighbours, with a softer contact, and without the neighbours on the sheet nearer than r."""
     base, more = (TWIST, *shared(scale, membrane)), ("--audit", "frame", *on(backend))
     length = edge(scale)
     jobs = [Job("vbd", (*base, *more))]
     if scale == "paper":
         return jobs
     jobs += [Job("vbd_thin", (*base, *more, "--set", f"contact_radius={RADIUS * length / 5:.6g}")),
+             *(Job(f"vbd_k{k}", (*base, *more, "--set", f"contact_stiffness={k}")) for k in (10, 1)),
              Job("vbd_rings", more, scene=LeftOut(scale, RINGS))]
     if scale == "smoke":  # ten edges are two thirds of the cloth
         return jobs
