@@ -23,18 +23,17 @@ from ogc_testbed.runs import Run, RunError
 SCENE, OGC = commands.TWIST, "vbd"
 SIZE, NEAR, MIDDLE = (960, 560), (960, 480), 0.16  # pixels; what is shown from near, around the middle [m]
 VISIBLE = 0.03  # angle defect of bulges of a tenth of an edge, which turn faces by 11° [rad]
-TORN = 1.5  # median stretch from which a cloth is called torn
 # Names in pictures and at curves, by the run's folder.
 NAMES = {OGC: "OGC", "vbd_thin": "OGC, r = 1/5 edge", "vbd_rings": "OGC without two rings",
          "vbd_k10": "OGC, k_c = 10 N/m", "vbd_k1": "OGC, k_c = 1 N/m",
-         "ipc": "IPC", "ipc_stiff": "IPC, as stiff as OGC", "pairs": "IPC's contact set in OGC's solver",
+         "ipc": "IPC", "ipc_stiff": "IPC, as stiff as OGC", "pairs": "IPC's set in OGC's solver",
          "ipc_wide": "IPC, r = ten edges", "vbd_wide": "OGC, r = ten edges",
          "vbd_wide_k10": "OGC, ten edges, k_c = 10 N/m", "vbd_wide_k1": "OGC, ten edges, k_c = 1 N/m",
          "vbd_wide_k0.1": "OGC, ten edges, k_c = 0.1 N/m",
-         "vbd_wide_excluded": "OGC, ten edges without near neighbours"}
-EDGE, TEN = ("pairs", "ipc_stiff", "ipc", OGC), ("ipc_wide", "vbd_wide", "vbd_wide_excluded")  # rows of pictures
-CURVES = {OGC: style.OURS, "ipc": style.BASELINE, "pairs": style.COLOURS[5], "ipc_stiff": style.COLOURS[1],
-          "vbd_wide": style.COLOURS[4], "vbd_wide_excluded": style.COLOURS[2], "ipc_wide": style.COLOURS[6]}
+         "vbd_wide_excluded": "OGC, ten edges, near ones left out"}
+EDGE, TEN = ("pairs", "ipc", OGC, "vbd_rings"), ("vbd_wide", "vbd_wide_k1", "vbd_wide_excluded")  # rows of pictures
+CURVES = {OGC: style.OURS, "vbd_rings": style.COLOURS[2], "ipc": style.BASELINE, "pairs": style.COLOURS[5],
+          "ipc_stiff": style.COLOURS[1], "vbd_wide": style.COLOURS[4], "vbd_wide_excluded": style.COLOURS[6]}
 ALT = ("Renderings of a square cloth that is twisted by half a turn, pairs of methods side by side: a sheet, blue in "
        "front and sand behind, wound once about its middle. Curves over time: angle defect of the vertices, stretch of "
        "edges, and kinetic energy. At the last states: {said}.")
@@ -78,9 +77,12 @@ def history(run, rest):
 
 
 def rest_of(runs):
-    """Returns the positions at rest, from a run that begins there; a window does not."""
-    run = runs.get(OGC) or next(iter(runs.values()))
-    return run.frame(run.frames[0]).positions.astype(float)
+    """Returns the positions at rest, from a run that stored its start. Throws RunError if none did."""
+    for run in runs.values():
+        start = run.frame(run.frames[0])
+        if start.step == 0:
+            return start.positions.astype(float)
+    raise RunError("no run stored step 0, by which stretch is measured: keep frame_000000.h5 of one")
 
 
 def rows_of(runs):
@@ -91,7 +93,8 @@ def rows_of(runs):
     for name, run in runs.items():
         time, defect, stretched = history(run, rest)
         h, energies = run.setting("time_step"), dict(zip(run.column("step").astype(int), run.column("kinetic_energy")))
-        rows.append({"run": name, "at": "end", "begins at step [1]": int(run.column("step")[0]) - 1,
+        rows.append({"run": name, "at": "end" if run.status == "finished" else "cut off",
+                     "begins at step [1]": int(run.column("step")[0]) - 1,
                      "steps [1]": len(run.column("step")), "time [s]": time[-1], "angle defect [rad]": defect[-1],
                      **dict(zip(("stretch 1 % [1]", "stretch median [1]", "stretch 99 % [1]"), stretched[-1])),
                      "angle defect of OGC then [rad]": np.interp(time[-1], times, defects),
@@ -109,7 +112,8 @@ def variant_rows(runs):
         contacts = {kind: run.column(f"{kind}_contacts") for kind in ("vertex_facet", "edge_edge")}
         some = np.flatnonzero(contacts["edge_edge"] + contacts["vertex_facet"])
         time, defect, stretched = history(run, rest)
-        rows.append({"variant": name, "first step with contacts [1]": run.column("step")[some[0]] if len(some) else np.nan,
+        rows.append({"variant": name,
+                     "first step with contacts [1]": run.column("step")[some[0]] if len(some) else np.nan,
                      **{f"{kind} contacts then [1]": found[some[0]] if len(some) else 0
                         for kind, found in contacts.items()},
                      "time [s]": time[-1], "angle defect [rad]": defect[-1],
@@ -120,24 +124,19 @@ def variant_rows(runs):
 
 def title_of(rows):
     """Returns the title: what the table says about IPC's contacts and OGC's. `rows`: run -> row."""
-    def said(name, whose):
-        row = rows[name]
-        stretched = row["stretch median [1]"]
-        bulges = row["angle defect [rad]"]
-        if stretched >= TORN:
-            return f"tear {whose}"
-        if bulges >= VISIBLE and bulges >= 2 * row["angle defect of OGC then [rad]"]:
-            return f"bulge {whose}"
-        apart = stretched - row["stretch median of OGC then [1]"]
-        return f"stretch {whose} by {100 * apart:.0f} %" if apart >= 0.01 else f"leave {whose} smooth"
-
-    theirs = next((name for name in ("pairs", "ipc_stiff", "ipc") if name in rows), None)
-    words = ["OGC's contacts " + ("bulge the sheet" if rows[OGC]["angle defect [rad]"] >= VISIBLE else
-                                  "leave the sheet smooth")] if theirs is None else [
-        f"IPC's contacts {said(theirs, 'the sheet')}"]
-    if "vbd_wide" in rows:
-        words.append(f"at ten edges OGC's {said('vbd_wide', 'it')}")
-    return f"Fig. 2. At r = one edge {'; '.join(words)}"
+    theirs, ours = next((rows[name] for name in ("pairs", "ipc_stiff", "ipc") if name in rows), None), rows[OGC]
+    bulges, without = ours["angle defect [rad]"], rows.get("vbd_rings", ours)["angle defect [rad]"]
+    words = []
+    if theirs:
+        apart = theirs["stretch median [1]"] - theirs["stretch median of OGC then [1]"]
+        bulged = theirs["angle defect [rad]"] >= max(VISIBLE, 2 * theirs["angle defect of OGC then [rad]"])
+        words.append("IPC's contacts " + (
+            f"stretch the sheet by {100 * (theirs['stretch median [1]'] - 1):.0f} %" if apart >= 0.01 else
+            "bulge the sheet" if bulged else "leave the sheet smooth"))
+    sheet = "it" if words else "the sheet"
+    words.append(f"OGC's leave {sheet} smooth" if bulges < VISIBLE else f"OGC's bulge {sheet}" + (
+        " only where they hold its own neighbours" if without <= bulges / 2 else ""))
+    return f"Fig. 2. {'; '.join(words)}"
 
 
 def whole(run):
@@ -200,11 +199,12 @@ def below_of(runs, rows):
     """Returns the line below the title: the sizes, and how the last states compare."""
     scale = runs[OGC].manifest["scale"]
     small = "" if scale == "paper" else f" (scale {scale}; the paper has 200 × 200)"
-    compared = [f"{NAMES[name]} at {row['time [s]']:.2g} s {row['angle defect [rad]']:.2g} "
-                f"(OGC then {row['angle defect of OGC then [rad]']:.2g})"
-                for name, row in rows.items() if name in CURVES and name != OGC]
-    return (f"{size_of(runs[OGC])}{small}; mean angle defect [rad], 0.03 where vertices stand a tenth of an edge out: "
-            f"OGC at {rows[OGC]['time [s]']:.2g} s {rows[OGC]['angle defect [rad]']:.2g}; " + "; ".join(compared))
+    found = ", ".join(f"{NAMES[name].replace(', ', ' at ', 1) if 'wide' in name else NAMES[name]} "
+                      f"{row['angle defect [rad]']:.2g}" + ("" if whole(runs[name]) and row["at"] == "end" else
+                                                            f" (at {row['time [s]']:.2g} s)")
+                      for name, row in rows.items() if name in CURVES)
+    return (f"{size_of(runs[OGC])}{small}, r = one edge where nothing else is said; mean angle defect [rad], which is "
+            f"0.03 where vertices stand a tenth of an edge out: {found}")
 
 
 def draw_curves(panels, runs, rest):
@@ -214,14 +214,15 @@ def draw_curves(panels, runs, rest):
             continue
         run = runs[name]
         time, defect, stretches = history(run, rest)
-        words = NAMES[name].replace(", ", ",\n", 1).replace(" in OGC", "\nin OGC").replace(" without", "\nwithout")
+        words = NAMES[name].replace(", ", ",\n").replace(" in OGC", "\nin OGC").replace(" without", "\nwithout")
         bulges.plot(time[time > 0], defect[time > 0], color=colour, label=words)
         stretched.plot(time, stretches[:, 1], color=colour, label=words)
         energy.plot(run.column("step") * run.setting("time_step"), run.column("kinetic_energy"), color=colour,
                     linewidth=0.8, label=words)
     bulges.axhline(VISIBLE, color=style.PAPER, linewidth=0.8, linestyle=":")
     bulges.set(xlabel="time [s]", ylabel="angle defect [rad]", title="Bulges; dotted: a tenth of an edge", yscale="log")
-    stretched.set(xlabel="time [s]", ylabel="length / rest length", title="Stretch of edges, median", yscale="log")
+    stretched.set(xlabel="time [s]", ylabel="length / rest length", title="Stretch of edges, median",
+                  yscale="log" if any("wide" in name for name in runs) else "linear")
     energy.set(xlabel="time [s]", ylabel="energy [J]", title="Kinetic energy", yscale="log")
     for place in panels:
         style.label_ends(place, 6.5)
@@ -247,16 +248,16 @@ def runs_of(arguments):
 if __name__ == "__main__":
     parser = baseline_arguments(__doc__.splitlines()[0], backends=("cpu", "cuda"))
     parser.add_argument("--made", action="store_true", help="draw the runs that are there, and make none")
-    parser.add_argument("--variants", action="store_true",
-                        help="instead: the table of what could tear OGC's cloth at ten edges (scale small)")
+    parser.add_argument("--variants", choices=("variants", "neighbours"),
+                        help="instead: a table of OGC's runs with one choice varied, at ten edges or at one")
     options = parser.parse_args()
     try:
         into = Path(options.folder)
         if options.variants:
-            jobs = half_turn.variants(options.scale, options.backend)
+            jobs = getattr(half_turn, options.variants)(options.scale, options.backend)
             made = {job.name.partition("/")[2]: Run(into / job.name) if options.made else
                     run_job(options.ogc, job, into) for job in jobs}
-            write_table(into / "fig02_variants.csv", variant_rows(made))
+            write_table(into / f"fig02_{options.variants}.csv", variant_rows(made))
             sys.exit()
         found_runs = runs_of(options)
         write_table(into / "fig02.csv", rows_of(found_runs))

@@ -21,7 +21,7 @@ STIFFNESS = 100  # k_c [N/m]
 # κ d/dd(−(d² − r²)² ln(d²/r²)) = 1.687 κ r³, and k_c (r − d) = 0.293 k_c r.
 AS_STIFF = 0.1737
 RINGS = 2.9  # reach of what is left out at r = one edge: two rings of neighbours [edges]
-FEW = 24  # steps after which a cloth is torn; each takes seconds on a CPU
+FEW = 3  # steps in which a cloth is torn; each takes seconds on a CPU
 LONGEST = {"smoke": 20, "small": 1800}  # after this time a run is stopped whose steps take long [s]
 # What could tear OGC's cloth at ten edges, one choice at a time: folder -> setting.
 VARIANTS = {"printed": "", "stiffness_10": "contact_stiffness=10", "stiffness_1": "contact_stiffness=1",
@@ -117,9 +117,23 @@ def ipc(scale, membrane=NEO_HOOKEAN):
     return jobs
 
 
+def neighbours(scale, backend="cpu"):
+    """Returns OGC's whole runs at r = one edge with what decides about the sheet's own neighbours varied: none, one
+    ring and two rings left out, r of a fifth of an edge, a softer contact."""
+    more = ("--audit", "end", *on(backend), "--set", "frame_steps=200", "--steps", 1200)
+    base = (TWIST, *shared(scale), *more)
+    varied = {"thin": f"contact_radius={RADIUS * edge(scale) / 5:.6g}", "stiffness_10": "contact_stiffness=10",
+              "stiffness_1": "contact_stiffness=1"}
+    return [Job("neighbours/printed", base),
+            *(Job(f"neighbours/{name}", more, scene=LeftOut(scale, reach))
+              for name, reach in (("one_ring", 1.5), ("two_rings", RINGS))),
+            *(Job(f"neighbours/{name}", (*base, "--set", setting)) for name, setting in varied.items())]
+
+
 def variants(scale, backend="cpu"):
     """Returns OGC's first steps at ten edges, with one choice of ours varied in each."""
-    base = (TWIST, *shared(scale), "--audit", "off", *on(backend), "--set", "frame_steps=8", *wide(scale))
-    return [Job(f"variants/{name}", (*base, "--steps", 10 * FEW if "time_step" in setting else FEW,
+    few = FEW if backend == "cpu" else 8 * FEW
+    base = (TWIST, *shared(scale), "--audit", "off", *on(backend), "--set", f"frame_steps={few // 3}", *wide(scale))
+    return [Job(f"variants/{name}", (*base, "--steps", 10 * few if "time_step" in setting else few,
                                      *(("--set", setting) if setting else ())))
             for name, setting in VARIANTS.items()]
