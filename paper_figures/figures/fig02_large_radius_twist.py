@@ -1,27 +1,42 @@
-"""Fig. 2: the end of half a turn with a contact radius of one edge, by IPC and by OGC, and the artefact in numbers:
-roughness, stretch, kinetic energy."""
+"""Fig. 2: half a turn of a cloth with a contact radius r of one edge and of ten, by IPC and by OGC, and the artefact in
+numbers: how far vertices bulge, how far edges are stretched, kinetic energy.
+
+Folds are no artefact, so that a distance from the mean of the neighbours, which folds have, measures nothing here. The
+*angle defect* of an inner vertex is |2π − the sum of the angles around it|: 0 for every fold of a sheet that keeps its
+shape (Gauss), K A for a smooth surface of curvature K and a vertex's share A of the area, and about 3 a² for a vertex
+of a square grid that stands a edges above its neighbours' plane.
+"""
 
 import sys
 from pathlib import Path
 
 import numpy as np
 
-from paper_figures.workflow import commands
-from paper_figures.workflow.common import baseline_arguments, ipc_windows, label
+from paper_figures.workflow import commands, half_turn
+from paper_figures.workflow.common import baseline_arguments, ipc_windows
 from paper_figures.workflow.runs import provenance, run_job, write_table
 from plots import style
 from plots.camera import around, fitted, subject
 from plots.scene_figure import moment, show, source_of
 from ogc_testbed.runs import Run, RunError
 
-SCENE = commands.TWIST
+SCENE, OGC = commands.TWIST, "vbd"
 SIZE, NEAR, MIDDLE = (960, 560), (960, 480), 0.16  # pixels; what is shown from near, around the middle [m]
-TITLE = "Fig. 2. {turned} with a contact radius of one edge: {ends}"
-ALIKE = 1.25  # quotient of the roughness by two methods up to which they are called about equally rough
-ALT = ("Renderings of a square cloth after half a turn, by IPC on the left and by OGC on the right, whole and from "
-       "near: a sheet, blue in front and sand behind, wound once about its middle, with folds that run towards the "
-       "ends. Curves over time: out-of-plane roughness, stretch of edges, and kinetic energy. Roughness at the end, in "
-       "edge lengths: {said}.")
+VISIBLE = 0.03  # angle defect of bulges of a tenth of an edge, which turn faces by 11° [rad]
+# Names in pictures and at curves, by the run's folder.
+NAMES = {OGC: "OGC", "vbd_thin": "OGC, r = 1/5 edge", "vbd_rings": "OGC without two rings",
+         "vbd_k10": "OGC, k_c = 10 N/m", "vbd_k1": "OGC, k_c = 1 N/m",
+         "ipc": "IPC", "ipc_stiff": "IPC, as stiff as OGC", "pairs": "IPC's set in OGC's solver",
+         "ipc_wide": "IPC, r = ten edges", "vbd_wide": "OGC, r = ten edges",
+         "vbd_wide_k10": "OGC, ten edges, k_c = 10 N/m", "vbd_wide_k1": "OGC, ten edges, k_c = 1 N/m",
+         "vbd_wide_k0.1": "OGC, ten edges, k_c = 0.1 N/m",
+         "vbd_wide_excluded": "OGC, ten edges, near ones left out"}
+EDGE, TEN = ("pairs", "ipc", OGC, "vbd_rings"), ("vbd_wide", "vbd_wide_k1", "vbd_wide_excluded")  # rows of pictures
+CURVES = {OGC: style.OURS, "vbd_rings": style.COLOURS[2], "ipc": style.BASELINE, "pairs": style.COLOURS[5],
+          "ipc_stiff": style.COLOURS[1], "vbd_wide": style.COLOURS[4], "vbd_wide_excluded": style.COLOURS[6]}
+ALT = ("Renderings of a square cloth that is twisted by half a turn, pairs of methods side by side: a sheet, blue in "
+       "front and sand behind, wound once about its middle. Curves over time: angle defect of the vertices, stretch of "
+       "edges, and kinetic energy. At the last states: {said}.")
 
 
 def edges_of(triangles):
@@ -29,26 +44,20 @@ def edges_of(triangles):
     return np.unique(pairs, axis=0)
 
 
-def roughness(positions, triangles):
-    """Returns the roughness, in mean edge lengths: the root mean square, over inner vertices, of the distance along the
-    normal from the mean of the neighbours."""
+def angle_defects(positions, triangles):
+    """Returns |2π − the sum of the angles around the vertex| of each inner vertex [rad]."""
+    total, used, count = np.zeros((3, len(positions)))
+    for k in range(3):
+        apex, *ends = (positions[triangles[:, (k + i) % 3]] for i in range(3))
+        u, v = (end - apex for end in ends)
+        angle = np.arctan2(np.linalg.norm(np.cross(u, v), axis=1), np.einsum("ij,ij->i", u, v))
+        np.add.at(total, triangles[:, k], angle)
+        np.add.at(used, triangles[:, k], 1)
     edges = edges_of(triangles)
-    count, (mean, normal) = np.zeros(len(positions)), np.zeros((2, *positions.shape))
-    for a, b in ((0, 1), (1, 0)):
-        np.add.at(count, edges[:, a], 1)
-        np.add.at(mean, edges[:, a], positions[edges[:, b]])
-    face = np.cross(positions[triangles[:, 1]] - positions[triangles[:, 0]],
-                    positions[triangles[:, 2]] - positions[triangles[:, 0]])
-    for corner in range(3):
-        np.add.at(normal, triangles[:, corner], face)
-    used = np.zeros((len(positions),), dtype=int)
-    for corner in range(3):
-        np.add.at(used, triangles[:, corner], 1)
+    for k in range(2):
+        np.add.at(count, edges[:, k], 1)
     inner = (count == used) & (count > 0)  # as many triangles as neighbours: not on a boundary
-    unit = normal[inner] / np.linalg.norm(normal[inner], axis=1, keepdims=True)
-    offset = np.einsum("ij,ij->i", positions[inner] - mean[inner] / count[inner, None], unit)
-    length = np.linalg.norm(positions[edges[:, 0]] - positions[edges[:, 1]], axis=1).mean()
-    return float(np.sqrt(np.mean(offset**2)) / length)
+    return np.abs(2 * np.pi - total[inner])
 
 
 def stretch(positions, rest, triangles):
@@ -59,43 +68,75 @@ def stretch(positions, rest, triangles):
 
 
 def history(run, rest):
-    """Returns time [s], roughness and stretch of each stored frame; `rest`: positions of the rest shape."""
+    """Returns time [s], mean angle defect [rad] and stretch of each stored frame; `rest`: positions at rest."""
     triangles = run.bodies()[0]["triangles"]
     frames = [run.frame(path) for path in run.frames]
     return (np.array([f.time for f in frames]),
-            np.array([roughness(f.positions.astype(float), triangles) for f in frames]),
+            np.array([angle_defects(f.positions.astype(float), triangles).mean() for f in frames]),
             np.array([stretch(f.positions.astype(float), rest, triangles) for f in frames]))
 
 
+def rest_of(runs):
+    """Returns the positions at rest, from a run that stored its start. Throws RunError if none did."""
+    for run in runs.values():
+        start = run.frame(run.frames[0])
+        if start.step == 0:
+            return start.positions.astype(float)
+    raise RunError("no run stored step 0, by which stretch is measured: keep frame_000000.h5 of one")
+
+
 def rows_of(runs):
-    """Returns the table: roughness, stretch and kinetic energy of each run at the last step that both first runs
-    reached, and at its own end."""
-    both_at = min(int(run.column("step")[-1]) for run in runs[:2])
-    ogc = next(run for run in runs if run.manifest["solver"] == "vbd")
-    rest = ogc.frame(ogc.frames[0]).positions.astype(float)  # a window does not begin at rest
+    """Returns the table: the last stored state of each run, beside OGC's at that time. `runs`: folder's name -> run."""
+    rest = rest_of(runs)
+    times, defects, stretches = history(runs[OGC], rest)
     rows = []
-    for run in runs:
-        time, rough, stretched = history(run, rest)
+    for name, run in runs.items():
+        time, defect, stretched = history(run, rest)
         h, energies = run.setting("time_step"), dict(zip(run.column("step").astype(int), run.column("kinetic_energy")))
-        for at in sorted({np.searchsorted(time, min(both_at * h, time[-1]) - h / 2), len(time) - 1}):
-            stretches = dict(zip(("stretch 1 % [1]", "stretch median [1]", "stretch 99 % [1]"), stretched[at]))
-            rows.append({"time [s]": time[at], "roughness [edges]": rough[at], **stretches,
-                         # a run has no energy for the state with which it began
-                         "kinetic energy [J]": energies.get(round(time[at] / h), np.nan),
-                         "iterations a step": np.mean(run.column("iterations")), **provenance(run)})
+        rows.append({"run": name, "at": "end" if run.status == "finished" else "cut off",
+                     "begins at step [1]": int(run.column("step")[0]) - 1,
+                     "steps [1]": len(run.column("step")), "time [s]": time[-1], "angle defect [rad]": defect[-1],
+                     **dict(zip(("stretch 1 % [1]", "stretch median [1]", "stretch 99 % [1]"), stretched[-1])),
+                     "angle defect of OGC then [rad]": np.interp(time[-1], times, defects),
+                     "stretch median of OGC then [1]": np.interp(time[-1], times, stretches[:, 1]),
+                     # a run has no energy for the state with which it began
+                     "kinetic energy [J]": energies.get(round(time[-1] / h), np.nan),
+                     "iterations a step": np.mean(run.column("iterations")), **provenance(run)})
     return rows
 
 
-def title_of(ends, turned="Half a turn"):
-    """Returns the title, which says whose cloth is rougher. `ends`: name -> roughness at the last common time;
-    `turned`: what both runs have done until then."""
-    if not {"IPC", "VBD-OGC"} <= set(ends):
-        return TITLE.format(turned=turned, ends="OGC's cloth, and IPC's in a window")
-    ratio = ends["IPC"] / ends["VBD-OGC"]
-    if 1 / ALIKE <= ratio <= ALIKE:
-        return TITLE.format(turned=turned, ends="IPC's cloth and OGC's are about equally rough")
-    rougher, smoother = ("IPC's", "OGC's") if ratio > 1 else ("OGC's", "IPC's")
-    return TITLE.format(turned=turned, ends=f"{rougher} cloth is rougher than {smoother}")
+def variant_rows(runs):
+    """Returns the table of variants at ten edges: their contacts when these began, and their last state."""
+    rest, rows = rest_of(runs), []
+    for name, run in runs.items():
+        contacts = {kind: run.column(f"{kind}_contacts") for kind in ("vertex_facet", "edge_edge")}
+        some = np.flatnonzero(contacts["edge_edge"] + contacts["vertex_facet"])
+        time, defect, stretched = history(run, rest)
+        rows.append({"variant": name,
+                     "first step with contacts [1]": run.column("step")[some[0]] if len(some) else np.nan,
+                     **{f"{kind} contacts then [1]": found[some[0]] if len(some) else 0
+                        for kind, found in contacts.items()},
+                     "time [s]": time[-1], "angle defect [rad]": defect[-1],
+                     **dict(zip(("stretch 1 % [1]", "stretch median [1]", "stretch 99 % [1]"), stretched[-1])),
+                     "largest kinetic energy [J]": run.column("kinetic_energy").max(), **provenance(run)})
+    return rows
+
+
+def title_of(rows):
+    """Returns the title: what the table says about IPC's contacts and OGC's. `rows`: run -> row."""
+    theirs, ours = next((rows[name] for name in ("pairs", "ipc_stiff", "ipc") if name in rows), None), rows[OGC]
+    bulges, without = ours["angle defect [rad]"], rows.get("vbd_rings", ours)["angle defect [rad]"]
+    words = []
+    if theirs:
+        apart = theirs["stretch median [1]"] - theirs["stretch median of OGC then [1]"]
+        bulged = theirs["angle defect [rad]"] >= max(VISIBLE, 2 * theirs["angle defect of OGC then [rad]"])
+        words.append("IPC's contacts " + (
+            f"stretch the sheet by {100 * (theirs['stretch median [1]'] - 1):.0f} %" if apart >= 0.01 else
+            "bulge the sheet" if bulged else "leave the sheet smooth"))
+    sheet = "it" if words else "the sheet"
+    words.append(f"OGC's leave {sheet} smooth" if bulges < VISIBLE else f"OGC's bulge {sheet}" + (
+        " only where they hold its own neighbours" if without <= bulges / 2 else ""))
+    return f"Fig. 2. {'; '.join(words)}"
 
 
 def whole(run):
@@ -109,119 +150,117 @@ def size_of(run):
     return f"{side} × {side} vertices"
 
 
-def frames_of(runs):
-    """Returns a frame of each run: of whole runs the last that both stored; of a window of IPC's its last, beside the
-    state of OGC's run from which it began."""
-    ipc, ogc = runs
-    if ipc is None or not whole(ipc):
-        begins = ipc and int(ipc.column("step")[0]) - 1
-        return ipc and ipc.frame(ipc.frames[-1]), ogc and ogc.frame_at_step(begins or ogc.column("step")[-1])
-    steps = [{int(path.stem.removeprefix("frame_")) for path in run.frames} for run in runs if run]
-    last = max(set.intersection(*steps))
-    return ipc.frame_at_step(last), ogc and ogc.frame_at_step(last)
+def frame_beside(run, others):
+    """Returns the last frame of a run; of OGC's whole run the one at the latest time that another run reached, so that
+    states are compared; beside a window of IPC's the state from which it began."""
+    if run.manifest["solver"] != "vbd" or not others:
+        return run.frame(run.frames[-1])
+    ends = [int(other.column("step")[-1 if whole(other) else 0]) - (not whole(other)) for other in others]
+    return run.frame_at_step(max(ends))
 
 
-def draw_pair(axes, runs, edges, reach=None, sizes=False):
-    """Draws states of IPC's run and OGC's, side by side; `reach` [m]: of what is shown; `sizes`: titles name them."""
-    frames, camera = frames_of(runs), None
-    if reach and runs[1]:  # both from the same place
-        points = subject(runs[1], frames[1])
-        camera = around(points, np.median(points, axis=0), reach, runs[1], size=NEAR)
-    for place, run, frame, letter, name in zip(axes, runs, frames, "ab", ("IPC", "OGC")):
-        title = f"({letter}) {name}, r = {edges}" + (", from near" if reach else "")
-        if run is None:
-            style.not_run(place)
-            place.set_title(title)
-            continue
-        size = NEAR if reach else SIZE
+def draw_row(axes, runs, names, letters, reach=None):
+    """Draws states of runs side by side, whole or, from one place, so much of them (`reach` [m])."""
+    others = [runs[name] for name in names if runs[name].manifest["solver"] != "vbd"]
+    shown = [(runs[name], frame_beside(runs[name], others if name == OGC else [])) for name in names]
+    size, camera = (NEAR, None) if reach else (SIZE, None)
+    if reach:
+        points = subject(*shown[-1])
+        camera = around(points, np.median(points, axis=0), reach, shown[-1][0], size=NEAR)
+    for place, (run, frame), letter, name in zip(axes, shown, letters, names):
         begins = int(run.column("step")[0]) - 1
-        title += f", {frame.step - begins} steps from OGC's state" if begins else ""
-        title += f", {size_of(run)}" if sizes else ""
-        show(place, run, frame, camera or fitted(run, [frame], size), f"{title}, {moment(frame)}", size)
+        title = f"({letter}) {NAMES[name]}" + (f", {frame.step - begins} steps from OGC's state" if begins else "")
+        show(place, run, frame, camera or fitted(run, [frame], size),
+             f"{title}, {'from near' if reach else moment(frame)}", size)
 
 
-def draw(runs, out, wide=(None, None)):
-    """Draws the last states and close views by IPC and OGC with r of one edge; states with r of ten edges (`wide`); and
-    curves of all runs. Returns a line about each run."""
+def draw(runs, out):
+    """Draws states at r = one edge, whole and from near, states at ten edges, and curves of all runs. `runs`: folder's
+    name -> run. Returns a line about each run."""
     style.use()
-    ipc = next((run for run in runs if run.manifest["solver"] == "ipc"), None)
-    ogc = next(run for run in runs if run.manifest["solver"] == "vbd")
-    rest = ogc.frame(ogc.frames[0]).positions.astype(float)
-    third = [(1 / 3, "plot")] * 3
-    rows = [style.pictures(2, SIZE), style.pictures(2, NEAR)]
-    if any(wide):
-        rows.append(style.pictures(2, SIZE))
-    curves, lines = [(f"{label(run).split(',')[0]}", run) for run in (ipc, ogc) if run], []
-    curves += [(f"{label(run).split(',')[0]}, ten edges", run) for run in wide if run]
-    found = {name: history(run, rest) for name, run in curves}
-    until = min((found[name][0][-1] for name, run in curves if whole(run) and "edges" not in name), default=0)
-    ends = {name: rough[np.searchsorted(time, until + 1e-6) - 1] for name, (time, rough, _) in found.items()
-            if time[0] == 0}
-    scale = ogc.manifest["scale"]
-    below = (f"{size_of(ogc)}{'' if scale == 'paper' else f' (scale {scale}; the paper has 200 × 200)'}; "
-             f"roughness at {until:.3g} s [edge lengths]: "
-             + ", ".join(f"{name} {rough:.2g}" for name, rough in ends.items())
-             + (f"; IPC's curve: a window of {len(ipc.column('step'))} steps from OGC's state"
-             if ipc and not whole(ipc) else ""))
-    all_done = until >= 0.99 * ogc.column("step")[-1] * ogc.setting("time_step")
-    title = title_of(ends if whole(ipc) else {}, "Half a turn" if all_done else f"{until:.2g} s of half a turn")
-    figure, axes = style.page([*rows, (2.4, third)], title, below)
-    draw_pair(axes[0], (ipc, ogc), "one edge")
-    draw_pair(axes[1], (ipc, ogc), "one edge", MIDDLE)
-    if any(wide):
-        draw_pair(axes[2], wide, "ten edges", sizes=True)
-    rough_axes, stretch_axes, energy_axes = axes[-1]
-    for (name, run), colour in zip(curves, (style.BASELINE, style.OURS, style.COLOURS[1], style.COLOURS[4])):
-        time, rough, stretched = found[name]
-        rough_axes.plot(time, rough, color=colour, label=name.replace(", ", ",\n"))
-        stretch_axes.fill_between(time, stretched[:, 0], stretched[:, 2], alpha=0.25, color=colour)
-        stretch_axes.plot(time, stretched[:, 1], color=colour, label=name.replace(", ", ",\n"))
-        steps, h = run.column("step"), run.setting("time_step")
-        energy_axes.plot(steps * h, run.column("kinetic_energy"), color=colour, linewidth=0.8,
-                         label=name.replace(", ", ",\n"))
-        lines.append(f"{name}: {len(steps)} steps, {np.mean(run.column('wall')):.4g} ms and "
-                     f"{np.mean(run.column('iterations')):.3g} iterations a step, roughness {rough[-1]:.3g} edges at t "
-                     f"= {time[-1]:.3g} s")
-    rough_axes.set(xlabel="time [s]", ylabel="edge lengths", title="Out-of-plane roughness", ylim=(0, None))
-    stretch_axes.set(xlabel="time [s]", ylabel="length / rest length", title="Stretch of edges, median, 1 % to 99 %")
-    energy_axes.set(xlabel="time [s]", ylabel="energy [J]", title="Kinetic energy", yscale="log")
-    if any(wide):
-        stretch_axes.set_yscale("log")
-    for place in axes[-1]:
-        style.label_ends(place)
-    said = ", ".join(f"{name} {rough:.2g}" for name, rough in ends.items())
-    style.save(figure, out, title, ALT.format(said=said), source_of([run for _, run in curves]))
-    return lines
+    rest, rows = rest_of(runs), {row["run"]: row for row in rows_of(runs)}
+    edge, ten = ([name for name in names if name in runs] for names in (EDGE, TEN))
+    shown = [(edge, None), (edge, MIDDLE), *([(ten, None)] if ten else [])]
+    sizes = [style.pictures(len(names), NEAR if reach else SIZE) for names, reach in shown]
+    figure, axes = style.page([*sizes, (2.4, [(1 / 3, "plot")] * 3)], title_of(rows), below_of(runs, rows))
+    letters = iter("abcdefghijklmnop")
+    for places, (names, reach) in zip(axes, shown):
+        draw_row(places, runs, names, [next(letters) for _ in names], reach)
+    draw_curves(axes[-1], runs, rest)
+    said = ", ".join(f"{NAMES.get(name, name)} {row['angle defect [rad]']:.2g} rad, edges stretched by "
+                     f"{row['stretch median [1]']:.3g}" for name, row in rows.items())
+    style.save(figure, out, title_of(rows), ALT.format(said=said), source_of(list(runs.values())))
+    return [f"{name}: {row['steps [1]']} steps, {row['iterations a step']:.3g} iterations a step, angle defect "
+            f"{row['angle defect [rad]']:.3g} rad, stretch {row['stretch median [1]']:.3g} at t = {row['time [s]']:.3g}"
+            " s" for name, row in rows.items()]
+
+
+def below_of(runs, rows):
+    """Returns the line below the title: the sizes, and how the last states compare."""
+    scale = runs[OGC].manifest["scale"]
+    small = "" if scale == "paper" else f" (scale {scale}; the paper has 200 × 200)"
+    found = ", ".join(f"{NAMES[name].replace(', ', ' at ', 1) if 'wide' in name else NAMES[name]} "
+                      f"{row['angle defect [rad]']:.2g}" + ("" if whole(runs[name]) and row["at"] == "end" else
+                                                            f" (at {row['time [s]']:.2g} s)")
+                      for name, row in rows.items() if name in CURVES)
+    return (f"{size_of(runs[OGC])}{small}, r = one edge where nothing else is said; mean angle defect [rad], which is "
+            f"0.03 where vertices stand a tenth of an edge out: {found}")
+
+
+def draw_curves(panels, runs, rest):
+    bulges, stretched, energy = panels
+    for name, colour in CURVES.items():
+        if name not in runs:
+            continue
+        run = runs[name]
+        time, defect, stretches = history(run, rest)
+        words = NAMES[name].replace(", ", ",\n").replace(" in OGC", "\nin OGC").replace(" without", "\nwithout")
+        bulges.plot(time[time > 0], defect[time > 0], color=colour, label=words)
+        stretched.plot(time, stretches[:, 1], color=colour, label=words)
+        energy.plot(run.column("step") * run.setting("time_step"), run.column("kinetic_energy"), color=colour,
+                    linewidth=0.8, label=words)
+    bulges.axhline(VISIBLE, color=style.PAPER, linewidth=0.8, linestyle=":")
+    bulges.set(xlabel="time [s]", ylabel="angle defect [rad]", title="Bulges; dotted: a tenth of an edge", yscale="log")
+    stretched.set(xlabel="time [s]", ylabel="length / rest length", title="Stretch of edges, median",
+                  yscale="log" if any("wide" in name for name in runs) else "linear")
+    energy.set(xlabel="time [s]", ylabel="energy [J]", title="Kinetic energy", yscale="log")
+    for place in panels:
+        style.label_ends(place, 6.5)
 
 
 def runs_of(arguments):
-    """Returns IPC's run and OGC's. At the paper's size IPC's whole run would take days; IPC then has windows of 20
+    """Returns folder's name -> run. At the paper's size IPC's whole run would take days; IPC then has windows of 20
     steps from states of OGC's run."""
     folder = Path(arguments.folder)
     if arguments.made:
-        windows = sorted((Run(path.parent) for path in folder.glob("ipc*/run.json") if "wide" not in path.parent.name),
+        found = {name: Run(folder / name) for name in NAMES if (folder / name / "steps.csv").is_file()}
+        windows = sorted((Run(path.parent) for path in folder.glob("ipc_*/run.json") if path.parent.name not in NAMES),
                          key=lambda run: run.column("step")[0])
-        return [*windows[-1:], Run(folder / "vbd"), *windows[:-1]]
-    ours, baseline = commands.beside_ipc(SCENE, arguments.scale, arguments.backend, arguments.membrane)
-    ogc = run_job(arguments.ogc, ours, folder)
-    if arguments.scale != "paper":
-        return [run_job(arguments.ogc, baseline, folder), ogc]
-    *earlier, last = ipc_windows(arguments, SCENE, ogc, commands.TWIST_WINDOWS)
-    return [last, ogc, *earlier]
-
-
-def wide_runs(folder):
-    """Returns the runs of IPC and OGC with r of ten edges, if they lie in the folder."""
-    return [Run(folder / name) if (folder / name / "run.json").is_file() else None for name in ("ipc_wide", "vbd_wide")]
+        return {**found, **({"ipc": windows[-1]} if windows and "ipc" not in found else {})}
+    runs = {job.name: run_job(arguments.ogc, job, folder)
+            for job in half_turn.ogc(arguments.scale, arguments.backend, arguments.membrane)}
+    if arguments.scale == "paper":
+        return {**runs, "ipc": ipc_windows(arguments, SCENE, runs[OGC], commands.TWIST_WINDOWS)[-1]}
+    return {**runs, **{job.name: run_job(arguments.ogc, job, folder)
+                       for job in half_turn.ipc(arguments.scale, arguments.membrane)}}
 
 
 if __name__ == "__main__":
     parser = baseline_arguments(__doc__.splitlines()[0], backends=("cpu", "cuda"))
     parser.add_argument("--made", action="store_true", help="draw the runs that are there, and make none")
+    parser.add_argument("--variants", choices=("variants", "neighbours"),
+                        help="instead: a table of OGC's runs with one choice varied, at ten edges or at one")
     options = parser.parse_args()
     try:
-        found_runs, into = runs_of(options), Path(options.folder)
+        into = Path(options.folder)
+        if options.variants:
+            jobs = getattr(half_turn, options.variants)(options.scale, options.backend)
+            made = {job.name.partition("/")[2]: Run(into / job.name) if options.made else
+                    run_job(options.ogc, job, into) for job in jobs}
+            write_table(into / f"fig02_{options.variants}.csv", variant_rows(made))
+            sys.exit()
+        found_runs = runs_of(options)
         write_table(into / "fig02.csv", rows_of(found_runs))
-        print("\n".join(draw(found_runs, into / "fig02.png", wide_runs(into))))
+        print("\n".join(draw(found_runs, into / "fig02.png")))
     except RunError as error:
         sys.exit(f"fig02: {error}")

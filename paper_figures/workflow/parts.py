@@ -7,7 +7,7 @@ are those of the workflow (FIGURE-SCALE-BACKEND).
 import os
 from dataclasses import dataclass
 
-from paper_figures.workflow import commands
+from paper_figures.workflow import commands, half_turn
 
 # Rows of Table 1, the most wanted first: the figure drawn from the row, and the frames that are packed of it.
 OF_SCENES = {"twist": ("", 2), "fifty_layers_1m": ("", 0), "cloth_on_sphere": ("fig18", 21),
@@ -72,9 +72,8 @@ def of_figures(wanted):
     """Returns the parts of figures that are made of several runs."""
     scale, backend, folder = wanted.scale, wanted.backend, wanted.folder
     single, double = commands.three_cloths(scale, wanted.backends)
-    half_turn, half_turn_ipc = commands.beside_ipc(commands.TWIST, scale, backend)
-    begins = half_turn.name, commands.TWIST_WINDOWS, commands.TWIST_STEPS, scale
-    by_ipc = [half_turn_ipc] if scale != "paper" else commands.ipc_windows(commands.TWIST, *begins)
+    half_turns, begins = half_turn.ogc(scale, backend), ("vbd", commands.TWIST_WINDOWS, commands.TWIST_STEPS, scale)
+    by_ipc = half_turn.ipc(scale) if scale != "paper" else commands.ipc_windows(commands.TWIST, *begins)
     drop, ipc = commands.beside_ipc(commands.ONE_ITERATION, scale, backend)
     on_cpu = tuple(job for job in single if "cpu" in job.name and backend != "cpu")
     on_device = tuple(job for job in single if job not in on_cpu)
@@ -82,7 +81,7 @@ def of_figures(wanted):
     solvers = tuple(commands.solvers(scale, cuda=backend == "cuda"))
     minimiser = tuple(commands.minimiser(scale, backend))
     return {
-        "fig02": Part(folder("fig02"), ((half_turn,),), "fig02", frames=13),
+        "fig02": Part(folder("fig02"), one_by_one(half_turns), "fig02", frames=13),
         "fig20": Part(folder("fig20"), ((drop,),), "fig20", frames=25),
         "fig17": Part(folder("fig17"), (on_device,), "fig17", frames=0, last=1),
         "fig17_cpu": Part(folder("fig17"), (on_cpu,), "fig17", frames=0, last=1),

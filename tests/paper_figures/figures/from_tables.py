@@ -23,7 +23,7 @@ try:
     from paper_figures.figures import fig17_three_cloths_on_sphere as fig17
     from paper_figures.figures import from_tables
     from paper_figures.figures.measured import yarn, yarn_rest, yarn_return
-    from paper_figures.workflow import common, untitled
+    from paper_figures.workflow import common, half_turn, untitled
     from paper_figures.workflow.evidence import RESULTS
     from paper_figures.workflow.runs import Iterations
     from plots import style
@@ -105,24 +105,61 @@ class FromTables(unittest.TestCase):
 
 
 class Curves(unittest.TestCase):
-    def test_fig_2_says_how_far_it_was_turned_and_who_is_rougher(self):
-        self.assertIn("Half a turn with a contact radius of one edge: IPC's cloth is rougher than OGC's",
-                      fig02.title_of({"IPC": 2.0, "VBD-OGC": 1.0}))
-        self.assertIn("about equally rough", fig02.title_of({"IPC": 1.1, "VBD-OGC": 1.0}))
-        self.assertIn("2.1 s of half a turn", fig02.title_of({"IPC": 1.0, "VBD-OGC": 2.0}, "2.1 s of half a turn"))
-        self.assertIn("in a window", fig02.title_of({"VBD-OGC": 1.0}))
+    def rows_of_fig_2(self, **values):
+        row = {"angle defect of OGC then [rad]": 0.01, "stretch median of OGC then [1]": 1.0}
+        return {name: {**row, "angle defect [rad]": defect, "stretch median [1]": stretch}
+                for name, (defect, stretch) in values.items()}
 
-    def run_of(self, steps, frames):
-        run = SimpleNamespace(frames=[Path(f"frame_{step:06d}.h5") for step in frames],
-                              column=lambda name: np.array(steps), frame=lambda path: int(path.stem[6:]))
-        run.frame_at_step = lambda step: min(frames, key=lambda other: abs(other - step))
-        return run
+    def test_fig_2_says_what_contacts_do_to_the_sheet(self):
+        title = lambda **values: fig02.title_of(self.rows_of_fig_2(**values))  # noqa: E731
+        self.assertEqual(title(vbd=(0.01, 1.0), ipc=(0.01, 1.0)),
+                         "Fig. 2. IPC's contacts leave the sheet smooth; OGC's leave it smooth")
+        self.assertIn("IPC's contacts bulge the sheet", title(vbd=(0.01, 1.0), ipc=(0.01, 1.0), pairs=(0.3, 1.0)))
+        self.assertIn("stretch the sheet by 26 %", title(vbd=(0.01, 1.0), pairs=(0.3, 1.26)))
+        self.assertIn("OGC's bulge it only where they hold its own neighbours",
+                      title(vbd=(0.2, 1.0), vbd_rings=(0.05, 1.0), ipc=(0.01, 1.0)))
+        self.assertEqual(title(vbd=(0.2, 1.0), vbd_rings=(0.19, 1.0)), "Fig. 2. OGC's bulge the sheet")
 
-    def test_fig_2_shows_states_that_both_stored_and_a_window_beside_its_start(self):
-        ogc = self.run_of(range(1, 61), (0, 20, 40, 60))
-        self.assertEqual(fig02.frames_of((self.run_of(range(1, 46), (0, 20, 40, 45)), ogc)), (40, 40))
-        self.assertEqual(fig02.frames_of((self.run_of(range(21, 31), (20, 30)), ogc)), (30, 20))
-        self.assertEqual(fig02.frames_of((None, ogc)), (None, 60))
+    def test_angle_defects_see_bulges_and_no_folds(self):
+        side = 9
+        grid = np.array([[x, y, 0.0] for x in range(side) for y in range(side)])
+        at = lambda x, y: x * side + y  # noqa: E731
+        triangles = np.array([corners for x in range(side - 1) for y in range(side - 1)
+                              for corners in ((at(x, y), at(x + 1, y), at(x + 1, y + 1)),
+                                              (at(x, y), at(x + 1, y + 1), at(x, y + 1)))])
+        folded = grid.copy()
+        beyond = folded[:, 0] > 4
+        folded[beyond, 2], folded[beyond, 0] = folded[beyond, 0] - 4, 4
+        self.assertLess(fig02.angle_defects(folded, triangles).max(), 1e-14, "rounding of a sum of six angles")
+        for height in (0.05, 0.1):  # 3 a², less a term of a⁴: all angles are analytic in a²
+            bulged = grid.copy()
+            bulged[at(4, 4), 2] = height
+            defect = fig02.angle_defects(bulged, triangles).max()
+            self.assertLess(abs(defect - 3 * height**2), 3 * height**4)
+        self.assertEqual(len(fig02.angle_defects(grid, triangles)), (side - 2) ** 2)
+
+    def test_runs_of_fig_2_leave_out_the_neighbours_within_reach(self):
+        pairs = list(half_turn.near_pairs(4, 1.5))
+        self.assertIn([5, 10], pairs)
+        self.assertIn([5, 8], pairs)
+        self.assertNotIn([5, 7], pairs)
+        self.assertEqual(len(pairs), 2 * 12 + 2 * 9)  # sides and diagonals of nine cells
+        jobs = half_turn.ogc("small")
+        self.assertEqual([job.name for job in jobs if job.scene], ["vbd_rings", "vbd_wide_excluded"])
+        self.assertEqual({job.name for job in (*jobs, *half_turn.ipc("small"))}, set(fig02.NAMES))
+
+    def test_fig_2_shows_ogc_where_ipc_ended_and_where_its_window_began(self):
+        def run_of(solver, steps, frames):
+            run = SimpleNamespace(frames=[Path(f"frame_{step:06d}.h5") for step in frames],
+                                  column=lambda name: np.array(steps), frame=lambda path: int(path.stem[6:]),
+                                  manifest={"solver": solver})
+            run.frame_at_step = lambda step: min(frames, key=lambda other: abs(other - step))
+            return run
+        ogc = run_of("vbd", range(1, 61), (0, 20, 40, 60))
+        ipc, window = run_of("ipc", range(1, 46), (0, 20, 40, 45)), run_of("ipc", range(21, 31), (20, 30))
+        self.assertEqual([fig02.frame_beside(run, []) for run in (ogc, ipc, window)], [60, 45, 30])
+        self.assertEqual([fig02.frame_beside(ogc, others) for others in ([ipc], [window], [ipc, window])],
+                         [40, 20, 40])
 
     def test_fig_15_marks_the_first_meeting_of_the_kept_row_where_no_window_is(self):
         run = SimpleNamespace(steps={}, column=lambda name: np.arange(1, 4), setting=lambda name: 0.5)
