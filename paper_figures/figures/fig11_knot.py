@@ -46,9 +46,9 @@ def layers_of(segments):
     return best
 
 
-def draw_cut(axes, run, frame):
-    """Draws the cut through the tightest place, along the plane across the line from end to end; returns the number of
-    layers."""
+def cut_of(run, frame):
+    """Returns the cut through the tightest place, along the plane across the line from end to end: segments [k, 2, 2]
+    in that plane, from the place and within CUT of it [m]."""
     points = subject(run, frame)
     centre = densest(points, REACH)
     pull = points[0] - points[-1]
@@ -57,7 +57,12 @@ def draw_cut(axes, run, frame):
     right /= np.linalg.norm(right)
     segments = section(points, run.bodies()[0]["triangles"], centre, normal) - centre
     flat = np.stack([segments @ right, segments @ np.cross(normal, right)], axis=-1)
-    flat = flat[(np.abs(flat) < CUT).all(axis=(1, 2))]
+    return flat[(np.abs(flat) < CUT).all(axis=(1, 2))]
+
+
+def draw_cut(axes, run, frame):
+    """Draws the cut; returns the number of layers."""
+    flat = cut_of(run, frame)
     layers, axis, place = layers_of(flat)
     axes.add_collection(LineCollection(1e3 * flat, colors=style.FRONTS[2], linewidths=1.6))
     (axes.axvline if axis == 0 else axes.axhline)(1e3 * place, color=style.MARK, linewidth=0.9, linestyle="--")

@@ -458,6 +458,8 @@ def _count(scene, moving, what):
 
 def _statistic(run, spec):
     names = spec["steps"] if isinstance(spec["steps"], list) else [spec["steps"]]
+    if spec["statistic"] == "last":
+        return sum(run.course(name)[1][-1] for name in names)
     mean = sum(run.mean(name) for name in names)
     kind = spec["statistic"]
     if kind in ("max", "max over mean"):
