@@ -307,6 +307,10 @@ def draw_forces(axes, force):
     axes.legend(fontsize=8, loc="upper right")
 
 
+def short(label):
+    return label.replace("weak contact", "weak")
+
+
 def draw_by_ratio(axes, kept, step):
     """Draws the rows of fig21_curves.csv: a line for each variant."""
     axes.set_title(f"VBD in double, step {step}, by κ and contact stiffness")
@@ -315,7 +319,7 @@ def draw_by_ratio(axes, kept, step):
         if rows:
             axes.plot([int(row["iteration [1]"]) for row in rows],
                       [max(float(row["residual [1]"]), 1e-16) for row in rows], "--" if variant.weak else "-",
-                      color=colour(variant), linewidth=1, label=variant.label)
+                      color=colour(variant), linewidth=1, label=short(variant.label))
     if not kept:
         return style.not_run(axes, "the curves of other κ and of weak contact were not kept")
     axes.set(yscale="log", xlabel="iteration", ylabel="residual (Eq. 29) [1]")
@@ -333,7 +337,7 @@ def draw_conditions(axes, rows):
             color=style.COLOURS[number],
             label=words,
         )
-    axes.set_yticks(places, [row["activation"] for row in shown], fontsize=6.5)
+    axes.set_yticks(places, [short(row["activation"]) for row in shown], fontsize=6.5)
     left = axes.get_position()
     axes.set_position([left.x0 + 0.07, left.y0, left.width - 0.07, left.height])  # for the names
     axes.invert_yaxis()
