@@ -13,6 +13,7 @@ import csv
 import gzip
 import json
 import math
+import re
 import statistics
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -96,6 +97,12 @@ def membranes_of(manifest):
     with different materials."""
     return {body["material"]["membrane"] for body in manifest["scene"]["bodies"] if not is_driven(body)
             and body.get("triangle_count") and not body.get("tetrahedron_count")}
+
+
+def command_of(manifest):
+    """Returns the command of a run as text; of its paths the last part."""
+    command = manifest["command"] if isinstance(manifest["command"], str) else " ".join(manifest["command"])
+    return "ogc " + re.sub(r"(?<= )/\S*/", "", command.partition(" ")[2])
 
 
 def contact_of(body):

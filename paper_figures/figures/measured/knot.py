@@ -1,8 +1,8 @@
-"""How tight the knot of Fig. 11 is, from the last state of each run: layers through a cut, the number of knots left, and
-how much of the strip in them is still free. A vertex touches another part of the strip if a vertex that is more than a
-strip's width away along the strip is as near as two layers in contact have vertices. Such rows that are nearer to one
-another than a strip's width belong to one knot, with all that lies between its first and its last row. Writes a table;
-fig11_knot.py draws the states.
+"""How tight the knot of Fig. 11 is, from the last state of each run: layers through a cut, the number of knots left,
+and how much of the strip in them is still free. A vertex touches another part of the strip if a vertex that is more
+than a strip's width away along the strip is as near as two layers in contact have vertices. Such rows that are nearer
+to one another than a strip's width belong to one knot, with all that lies between its first and its last row. Writes a
+table; fig11_knot.py draws the states.
 
 Usage: python3 -m paper_figures.figures.measured.knot RUN … --out CSV
 """
@@ -48,6 +48,8 @@ def touching(rows, radius):
 
 def clusters(points):
     """Returns the number of each point's cluster: points nearer than a strip's width belong to one."""
+    if not len(points):
+        return np.empty(0, int)
     found, pairs = np.arange(len(points)), near(points, WIDTH)
     while True:
         least = found.copy()
