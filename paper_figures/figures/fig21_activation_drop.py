@@ -43,7 +43,7 @@ NAMES = {"ogc": "OGC's", "ipc_log": "IPC's"}
 TITLE = "Fig. 21. OGC's and IPC's activation drape the cloth alike; here OGC's converges no faster"
 ALT = ("Renderings of the cloth on a sphere after 40 steps with our activation function and with IPC's, of both in one "
        "picture, and of the first coloured by the distance between the two: median {} mm, at most {} mm. Curves: the "
-       "residual over the iterations of the last step for both, the force over distance of both functions, the residual "
+       "residual over the iterations of the last step for both, the force over distance of both functions, residuals "
        "for other contact stiffnesses, and bars with condition numbers.")
 LEVELS = {"1e-2": 1e-2, "1e-3": 1e-3, "1e-4": 1e-4}
 CURVE_FIRST, CURVE_POINTS = 20, 100  # iterations that fig21_curves.csv keeps
