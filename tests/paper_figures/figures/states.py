@@ -1,9 +1,12 @@
 """What tables say of a state: a strip that lies on itself is one knot whose free part is its turn, one that is straight
-is none; the pile's energy is that of the rows; columns of Fig. 21's distances are those of the vertices.
+is none; the pile's energy is that of the rows; columns of Fig. 21's distances are those of the vertices; and what a
+figure shows of a packed run is packed.
 
 Usage: states.py SOURCE_DIR OGC. Exit status 77: skipped, NumPy or h5py is missing.
 """
 
+import importlib
+import runpy
 import sys
 import unittest
 from pathlib import Path
@@ -18,6 +21,8 @@ try:
 
     from paper_figures.figures import fig21_activation_drop
     from paper_figures.figures.measured import knot, pile
+    from paper_figures.workflow import parts
+    from plots.scene_figure import NEAREST
     from ogc_testbed.runs import RunError
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
@@ -62,6 +67,32 @@ class Knot(unittest.TestCase):
     def test_another_order_of_vertices_is_refused(self):
         with self.assertRaisesRegex(RunError, "not numbered row by row"):
             knot.shape_of(strip([(CELL * i, 0) for i in range(20)])[:-1], 2e-3)
+
+
+class Packed(unittest.TestCase):
+    """A figure drawn from packed runs has each of its moments."""
+
+    def moments(self, figure, scene):
+        """The steps that a figure asks of a run, as shares of its last."""
+        module, asked = importlib.import_module(f"paper_figures.figures.{figure}_{scene}"), []
+        if hasattr(module, "STEPS"):
+            asked = module.STEPS
+        elif hasattr(module, "MIDDLE"):
+            asked = (*module.WHOLE, *module.MIDDLE)
+        else:
+            with mock.patch("paper_figures.workflow.common.main", lambda _scene, steps, *_, **__: asked.extend(steps)):
+                runpy.run_path(module.__file__, run_name="__main__")
+        return [step / (100 if figure == "fig18" else max(asked)) for step in asked]
+
+    def test_the_moments_of_figures_are_among_the_packed_frames(self):
+        rows = {figure: (parts.commands.scene_of(row), frames) for row, (figure, frames) in parts.ROWS.items()
+                if figure and row not in parts.SHOWN}
+        self.assertEqual(sorted(rows), ["fig10", "fig11", "fig12", "fig13", "fig14", "fig18"])
+        for figure, (scene, frames) in rows.items():
+            for share in self.moments(figure, scene):
+                nearest = round(share * (frames - 1)) / (frames - 1)
+                # half of what a figure allows; a run's own frames may be as far from both
+                self.assertLessEqual(abs(nearest - share), NEAREST / 2, f"{figure}: {share}")
 
 
 class Pile(unittest.TestCase):
