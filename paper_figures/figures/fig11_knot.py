@@ -14,11 +14,11 @@ from plots.scene_figure import (MOVIE, PLOTS, beside_paper, draw_contacts, draw_
 SCENE, WHOLE, MIDDLE = "knot", (0, 3550), (4970, 8520, 10650)  # steps
 REACH, SEEN, CUT = 0.06, 0.11, 0.05  # neighbourhood of the tightest place; parts shown from near and in the cut [m]
 HEART, AROUND = 0.15, 0.42  # neighbourhood of the most crowded part, and what is shown of the strip's middle [m]
-TITLE = "Fig. 11. Four knots in a strip are pulled small, run together and become tight"
+TITLE = "Fig. 11. Four knots in a strip are pulled small and tight; here not all of them run together"
 ALT = ("Renderings of a long ribbon, blue in front and sand behind. At first it has four loose loops; pulled at both "
-       "ends it straightens, the loops become small knots and run together. Two close views show a knot before and "
-       "after they merge, and a drawing shows the cut through it: {layers} layers of the ribbon beside one another, "
-       "none of which crosses another.")
+       "ends it straightens, and the loops become small knots, some of which run together. Two close views show a "
+       "small knot and the tightest place at the end, and a drawing shows the cut through it: {layers} layers of the "
+       "ribbon beside one another, none of which crosses another.")
 WIDE, CLOSE, PART = 1280, (960, 600), (640, 380)
 
 
@@ -46,9 +46,9 @@ def layers_of(segments):
     return best
 
 
-def draw_cut(axes, run, frame):
-    """Draws the cut through the tightest place, along the plane across the line from end to end; returns the number of
-    layers."""
+def cut_of(run, frame):
+    """Returns the cut through the tightest place, along the plane across the line from end to end: segments [k, 2, 2]
+    in that plane, from the place and within CUT of it [m]."""
     points = subject(run, frame)
     centre = densest(points, REACH)
     pull = points[0] - points[-1]
@@ -57,7 +57,12 @@ def draw_cut(axes, run, frame):
     right /= np.linalg.norm(right)
     segments = section(points, run.bodies()[0]["triangles"], centre, normal) - centre
     flat = np.stack([segments @ right, segments @ np.cross(normal, right)], axis=-1)
-    flat = flat[(np.abs(flat) < CUT).all(axis=(1, 2))]
+    return flat[(np.abs(flat) < CUT).all(axis=(1, 2))]
+
+
+def draw_cut(axes, run, frame):
+    """Draws the cut; returns the number of layers."""
+    flat = cut_of(run, frame)
     layers, axis, place = layers_of(flat)
     axes.add_collection(LineCollection(1e3 * flat, colors=style.FRONTS[2], linewidths=1.6))
     (axes.axvline if axis == 0 else axes.axhline)(1e3 * place, color=style.MARK, linewidth=0.9, linestyle="--")

@@ -13,7 +13,7 @@ from plots.scene_figure import (PLOTS, beside_paper, draw_detections, draw_lag, 
 
 SCENE, STEPS = "dress", (0, 320, 640, 968)
 APART = 0.28  # how far panels are drawn from one another [m]
-TALL, BROAD = (480, 720), (960, 720)
+WIDE, BROAD = 480, (960, 720)  # a moment's picture has the width, and the shape of what it shows
 TITLE = "Fig. 13. A dress of 14 stitched panels follows a dancer"
 ALT = ("Panel a: the fourteen pieces of the dress, drawn apart. Panel b: the dress from near, with red dots at the "
        "cloth vertices that lie inside the body at the step with the most of them. Below: four moments of the motion; "
@@ -78,7 +78,8 @@ def draw(run, out):
     last, below = int(run.column("step")[-1]), beside_paper(run, claims_of(run))
     if run.manifest.get("scale") == "paper" and last < STEPS[-1]:
         below += f"; the first {last} of {STEPS[-1]} steps"
-    figure, rows = style.page([style.pictures(2, BROAD), style.pictures(4, TALL), PLOTS], TITLE, below)
+    tall = render.shape_of(view_of(SCENE), np.concatenate([subject(run, frame) for frame in seen]), WIDE, 0.9, 1.5)
+    figure, rows = style.page([style.pictures(2, BROAD), style.pictures(4, tall), PLOTS], TITLE, below)
     axes = rows[0][0]
     usable, reason = render.available()
     pieces, points = exploded(run, seen[0])
@@ -98,9 +99,9 @@ def draw(run, out):
     else:
         style.not_run(axes, "not run: here the body is a surface, which nothing enters")
         axes.set_title("(b) vertices inside the body")
-    camera = fitted(run, seen, TALL)
+    camera = fitted(run, seen, tall)
     for column, frame in enumerate(frames):
-        show(rows[1][column], run, frame, camera, moment(frame), TALL)
+        show(rows[1][column], run, frame, camera, moment(frame), tall)
     draw_time(rows[2][0], run, claims_of(run), run)
     (draw_inside if volume else draw_lag)(rows[2][1], run)
     draw_detections(rows[2][2], run)

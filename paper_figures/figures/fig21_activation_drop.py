@@ -11,7 +11,8 @@ Two choices that the paper leaves open are varied. κ: IPC's energy is −κ k_c
 small that about half of OGC's contacts push with more than k_c r/2, where IPC's energy at equal force is stiffest in
 comparison with OGC's. Each last state gives the contact forces and the number of contacts at which IPC's energy is
 softer. --without leaves out all energies but the paper's two at κ = 1; picture and table then name what was not run,
-and `accept` takes them only with --incomplete.
+and `accept` takes them only with --incomplete. `fig21_curves.csv` has the residuals of VBD's last step for each
+variant, so that the curves can be drawn again without the runs.
 """
 
 import argparse
@@ -40,11 +41,12 @@ ABOVE_HALF = commands.WEAK[0]
 SIZE, DISTANCES = (800, 640), "cividis"  # pixels; the colours of distances
 NAMES = {"ogc": "OGC's", "ipc_log": "IPC's"}
 TITLE = "Fig. 21. OGC's and IPC's activation drape the cloth alike; here OGC's converges no faster"
-ALT = ("Renderings of the cloth on a sphere after 40 steps with our activation function and with IPC's, and the first "
-       "coloured by the distance between the two, at most {apart} mm. Curves: the residual over the iterations of the "
-       "last step for both, the force over distance of both functions, the residual for other contact stiffnesses, and "
-       "bars with condition numbers.")
+ALT = ("Renderings of the cloth on a sphere after 40 steps with our activation function and with IPC's, of both in one "
+       "picture, and of the first coloured by the distance between the two: median {} mm, at most {} mm. Curves: the "
+       "residual over the iterations of the last step for both, the force over distance of both functions, residuals "
+       "for other contact stiffnesses, and bars with condition numbers.")
 LEVELS = {"1e-2": 1e-2, "1e-3": 1e-3, "1e-4": 1e-4}
+CURVE_FIRST, CURVE_POINTS = 20, 100  # iterations that fig21_curves.csv keeps
 CONDITIONS = {
     "condition_number": "with friction",
     "condition_without_friction": "without friction",
@@ -99,9 +101,10 @@ def curves(folder, ogc):
     }
 
 
-def largest_distance(first, second):
+def distances(first, second):
+    """Returns the distance of each vertex between the last states of two runs [m]."""
     a, b = (run.frame(run.frames[-1]).positions.astype(float) for run in (first, second))
-    return np.linalg.norm(a - b, axis=1).max()
+    return np.linalg.norm(a - b, axis=1)
 
 
 def first_below(rows, level):
@@ -172,9 +175,33 @@ def row_of(variant, found, forces, like, scale):
         "largest_residual [1]": f"{largest_residual(run):.3g}",
         "smallest_distance [mm]": f"{1e3 * run.column('smallest_distance').min():.4g}",
         "median_step [ms]": f"{np.median(run.column('wall')):.4g}",
-        "largest_distance_from_ogc [mm]": f"{1e3 * largest_distance(like.run, run):.4g}" if whole and like else "",
+        **apart(like.run if like else None, run if whole else None),
         **provenance(run),
     }
+
+
+def apart(ogc, run):
+    """Returns columns: how far the last state is from that with OGC's energy; empty without one of them."""
+    found = 1e3 * distances(ogc, run) if ogc and run else []
+    return {f"{name}_distance_from_ogc [mm]": f"{np.percentile(found, share):.4g}" if len(found) else ""
+            for name, share in (("median", 50), ("ninth_decile", 90), ("largest", 100))}
+
+
+def curve_rows(results, step):
+    """Returns the rows of the curves: for each variant the residual of VBD's last step after its first iterations, and
+    after about CURVE_POINTS more, evenly on a logarithmic axis, the last among them."""
+    found = []
+    for variant, solved_by in results.items():
+        if not solved_by.double:
+            continue
+        rows = iterations(solved_by.double, step)
+        last = len(rows["iteration"]) - 1
+        places = np.unique(np.concatenate([np.arange(min(CURVE_FIRST, last + 1)),
+                                           np.geomspace(1, max(last, 1), CURVE_POINTS).round().astype(int)]))
+        found += [{"activation": variant.label, "iteration [1]": int(rows["iteration"][i]),
+                   "residual [1]": f"{rows['residual'][i]:.5g}", "commit": provenance(solved_by.double)["commit"],
+                   "device": solved_by.double.manifest["device"]} for i in places if i <= last]
+    return found
 
 
 def ratio_rows(ratio):
@@ -199,39 +226,51 @@ def colour(variant):
     )
 
 
+def coloured(run, frame, shades):
+    """Returns the bodies of a state whose cloth has these colours: one, or one for each vertex of the run [n, 3]."""
+    bodies, first = [], 0
+    for body in bodies_of(run, frame):
+        own = shades if isinstance(shades, str) else shades[first:first + len(body[0])]
+        first += len(body[0])
+        bodies.append(body if isinstance(body[2], str) and body[2] == style.BODY else
+                      (*body[:2], own, own if isinstance(own, str) else None))
+    return bodies
+
+
 def draw_states(axes, results):
-    """Draws the paper's panels a and b, and both states in one: OGC's, coloured by how far IPC's is from it. Returns
-    the largest distance [m]; not-a-number if states were not kept."""
+    """Draws the paper's panels a and b, both states in one picture, and OGC's coloured by how far IPC's is from it.
+    Returns the distances [m]; not-a-number if states were not kept."""
     runs = [results[variant].run for variant in PAPER]
-    titles = [f"({letter}) {NAMES[variant.energy]} activation, step 40" for letter, variant in zip("ab", PAPER)]
+    step = int(runs[0].column("step")[-1])
+    titles = [f"({letter}) {NAMES[variant.energy]} activation, step {step}" for letter, variant in zip("ab", PAPER)]
     if not all(run.frames for run in runs):
-        for place, title in zip(axes, (*titles, "their distance")):
+        for place, title in zip(axes, (*titles, "both", "their distance")):
             style.not_run(place, "the states were not kept")
             place.set_title(title)
-        return np.nan
+        return np.array([np.nan])
     frames = [run.frame(run.frames[-1]) for run in runs]
     camera = fitted(runs[0], frames, SIZE)
     for place, run, frame, title in zip(axes, runs, frames, titles):
         show(place, run, frame, camera, title, SIZE)
-    apart = np.linalg.norm(frames[0].positions.astype(float) - frames[1].positions, axis=1)
+    far = distances(*runs)
     usable, reason = render.available()
     if not usable:
-        style.not_run(axes[2], reason)
-        return apart.max()
+        for place in axes[2:]:
+            style.not_run(place, reason)
+        return far
     import matplotlib
 
-    bodies, first = [], 0
-    for body in bodies_of(runs[0], frames[0]):
-        own = apart[first:first + len(body[0])]
-        first += len(body[0])
-        scale = matplotlib.colormaps[DISTANCES](own / max(apart.max(), 1e-12))
-        bodies.append((*body[:2], 255 * scale[:, :3], None) if body[2] != style.BODY else body)
-    image = render.picture(bodies, camera, SIZE, **look_of(runs[0]))
-    style.picture(axes[2], image, f"(a) coloured by the distance to (b): at most {1e3 * apart.max():.2g} mm")
-    shades = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, 1e3 * apart.max()), DISTANCES)
-    inset = axes[2].inset_axes((0.72, 0.09, 0.24, 0.035))
-    axes[2].figure.colorbar(shades, cax=inset, orientation="horizontal", label="mm").ax.tick_params(labelsize=7)
-    return apart.max()
+    look = look_of(runs[0])
+    both = [body for run, frame, shade in zip(runs, frames, (style.FRONTS[0], style.BACKS[0]))
+            for body in coloured(run, frame, shade)]
+    style.picture(axes[2], render.picture(both, camera, SIZE, **look), "(a), blue, and (b), sand, in one picture")
+    shades = 255 * matplotlib.colormaps[DISTANCES](far / max(far.max(), 1e-12))[:, :3]
+    image = render.picture(coloured(runs[0], frames[0], shades), camera, SIZE, **look)
+    style.picture(axes[3], image, f"(a) by its distance to (b), median {1e3 * np.median(far):.2g} mm")
+    shown = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, 1e3 * far.max()), DISTANCES)
+    inset = axes[3].inset_axes((0.72, 0.09, 0.24, 0.035))
+    axes[3].figure.colorbar(shown, cax=inset, orientation="horizontal", label="mm").ax.tick_params(labelsize=7)
+    return far
 
 
 def draw_residual(axes, run, step, dash, shade, label):
@@ -268,19 +307,22 @@ def draw_forces(axes, force):
     axes.legend(fontsize=8, loc="upper right")
 
 
-def draw_by_ratio(axes, results, step):
-    if sum(found.double is not None for found in results.values()) <= len(PAPER):
-        axes.set_title(f"VBD in double, step {step}, by κ and contact stiffness")
+def short(label):
+    return label.replace("weak contact", "weak")
+
+
+def draw_by_ratio(axes, kept, step):
+    """Draws the rows of fig21_curves.csv: a line for each variant."""
+    axes.set_title(f"VBD in double, step {step}, by κ and contact stiffness")
+    for variant in VARIANTS:
+        rows = [row for row in kept if row["activation"] == variant.label]
+        if rows:
+            axes.plot([int(row["iteration [1]"]) for row in rows],
+                      [max(float(row["residual [1]"]), 1e-16) for row in rows], "--" if variant.weak else "-",
+                      color=colour(variant), linewidth=1, label=short(variant.label))
+    if not kept:
         return style.not_run(axes, "the curves of other κ and of weak contact were not kept")
-    for variant, found in results.items():
-        if found.double:
-            draw_residual(axes, found.double, step, "--" if variant.weak else "-", colour(variant), variant.label)
-    axes.set(
-        yscale="log",
-        xlabel="iteration",
-        ylabel="residual (Eq. 29) [1]",
-        title=f"VBD in double, step {step}, by κ and contact stiffness",
-    )
+    axes.set(yscale="log", xlabel="iteration", ylabel="residual (Eq. 29) [1]")
     return style.label_ends(axes, 6.5)
 
 
@@ -295,7 +337,9 @@ def draw_conditions(axes, rows):
             color=style.COLOURS[number],
             label=words,
         )
-    axes.set_yticks(places, [row["activation"].replace(", ", ",\n") for row in shown], fontsize=6.5)
+    axes.set_yticks(places, [short(row["activation"]) for row in shown], fontsize=6.5)
+    left = axes.get_position()
+    axes.set_position([left.x0 + 0.07, left.y0, left.width - 0.07, left.height])  # for the names
     axes.invert_yaxis()
     largest = max((float(row["condition_number_at_end [1]"]) for row in shown), default=1)
     axes.set(xscale="log", xlim=(1, 3 * largest), xlabel="condition number [1]", title="Newton's last matrix")
@@ -326,18 +370,20 @@ def below(results, rows, scale):
     return words + (f"; not run: {'; '.join(left_out)}" if left_out else "")
 
 
-def draw(results, panels, rows, scale, out):
+def draw(results, panels, rows, kept, scale, out):
+    """Draws the page. `kept`: the rows of fig21_curves.csv."""
     style.use()
     step = STEPS[scale]
-    figure, axes = style.page([style.pictures(3, SIZE), (2.7, [(0.5, "plot")] * 2), (2.7, [(0.5, "plot")] * 2)], TITLE,
+    figure, axes = style.page([style.pictures(4, SIZE), (2.7, [(0.5, "plot")] * 2), (2.7, [(0.5, "plot")] * 2)], TITLE,
                               below(results, rows, scale))
-    apart = draw_states(axes[0], results)
+    far = draw_states(axes[0], results)
     draw_convergence(axes[1][0], results, step)
     draw_forces(axes[1][1], panels["force"])
-    draw_by_ratio(axes[2][0], results, step)
+    draw_by_ratio(axes[2][0], kept, step)
     draw_conditions(axes[2][1], rows)
     runs = [run for found in results.values() for run in found.all]
-    style.save(figure, out, TITLE, ALT.format(apart=f"{1e3 * apart:.2g}"), source_of(runs))
+    style.save(figure, out, TITLE, ALT.format(*(f"{1e3 * value:.2g}" for value in (np.median(far), far.max()))),
+               source_of(runs))
 
 
 def main(folder, ogc, scale="small", backend="cpu", without=()):
@@ -360,8 +406,16 @@ def main(folder, ogc, scale="small", backend="cpu", without=()):
     )
     write_table(folder / "fig21_forces.csv", list(contact_forces.table(states)))
     write_table(folder / "fig21_ratios.csv", ratio_rows(panels["ratio"]))
-    draw(results, panels, rows, scale, folder / "fig21.png")
+    kept = curve_rows(results, STEPS[scale])
+    write_table(folder / "fig21_curves.csv", kept)
+    draw(results, panels, rows, kept, scale, folder / "fig21.png")
     return folder / "fig21.png"
+
+
+def rows_of(path):
+    """Returns the rows of a CSV file."""
+    with path.open(newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
 
 
 def drawn_as_made(arguments):
@@ -378,9 +432,11 @@ def drawn_as_made(arguments):
     results = {v: solved for v, solved in found.items() if solved.run}
     if not set(PAPER) <= set(results):
         raise RunError(f"{folder} lacks the runs of the paper's two energies; leave --made out, and they are made")
-    with Path(arguments.made).open(newline="") as file:
-        rows = [row for row in csv.DictReader(file) if row["status"] != NOT_RUN]
-    draw(results, curves(folder, arguments.ogc), rows, scale, folder / "fig21.png")
+    made = Path(arguments.made)
+    rows = [row for row in rows_of(made) if row["status"] != NOT_RUN]
+    kept = made.with_name(made.name.replace("fig21", "fig21_curves"))
+    draw(results, curves(folder, arguments.ogc), rows, rows_of(kept) if kept.is_file() else curve_rows(results,
+         STEPS[scale]), scale, folder / "fig21.png")
     return folder / "fig21.png"
 
 

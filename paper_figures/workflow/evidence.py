@@ -13,6 +13,7 @@ import csv
 import gzip
 import json
 import math
+import re
 import statistics
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -101,6 +102,12 @@ def membranes_of(manifest):
     with different materials."""
     return {body["material"]["membrane"] for body in manifest["scene"]["bodies"] if not is_driven(body)
             and body.get("triangle_count") and not body.get("tetrahedron_count")}
+
+
+def command_of(manifest):
+    """Returns the command of a run as text; of its paths the last part."""
+    command = manifest["command"] if isinstance(manifest["command"], str) else " ".join(manifest["command"])
+    return "ogc " + re.sub(r"(?<= )/\S*/", "", command.partition(" ")[2])
 
 
 def contact_of(body):
@@ -487,6 +494,8 @@ def _count(scene, moving, what):
 
 def _statistic(run, spec):
     names = spec["steps"] if isinstance(spec["steps"], list) else [spec["steps"]]
+    if spec["statistic"] == "last":
+        return sum(run.course(name)[1][-1] for name in names)
     mean = sum(run.mean(name) for name in names)
     kind = spec["statistic"]
     if kind in ("max", "max over mean"):

@@ -97,13 +97,17 @@ def last_step(run):
     return int(last)
 
 
-def frame_of(run, place):
+def frame_of(run, place, read=True):
     """Returns (path, step) of a run's frame: a place in their order, a Step or a Share. Throws RunFailure if it is
-    missing."""
+    missing. `read=False`: it may be missing; the last one of a run follows from its rows."""
     if isinstance(place, Share):
         last = last_step(run)
         place = Step(last if place.percent == 100
                      else last * place.percent // 100 // place.frame_steps * place.frame_steps)
+    if place == -1 and not read:
+        place = Step(last_step(run))
+    if isinstance(place, Step) and not read:
+        return run / f"frames/frame_{place.number:06d}.h5", place.number
     frames = sorted((run / "frames").glob("frame_*.h5"))
     if isinstance(place, Step):
         frames, place = [frame for frame in frames if frame.stem == f"frame_{place.number:06d}"], 0
@@ -135,12 +139,12 @@ class Job:
     seconds: float = 0
     least: int = 0
 
-    def words(self, root):
-        """Returns the words after the program's name. Throws RunFailure if the state with which it begins is
-        missing."""
+    def words(self, root, read=True):
+        """Returns the words after the program's name. Throws RunFailure if the state with which it begins is missing;
+        `read=False` as in frame_of."""
         words = ["run", *([str(root / self.scene.path)] if self.scene else []), *map(str, self.arguments)]
         if self.state:
-            frame, step = frame_of(root / self.state[0], self.state[1])
+            frame, step = frame_of(root / self.state[0], self.state[1], read)
             words += ["--from-state", str(frame)]
             words += ["--steps", str(step + self.more_steps)] if self.more_steps else []
         return [*words, "--out", str(root / self.name)]
@@ -150,11 +154,12 @@ class Job:
         return ("--backend", "cuda") in zip(self.arguments, self.arguments[1:])
 
     def done(self, root):
-        """Returns whether the folder holds the run of this command by this program, at its end."""
+        """Returns whether the folder holds the run of this command by this program, at its end. The state with which it
+        began may be missing: packed runs have few frames."""
         status = manifest_of(root / self.name).get("status", "")
         ended = status == "finished" or self.may_fail and status.startswith("failed")
         ended = ended or bool(status) and (root / self.name / ENDED_BY_TIME).is_file()
-        return ended and same_command(root / self.name, self.words(root))
+        return ended and same_command(root / self.name, self.words(root, read=False))
 
     def make(self, program, root, limit=Limit(), shown=False):
         """Makes or continues the run. `shown`: with its progress on the screen."""

@@ -24,7 +24,7 @@ from paper_figures.site.documents import Documents, documents_of_site
 from paper_figures.site.files import MOVIE, Files
 from paper_figures.site.origins import Origins, seconds_between
 from paper_figures.workflow import recipes, verdicts
-from paper_figures.workflow.evidence import MEMBRANES, RESULTS, ROOM, Evidence, EvidenceError
+from paper_figures.workflow.evidence import MEMBRANES, RESULTS, ROOM, Evidence, EvidenceError, command_of
 from plots.progress import Progress
 
 SITE = ROOM / "site"
@@ -105,7 +105,7 @@ def templates():
     """Returns the environment of the templates; a name that a template misspells is an error."""
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(SITE / "templates"), autoescape=True,
                                      undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True)
-    environment.filters["slug"] = words.slug
+    environment.filters.update(slug=words.slug, command=command_of)
     return environment
 
 

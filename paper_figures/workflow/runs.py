@@ -2,13 +2,12 @@
 is."""
 
 import csv
-import re
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from paper_figures.workflow.evidence import membranes_of
+from paper_figures.workflow.evidence import command_of, membranes_of
 from paper_figures.workflow.jobs import Job, RunFailure
 from ogc_testbed.columns import column_and_unit
 from ogc_testbed.runs import Run, RunError
@@ -48,14 +47,12 @@ def iterations(run, step):
 
 
 def provenance(run):
-    """Returns the provenance that a row of an accepted result must have. Of paths in the command the last part is
-    kept."""
+    """Returns the provenance that a row of an accepted result must have."""
     m = run.manifest
-    command = m["command"] if isinstance(m["command"], str) else " ".join(m["command"])
     return {"solver": m["solver"], "backend": m["backend"], "device": m["device"],
             "commit": m["commit"][:10] + (" (dirty)" if m.get("dirty") else ""),
             "membrane": " and ".join(sorted(membranes_of(m))),
-            "command": "ogc " + re.sub(r"(?<= )/\S*/", "", command.partition(" ")[2])}
+            "command": command_of(m)}
 
 
 def write_table(path, rows):

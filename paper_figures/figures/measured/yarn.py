@@ -36,6 +36,11 @@ AT_REST = 0.01  # m/s: a cloth with a smaller root mean square speed is at rest
 FALLEN = 2.0  # m: what is farther than this from the middle has come off and is not waited for
 SIZE = {commands.STRETCH: (800, 400), commands.YARN_TWIST: (560, 720)}
 NEAR_SIZE, NEAR_REACH = (960, 480), 0.05
+REST_SIZE = (800, 800)
+AT_REST_SHOWN = {"released": "OGC, let go and braked", "released_frictionless": "the same, then without friction",
+                 "hanging": "OGC, braked, never twisted"}
+AT_REST_ALT = (" Three more renderings show the cloth after it was let go and braked, with friction and without, and a "
+               "cloth that was never twisted.")
 NEAR_VIEW = {commands.STRETCH: View((0.25, 1.0, 0.0), up=(1, 0, 0)), commands.YARN_TWIST: View((0.25, 0.1, 1.0))}
 PAPER_MS = {commands.STRETCH: "0.23 / 0.30", commands.YARN_TWIST: "0.25 / 0.33"}
 TITLES = {commands.STRETCH: "Fig. 15. Pulled apart, the knit holds with OGC and unravels with a penalty force",
@@ -261,26 +266,52 @@ def draw_tension(axes, runs, rows):
     style.label_ends(axes)
 
 
+def met_in_words(row):
+    """Returns the number of meetings of a row; a dash where no step was asked."""
+    return "–" if row["meetings [1]"] == "" else str(row["meetings [1]"])
+
+
 def draw_rows(axes, scene, rows):
     """Draws the table's numbers: meetings, tension at the first one, and for twisted cloths how far they end."""
     axes.axis("off")
     short = lambda text: f"{float(text):.3g}" if text not in ("", None) else "–"  # noqa: E731
     if scene == commands.STRETCH:
         head = ["", "k_c [N/m]", "pull-throughs", "of steps", "tension / k_c r at the first"]
-        body = [[KINDS[row["kind"]], row["k_c [N/m]"], row["meetings [1]"] or "0", row["steps asked [1]"],
+        body = [[KINDS[row["kind"]], row["k_c [N/m]"], met_in_words(row), row["steps asked [1]"],
                  short(row["tension over k_c r [1]"])] for row in rows]
     else:
         head = ["", "pull-throughs", "of steps", "from the hanging cloth, median [m]"]
         apart = ("distance, median [m]", "distance while it moves, median [m]")
-        body = [[KINDS[row["kind"]] + (", let go" if "released" in row["run"] else ""), str(row["meetings [1]"] or "–"),
+        body = [[KINDS[row["kind"]] + (", let go" if "released" in row["run"] else ""), met_in_words(row),
                  str(row["steps asked [1]"]),
                  short(row[apart[0]] or row[apart[1]]) if "released" in row["run"] else "–"]
                 for row in rows if row["run"] != "hanging"]
     style.table(axes, head, body)
 
 
-def draw(scene, runs, rows, out):
-    """Draws pictures of our run and of the baseline, both from near, the tension, and the numbers of the table."""
+def at_rest_of(folder):
+    """Returns [(run, words)] of the cloths of Fig. 16 that were braked, from the folder of fig16_rest; none without
+    one. Throws RunError if one is missing."""
+    if not folder:
+        return []
+    found = [(Run(Path(folder) / name), words) for name, words in AT_REST_SHOWN.items()]
+    lacking = [run.folder.name for run, _ in found if not run.frames]
+    if lacking:
+        raise RunError(f"{folder} has no states of {', '.join(lacking)}; make fig16_rest, or leave --rest out")
+    return found
+
+
+def draw_at_rest(axes, scene, found):
+    """Draws the last states of braked cloths, all by one camera."""
+    frames = [run.frame(run.frames[-1]) for run, _ in found]
+    camera = view_of(scene).fit(np.concatenate([frame.positions for frame in frames]).astype(float), REST_SIZE)
+    for place, (run, words), frame in zip(axes, found, frames):
+        show(place, run, frame, camera, words, REST_SIZE)
+
+
+def draw(scene, runs, rows, out, rested=()):
+    """Draws pictures of our run and of the baseline, both from near, the tension, and the numbers of the table.
+    `rested`: runs and words of more cloths, whose last states are shown (at_rest_of)."""
     style.use()
     ours = runs[main_runs(scene)["ogc"]]
     pictures = {kind: moments(scene, runs, kind) for kind in KINDS}
@@ -291,7 +322,7 @@ def draw(scene, runs, rows, out):
              f"paper {PAPER_MS[scene]} (RTX 4090); “penalty” (the paper's Newton): the same sweep with a "
              "quadratic force, no bounds")
     page = [*[style.pictures(count, SIZE[scene])] * 2, style.pictures(2, NEAR_SIZE),
-            (2.5, [(0.5, "plot"), (0.5, "picture")])]
+            (2.5, [(0.5, "plot"), (0.5, "picture")]), *([style.pictures(len(rested), REST_SIZE)] if rested else [])]
     figure, axes = style.page(page, TITLES[scene], below)
     for row, (kind, found) in zip(axes, pictures.items()):
         draw_pictures(row, scene, found, KINDS[kind])
@@ -300,7 +331,10 @@ def draw(scene, runs, rows, out):
         draw_near(place, scene, run, frame, f"{KINDS[kind]}, {moment(frame)}, from near")
     draw_tension(axes[3][0], runs, rows)
     draw_rows(axes[3][1], scene, rows)
-    style.save(figure, out, TITLES[scene], ALTS[scene], source_of([runs[name] for name in main_runs(scene).values()]))
+    if rested:
+        draw_at_rest(axes[4], scene, rested)
+    alt = ALTS[scene] + (AT_REST_ALT if rested else "")
+    style.save(figure, out, TITLES[scene], alt, source_of([runs[name] for name in main_runs(scene).values()]))
 
 
 def arguments():
@@ -312,6 +346,7 @@ def arguments():
     parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"), help="of all runs")
     parser.add_argument("--made", action="store_true", help="draw the runs that there are, and make none")
     parser.add_argument("--rows", metavar="CSV", help="kept table, whose numbers are shown, not those of the runs")
+    parser.add_argument("--rest", metavar="FOLDER", help="runs of fig16_rest, whose last states are shown, too")
     parser.add_argument("--movie", help="MP4 to write instead, of our finished run")
     return parser.parse_args()
 
@@ -324,10 +359,10 @@ def make(options):
     runs = runs_of(options)
     if options.rows:
         with open(options.rows, newline="", encoding="utf-8") as file:
-            return draw(scene, runs, list(csv.DictReader(file)), folder / PICTURES[scene])
+            return draw(scene, runs, list(csv.DictReader(file)), folder / PICTURES[scene], at_rest_of(options.rest))
     rows = table(runs, far(runs) if scene == commands.YARN_TWIST else {})
     write_table(folder / f"{FIGURE[scene]}.csv", rows)
-    return draw(scene, runs, rows, folder / PICTURES[scene])
+    return draw(scene, runs, rows, folder / PICTURES[scene], at_rest_of(options.rest))
 
 
 if __name__ == "__main__":

@@ -25,7 +25,7 @@ try:
     from paper_figures.workflow import commands, release
     from paper_figures.workflow.first_meeting import FirstMeeting, met_at
     from paper_figures.workflow.jobs import FINISHED, KEPT
-    from ogc_testbed.runs import Frame, Run
+    from ogc_testbed.runs import Frame, Run, RunError
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
@@ -82,6 +82,13 @@ class Known(unittest.TestCase):
         self.assertEqual([silent[name] for name in ("kind", "meetings [1]", "tension over k_c r [1]")], ["ogc", "", ""])
         kept = yarn.row_of("b", made_up(self.folder / "b", [0, 0], [0.1, 0.2]))
         self.assertEqual([kept[name] for name in ("meetings [1]", "first meeting at step")], [0, ""])
+        self.assertEqual([yarn.met_in_words(row) for row in (silent, kept)], ["–", "0"])
+
+    def test_cloths_at_rest_that_were_not_made_are_named(self):
+        made_up(self.folder / "released", [0], [0.1])
+        with self.assertRaisesRegex(RunError, "run.json|no states of"):
+            yarn.at_rest_of(self.folder)
+        self.assertEqual(yarn.at_rest_of(""), [])
 
     def test_every_run_of_a_figure_has_a_name_of_its_own_and_the_claims_find_theirs(self):
         for scale in ("smoke", "paper"):

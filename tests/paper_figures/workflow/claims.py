@@ -81,7 +81,9 @@ class Kinds(unittest.TestCase):
             whole = run.manifest["whole_run"]
             changed = {kind: {name: 3 * value + 1 for name, value in whole[kind].items()}
                        for kind in ("mean", "largest")}
-            other.thinned = Hundreds(run.columns.texts, {**whole, **changed})
+            texts = {name: cells if name in ("of", "rows") else [str(3 * float(cell or "nan") + 1) for cell in cells]
+                     for name, cells in run.columns.texts.items()}
+            other.thinned = Hundreds(texts, {**whole, **changed})
         else:
             other.columns = {name: [3 * value + 1 for value in run.column(name)] for name in run.columns}
         return other

@@ -401,7 +401,8 @@ class JustMade(unittest.TestCase):
             run = self.runs / f"{'fig18' if scale == 'paper' else 'fig11'}-{scale}-cuda/run"
             run.mkdir(parents=True)
             manifest = manifest_at(RESULTS / "h200/sphere_cuda_run.json")
-            manifest.update(scale=scale, dirty=True, scene={**manifest["scene"], "name": scene})
+            manifest.update(scale=scale, dirty=True, scene={**manifest["scene"], "name": scene},
+                            command=f"/of/a/machine/ogc run {scene} --out /of/a/machine/runs/run")
             (run / "run.json").write_text(json.dumps(manifest))
             (run / "steps.csv").write_bytes((RESULTS / "h200/sphere_cuda_steps.csv").read_bytes())
         picture = self.runs / "fig18-paper-cuda/fig18.png"
@@ -431,6 +432,8 @@ class JustMade(unittest.TestCase):
         self.assertIn("Made in this reproduction", page.words)
         page = Page(site.scene("cloth_on_sphere"))
         self.assertEqual(page.words.count("Just made:"), 1)
+        self.assertIn("ogc run cloth_on_sphere --out run", page.words)
+        self.assertNotIn("/of/a/machine", page.words)
         self.assertIn("with uncommitted changes", page.words)
         self.assertIn("2 runs that were just made, asked for at scale paper on the GPU", Page(site.index()).words)
 

@@ -150,6 +150,19 @@ class OneJob(Scratch):
         window = Job("window", SPHERE, ("run", jobs.Share(50, 2)), more_steps=1)
         self.assertEqual(window.make(OGC, home), FINISHED)
 
+    def test_a_packed_run_is_done_without_the_frame_with_which_it_began(self):
+        whole = Job("run", (*SPHERE, "--steps", "6", "--set", "frame_steps=2"))
+        self.assertEqual(self.make(whole), FINISHED)
+        windows = [Job(f"window_{number}", SPHERE, ("run", place), more_steps=1)
+                   for number, place in enumerate((Step(4), jobs.Share(50, 2), -1))]
+        self.assertEqual([self.make(window) for window in windows], [FINISHED] * 3)
+        packed, home = self.folder / "packed", self.folder / "home"
+        packing.Archive(packed, self.folder).write({"part": parts.Part(".", ((whole, *windows),), frames=0)})
+        packing.unpack(packed, home, OGC)
+        self.assertFalse((home / "run/frames").exists())
+        self.assertEqual([window.done(home) for window in windows], [True] * 3)
+        self.assertFalse(Job("window_0", SPHERE, ("run", Step(2)), more_steps=1).done(home))
+
     def test_a_failure_has_its_command_and_last_words(self):
         with self.assertRaisesRegex(jobs.RunFailure, "(?s)run no_scene .*exit status 2.*no_scene"):
             self.make(Job("run", ("no_scene",)))
