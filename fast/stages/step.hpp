@@ -391,7 +391,7 @@ class Step {
                                     .segments = rods_.count(),
                                     .left = measures ? left_forces_.totals() : nullptr,
                                     .free_vertices = sweep_.slots(),
-                                    .room = detection_.room()});
+                                    .room = parts_.is_one_of_several() ? ListRoom{} : detection_.room()});
   }
 
   /// Checks the certificate, and adds the terms of `sums` and the terms of rods.
