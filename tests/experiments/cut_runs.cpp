@@ -77,7 +77,7 @@ void check_same_run(const fs::path& whole, const fs::path& resumed) {
 Cuts run_with_cuts(const std::string& command, const fs::path& run, const std::string& signal, double seconds,
                    unsigned seed) {
   std::mt19937 random(seed);
-  std::uniform_real_distribution<double> moment(0.1 * seconds, 0.6 * seconds);
+  std::uniform_real_distribution<double> share(0.1, 0.6);
   Cuts cuts;
   std::string arguments = command + " --out " + run.string();
   for (int attempt = 0; attempt < 40; ++attempt) {
@@ -85,7 +85,7 @@ Cuts run_with_cuts(const std::string& command, const fs::path& run, const std::s
     // possibly before the run releases its lock.
     const std::string before = cuts.in_time < 3 && cuts.killed < 20
                                    ? "timeout --foreground --preserve-status -s " + signal + " " +
-                                         std::to_string(moment(random)) + " "
+                                         std::to_string(share(random) * seconds) + " "
                                    : "";
     const ProgramResult result = run_ogc("run " + arguments, before);
     // The signal may reach a run after its last step was written. Only the trajectory is missing then, and `ogc export`
@@ -93,7 +93,8 @@ Cuts run_with_cuts(const std::string& command, const fs::path& run, const std::s
     if (result.status == 0 || is_finished(run)) {
       if (result.status != 0) REQUIRE(run_ogc("export " + run.string()).status == 0);
       if (cuts.in_time > 0) break;
-      fs::remove_all(run);  // no signal came in time; try again
+      fs::remove_all(run);  // no signal came in time; try again, sooner: the whole run may have waited for a processor
+      seconds *= 0.7;
       continue;
     }
     INFO(result.err);
