@@ -13,7 +13,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 
 #include "fast/kernels/control.hpp"
 #include "fast/kernels/lists.hpp"
@@ -30,8 +29,7 @@ struct alignas(16) PartMessage {
 
 /// Arrays of a part which the others read or write.
 struct PartArrays {
-  PaddedVec* padded = nullptr;  ///< StepState::padded
-  Vec *position = nullptr, *taken = nullptr;
+  Vec *position = nullptr, *taken = nullptr;                                        ///< those of StepState
   LeftForce* left = nullptr;                                                        ///< by slot
   float *d_min_vertex = nullptr, *d_min_edge = nullptr, *d_min_triangle = nullptr;  ///< of a detection [m]
   const RawContact* found = nullptr;  ///< contacts of the part's own searches
@@ -47,7 +45,6 @@ struct PartsView {
   const std::uint32_t* meetings = nullptr;  ///< number of meetings so far
   int slots = 0;                            ///< number of free vertices
 
-  OGC_HD bool is_own(int v) const { return begin[own] <= v && v < begin[own + 1]; }
   /// Returns the part that has a vertex.
   OGC_HD int part_of(int v) const {
     int p = 0;

@@ -74,8 +74,6 @@ class Parts {
   /// Returns the own slots of a colour.
   Range slots(int colour) const { return slots_[static_cast<std::size_t>(colour)]; }
 
-  int colours() const { return static_cast<int>(slots_.size()); }
-
   /// Host only, outside a step: makes room for the contacts of a detection.
   void reserve(int contacts) {
     if (hall_ != nullptr) found_.resize(static_cast<std::size_t>(contacts));
@@ -117,7 +115,7 @@ class Parts {
       const Range slots = this->slots(colour);
       PaddedVec* fresh = sweep.old + sweep.to_fresh;
       const SendColour send{view(), sweep.vertices, slots.begin, fresh, sweep.turn, sweep.iteration};
-      if (colour + 1 < colours()) {
+      if (colour + 1 < static_cast<int>(slots_.size())) {
         backend_.meet(slots.count(), send, Nothing{});
       } else {
         const Beside<SendColour, SendCounts> both{slots.count(), send, 1, {view(), sweep.control}};

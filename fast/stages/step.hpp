@@ -108,8 +108,7 @@ class Step {
 
   /// Adds the arrays that other parts read or write.
   void publish(PartArrays& arrays) {
-    arrays.padded = state_.padded.data(), arrays.position = state_.position.data(), arrays.taken = state_.taken.data();
-    arrays.left = left_forces_.left();
+    arrays.position = state_.position.data(), arrays.taken = state_.taken.data(), arrays.left = left_forces_.left();
   }
 
   /// Returns r plus the contact margin [m].

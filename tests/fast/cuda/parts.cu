@@ -11,12 +11,13 @@ using namespace ogc::fast::test;
 
 namespace {
 
-/// Returns the numbers of devices to try: 2, 4, … as far as the machine has them.
+/// Returns the numbers of devices to try: 2, 4, … as far as the machine has them. Warns if it has only one.
 std::vector<int> numbers_of_devices() {
   int all = 0;
   if (cudaGetDeviceCount(&all) != cudaSuccess) all = 0;
   std::vector<int> numbers;
   for (int n = 2; n <= all; n *= 2) numbers.push_back(n);
+  if (numbers.empty()) WARN("nothing is compared: this machine shows one device");
   return numbers;
 }
 
