@@ -221,15 +221,5 @@ class OfHistory(unittest.TestCase):
             self.assertEqual(len(contents.of_head()), 4)
 
 
-class Release(unittest.TestCase):
-    def test_one_with_an_old_file_is_refused(self):
-        if not in_repository():
-            self.skipTest("no git repository")
-        said = subprocess.run([sys.executable, "-m", "paper_figures.workflow.contents", "--release"], cwd=SOURCE,
-                              capture_output=True, text=True, check=False)
-        self.assertEqual(said.returncode, 1 if contents.old() else 0, said.stderr)
-        self.assertIn(contents.in_words(), said.stdout)
-
-
 if __name__ == "__main__":
     unittest.main()
