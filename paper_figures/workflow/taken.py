@@ -258,10 +258,9 @@ def measured(runs):
 KINDS = {each.__name__: each for each in (rows, windows, judge, determinism, laws, jittered, ablations, measured)}
 
 
-def keep(machine, runs, found, results=None):
+def keep(machine, runs, found, results):
     """Writes (name, bytes, words about them) and their rows of provenance.csv, in place of those of the same figure,
     scale and backend; returns the names."""
-    results = results or RESULTS
     folder, entries, drawn = results / machine, [], {}
     for name, data, words in found:
         path, picture = folder / name, words.pop(DRAWN, None)
@@ -293,6 +292,7 @@ def main():
     parser.add_argument("kinds", nargs="*", metavar="KIND", help=f"{', '.join(KINDS)} (default: all)")
     parser.add_argument("--scale", default="paper", choices=("smoke", "small", "paper"))
     parser.add_argument("--backend", default="cuda", choices=("cpu", "cuda"))
+    parser.add_argument("--results", default=RESULTS, type=Path, help="where to (default: paper_figures/results)")
     parser.add_argument("--partly", action="store_true", help="also a table of which parts are missing")
     options = parser.parse_args()
     for kind in options.kinds:
@@ -303,7 +303,7 @@ def main():
     runs, failed = Runs(options.runs, options.scale, options.backend, options.partly), False
     for kind in options.kinds or KINDS:
         try:
-            names = keep(options.machine, runs, list(KINDS[kind](runs)))
+            names = keep(options.machine, runs, list(KINDS[kind](runs)), options.results)
             print(f"{kind}: {len(names)} files")
         except Missing as error:
             print(f"not taken: {error}", file=sys.stderr)
@@ -312,7 +312,7 @@ def main():
             print(f"not taken: {kind}: {error}", file=sys.stderr)
             failed = True
     try:
-        contents.write()
+        contents.write(options.results)
     except contents.ContentsError as error:
         print(f"results/contents.csv is as it was: {error}", file=sys.stderr)
     print("next: python3 -m paper_figures.workflow.whole_runs MACHINE --write, then verdicts, contents and "
