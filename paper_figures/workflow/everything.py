@@ -16,6 +16,9 @@ them; "–" where nobody measured. Python's own library is enough, except for th
 where that is missing, --studies names the file that --write-studies wrote elsewhere. Drawings and measured studies need
 the project's Python environment; where NumPy is missing they are left out, which is said.
 
+What is finished becomes results by `python3 -m paper_figures.workflow.taken MACHINE RUNS`, and figures by
+`experiments/reproduce FIGURE … --unpack PACKED --accept MACHINE`.
+
 Exit status: 0 all is finished, 1 a part failed (the others were made), 2 wrong words, 75 the limit came first.
 
 Examples:
