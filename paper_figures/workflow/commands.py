@@ -24,6 +24,7 @@ THREE_CLOTHS_OTHERS = {"paper": (25, 41)}  # for these the start stores the stat
 # The paper draws 500 and 50.
 THREE_CLOTHS_ITERATIONS = {"smoke": {"vbd": 500, "newton": 50}, "small": {"vbd": 1000, "newton": 150},
                            "paper": {"vbd": 1000, "newton": 150}}
+REPEATS = 5  # of a step whose time is measured, after a first one that warms up
 ANY = ("--set", "detection_fraction=0")
 SLOW = ("--set", "friction_velocity=1e-4")
 PLANES, PAIRS = ("--set", "bounds=planes"), ("--set", "newton_truncation=pair")  # how Newton's step is truncated
@@ -87,12 +88,13 @@ def three_cloths(scale, backends, start_iterations=None):
     variants = (("", ()), ("_any", ANY))
     slow = ("_any_slow", (*ANY, *SLOW))
     with_slow = (*variants, *([] if scale == "smoke" else [slow]))
-    single = [Job(f"vbd_{backend}{suffix}", (*solve, "--backend", backend, *vbd, *more), state) for backend in backends
-              for suffix, more in (with_slow if backend == backends[-1] else variants)]
+    timed = ("--repeats", REPEATS)
+    single = [Job(f"vbd_{backend}{suffix}", (*solve, *timed, "--backend", backend, *vbd, *more), state)
+              for backend in backends for suffix, more in (with_slow if backend == backends[-1] else variants)]
     others = [(other, ("start", Step(other - 1))) for other in THREE_CLOTHS_OTHERS.get(scale, ())]
     again = (*base, "--iterations", "--profile")
     single += [Job(f"vbd_{backends[-1]}_any_at_{other}",
-                   (*again, "--backend", backends[-1], *vbd, *ANY, "--steps", other), begin)
+                   (*again, *timed, "--backend", backends[-1], *vbd, *ANY, "--steps", other), begin)
                for other, begin in others]
     bounds = [] if scale == "smoke" else [("_any_planes", (*ANY, *PLANES)), ("_any_pairs", (*ANY, *PAIRS))]
     narrow = [("_any_pairs_narrow", (*ANY, *PAIRS, *NARROW))] if others else []

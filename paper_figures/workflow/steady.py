@@ -24,7 +24,7 @@ from paper_figures.workflow.jobs import KEPT, Job, Limit, RunFailure, manifest_o
 
 TIME, STEP = "wall [ms]", "step [1]"
 ROW, STEPS = "steady.csv", "step_medians.csv.gz"  # beside the repetitions
-COLUMNS = ("variant", "row", "scene", "scale", "bounds", "body_contact", "membrane", "runs", "steps",
+COLUMNS = ("variant", "row", "choice", "scene", "scale", "bounds", "body_contact", "membrane", "runs", "steps",
            "mean of medians [ms]", "largest median [ms]", "largest median over mean [1]",
            "largest over mean of one run, least [1]", "largest over mean of one run, most [1]", "detections a step",
            "final state", "solver", "backend", "device", "commit", "ended", "command")
@@ -42,13 +42,14 @@ class Timed(Job):
 
 @dataclass(frozen=True)
 class Repeated:
-    """Describes a whole run that is repeated `runs` times. `row`: of Table 1; `options`: what differs from it; `scene`
-    as in Job."""
+    """Describes a whole run that is repeated `runs` times. `row`: of Table 1; `options`: what differs from it, and
+    `choice`: the same in words, unless it is the membrane, which has a column; `scene` as in Job."""
 
     row: str
     runs: int = 5
     suffix: str = ""
     options: tuple = ()
+    choice: str = ""
     scene: object = None
 
     @property
@@ -147,7 +148,7 @@ def about(repeated, scale, manifests):
     """Returns the cells that say what was run."""
     first, scene = manifests[0], manifests[0]["scene"]
     words = first["command"].split()
-    return {"variant": repeated.name, "row": repeated.row, "scene": scene["name"], "scale": scale,
+    return {"variant": repeated.name, "row": repeated.row, "choice": repeated.choice, "scene": scene["name"], "scale": scale,
             "bounds": first["settings"]["bounds"]["value"],
             "body_contact": "volume" if "volume" in map(contact_of, scene["bodies"]) else "surface",
             "membrane": " and ".join(sorted(membranes_of(first))), "final state": first["final_hash"],

@@ -27,7 +27,7 @@ from paper_figures.workflow.steady import Repeated, as_csv, rows_in, write_chang
 
 ST_VENANT, THREE_CLOTHS = commands.ST_VENANT, commands.THREE_CLOTHS
 STEADY, FIG17, FIG02 = "steady", "fig17_varied", "fig02_varied"  # folders of runs
-REPEATS = 5  # of a step whose time is measured, after a first one that warms up
+REPEATS = commands.REPEATS
 PRINTED_AT = {"smoke": (10, 20), "small": (10, 20, 30, 40), "paper": (10, 20, 30, 40, 50, 60, 70)}  # steps of Fig. 17
 ROUNDS = (16, 1)  # of the guess loop: the scene's at most, and Eq. 28 as printed
 THICKER = 2  # times
@@ -82,10 +82,10 @@ def repeated(scale, backend):
     million = replace(million, runs=3)
     other = lambda row: replace(row, suffix="_st_venant", options=ST_VENANT)  # noqa: E731
     return (*map(Repeated, ("cloth_on_sphere", "yarn_twist", "yarn_stretch", "twist")), shirt, other(shirt), dress,
-            other(dress), replace(dress, suffix="_shallow", options=("--set", "detection_deep=0")),
+            other(dress), replace(dress, suffix="_shallow", options=("--set", "detection_deep=0"), choice="detection_deep=0"),
             Repeated("fifty_layers", runs=3), mat,
-            replace(mat, suffix="_poisson", options=("--set", "solid_poisson=0.49"), runs=3),
-            replace(mat, suffix="_thicker", scene=Thicker(scale, THICKER), runs=3), Repeated("knot"), million,
+            replace(mat, suffix="_poisson", options=("--set", "solid_poisson=0.49"), runs=3, choice="ν = 0.49"),
+            replace(mat, suffix="_thicker", scene=Thicker(scale, THICKER), runs=3, choice="twice as thick"), Repeated("knot"), million,
             other(million))
 
 
@@ -230,6 +230,8 @@ def other_membrane_by_newton(scale, backend):
     return (before, *jobs, Table("fig17_newton_membrane", jobs, curve))
 
 
+FIG17_TABLES = {"fig17_share": "fig17_share", "fig17_printed": "fig17_printed", "fig17_membrane": "fig17_membrane",
+                "fig17_newton_membrane": "fig17_membrane_newton"}  # table -> part
 FIG17_PARTS = {"fig17_share": shares, "fig17_printed": printed, "fig17_membrane": other_membrane,
                "fig17_membrane_newton": other_membrane_by_newton}
 
