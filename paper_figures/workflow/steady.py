@@ -148,7 +148,8 @@ def about(repeated, scale, manifests):
     """Returns the cells that say what was run."""
     first, scene = manifests[0], manifests[0]["scene"]
     words = first["command"].split()
-    return {"variant": repeated.name, "row": repeated.row, "choice": repeated.choice, "scene": scene["name"], "scale": scale,
+    return {"variant": repeated.name, "row": repeated.row, "choice": repeated.choice,
+            "scene": scene["name"], "scale": scale,
             "bounds": first["settings"]["bounds"]["value"],
             "body_contact": "volume" if "volume" in map(contact_of, scene["bodies"]) else "surface",
             "membrane": " and ".join(sorted(membranes_of(first))), "final state": first["final_hash"],

@@ -1,6 +1,7 @@
 """Takes what experiments/evidence made, and no figure keeps, into results/MACHINE: the whole runs of Table 1's rows
 with their audits, windows on the processors, the judge's counts and digests, the laws, jittered starts, the ablations,
-the measured studies, repeated runs, and steps of Fig. 17 with one choice varied. Each file has a row in provenance.csv with the command that makes it again.
+the measured studies, repeated runs, and steps of Fig. 17 with one choice varied. Each file has a row in provenance.csv
+with the command that makes it again.
 
 Figures are kept by `experiments/reproduce FIGURE … --unpack PACKED --accept MACHINE`, which draws them.
 
@@ -280,8 +281,8 @@ def solved_steps(runs):
                {"figure": part, "redo": f"{runs.redo} {part}", **words})
 
 
-KINDS = {each.__name__: each for each in (rows, windows, judge, determinism, laws, jittered, ablations, measured, steady,
-                                          solved_steps)}
+KINDS = {each.__name__: each for each in (rows, windows, judge, determinism, laws, jittered, ablations, measured,
+                                          steady, solved_steps)}
 
 
 def keep(machine, runs, found, results):

@@ -82,11 +82,12 @@ def repeated(scale, backend):
     million = replace(million, runs=3)
     other = lambda row: replace(row, suffix="_st_venant", options=ST_VENANT)  # noqa: E731
     return (*map(Repeated, ("cloth_on_sphere", "yarn_twist", "yarn_stretch", "twist")), shirt, other(shirt), dress,
-            other(dress), replace(dress, suffix="_shallow", options=("--set", "detection_deep=0"), choice="detection_deep=0"),
+            other(dress),
+            replace(dress, suffix="_shallow", options=("--set", "detection_deep=0"), choice="detection_deep=0"),
             Repeated("fifty_layers", runs=3), mat,
             replace(mat, suffix="_poisson", options=("--set", "solid_poisson=0.49"), runs=3, choice="ν = 0.49"),
-            replace(mat, suffix="_thicker", scene=Thicker(scale, THICKER), runs=3, choice="twice as thick"), Repeated("knot"), million,
-            other(million))
+            replace(mat, suffix="_thicker", scene=Thicker(scale, THICKER), runs=3, choice="twice as thick"),
+            Repeated("knot"), million, other(million))
 
 
 @dataclass(frozen=True)
@@ -144,8 +145,9 @@ def curve(folder):
     residuals."""
     (label, step), row = label_of(folder), rows_in(folder)[-1]
     found = iterations_in(folder, step)
-    smallest = lambda most: min(left for k, left in zip(found["iteration"], found["residual"]) if k <= most)  # noqa: E731
-    first = next((k for k, left in zip(found["iteration"], found["residual"]) if left <= 1e-4), math.nan)
+    lefts = list(zip(found["iteration"], found["residual"]))
+    smallest = lambda most: min(left for k, left in lefts if k <= most)  # noqa: E731
+    first = next((k for k, left in lefts if left <= 1e-4), math.nan)
     return {"curve": label, "step [1]": step, "iterations [1]": int(found["iteration"][-1]),
             **{f"smallest_residual{end} [1]": f"{smallest(most):.3g}"
                for end, most in (("", math.inf), ("_in_50", 50), ("_in_500", 500))},
@@ -223,8 +225,8 @@ def other_membrane_by_newton(scale, backend):
     each."""
     before, step = start(scale, backend, "st_venant", ST_VENANT), commands.THREE_CLOTHS_STEP[scale]
     count = commands.THREE_CLOTHS_ITERATIONS[scale]["newton"]
-    words = (THREE_CLOTHS, "--scale", scale, "--audit", "end", "--iterations", "--profile", *commands.NEWTON, *ST_VENANT,
-             "--set", f"newton_iterations={count}")
+    words = (THREE_CLOTHS, "--scale", scale, "--audit", "end", "--iterations", "--profile", *commands.NEWTON,
+             *ST_VENANT, "--set", f"newton_iterations={count}")
     jobs = tuple(Job(f"newton{end}_st_venant", (*words, *more, "--steps", step), (before.name, Step(step - 1)),
                      pictured=False) for end, more in (("", ()), ("_any", commands.ANY)))
     return (before, *jobs, Table("fig17_newton_membrane", jobs, curve))

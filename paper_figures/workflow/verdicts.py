@@ -188,8 +188,8 @@ def _own_ratio(claim, measured):
 
 def _other_choices(claim, varied):
     """Returns sentences about the measure with other choices where the paper leaves one open (`choices` of the claim:
-    `says`, and what differs in the measure, or a `measure` of its own), and about choices that no run made. This is no verdict, but a claim that
-    fails as printed may hold with another choice."""
+    `says`, and what differs in the measure, or a `measure` of its own), and about choices that no run made. This is no
+    verdict, but a claim that fails as printed may hold with another choice."""
     missing = [says for says, value in varied if value is None]
     made = [(says, value) for says, value in varied if value is not None and not math.isnan(value)]
     hits = [each for each in made if within(each[1], claim["value"], claim["band"])]

@@ -18,9 +18,8 @@ SOURCE, OGC = Path(sys.argv[1]).resolve(), str(Path(sys.argv[2]).resolve())
 del sys.argv[1:3]
 sys.path.insert(0, str(SOURCE))
 from paper_figures.workflow import parts, steady, taken, varied, yarn_cases  # noqa: E402
-from paper_figures.workflow.jobs import FINISHED, KEPT, RunFailure  # noqa: E402
+from paper_figures.workflow.jobs import FINISHED, KEPT, Limit, RunFailure  # noqa: E402
 from paper_figures.workflow.runner import Runner  # noqa: E402
-from paper_figures.workflow.jobs import Limit  # noqa: E402
 
 SMOKE = parts.Wanted(scale="smoke", backend="cpu")
 
@@ -80,7 +79,8 @@ class SolvedSteps(Scratch):
     def test_the_share_of_detection_is_that_of_the_median_repetition(self):
         folder, part = self.make("fig17_share")
         rows = self.rows(folder / "fig17_share.csv")
-        self.assertEqual([(row["iterations [1]"], row["guess_rounds [1]"]) for row in rows], [("500", "16"), ("500", "1")])
+        asked = [(row["iterations [1]"], row["guess_rounds [1]"]) for row in rows]
+        self.assertEqual(asked, [("500", "16"), ("500", "1")])
         for row in rows:
             steps = self.rows(folder / f"share_500_{row['guess_rounds [1]']}/steps.csv")
             self.assertEqual(len(steps), 1)
