@@ -17,9 +17,8 @@ import csv
 import math
 import subprocess
 from dataclasses import dataclass, replace
-from pathlib import Path
 
-from paper_figures.workflow import commands, half_turn, steady, yarn_cases
+from paper_figures.workflow import commands, half_turn, yarn_cases
 from paper_figures.workflow.evidence import command_of, manifest_at, membranes_of
 from paper_figures.workflow.jobs import KEPT, Job, Limit, Step, manifest_of
 from paper_figures.workflow.parts import Part
