@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "compare/problem/error.hpp"
+#include "compare/problem/text.hpp"
 #include "compare/record/steps_csv.hpp"
 #include "experiments/program/version.hpp"
 #include "fast/contestant.hpp"
