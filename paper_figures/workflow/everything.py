@@ -44,7 +44,7 @@ from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from pathlib import Path
 
-from paper_figures.workflow import contents, packing, parts
+from paper_figures.workflow import contents, packing, parts, varied
 from paper_figures.workflow.durations import RESULTS, in_words, measured_times, seconds_between
 from paper_figures.workflow.jobs import (AUDIT, CALL_AGAIN, FAILED, FINISHED, KEPT, STOPPED, Limit, RunFailure,
                                          command_in, last_lines)
@@ -244,7 +244,7 @@ def plan(where, wanted, listed):
     last = {name: book.pop(name) for name in list(book) if name.startswith("windows_")}
     small = replace(wanted, scale="smoke") if wanted.scale == "small" else wanted
     return {**book, **judged(wanted), "laws": laws(wanted), "jittered": jittered(wanted),
-            **studies(small, listed), **measured_studies(where, wanted), **last}
+            **studies(small, listed), **measured_studies(where, wanted), **varied.parts_of(where, wanted), **last}
 
 
 def accepted_seconds(name, wanted, times):
@@ -260,7 +260,7 @@ def accepted_seconds(name, wanted, times):
     if name == "illustrations":
         return sum(seconds for (_, scale, _), (seconds, _) in times.items() if scale == "-")
     known = times.get((name, wanted.scale, wanted.backend))
-    return known[0] if known else None
+    return known[0] if known else varied.EXPECTED.get(name) if wanted.scale == "paper" else None
 
 
 def seconds_of_steps(name, wanted):

@@ -1,6 +1,7 @@
 """Takes what experiments/evidence made, and no figure keeps, into results/MACHINE: the whole runs of Table 1's rows
-with their audits, windows on the processors, the judge's counts and digests, the laws, jittered starts, the ablations
-and the measured studies. Each file has a row in provenance.csv with the command that makes it again.
+with their audits, windows on the processors, the judge's counts and digests, the laws, jittered starts, the ablations,
+the measured studies, repeated runs, and steps of Fig. 17 with one choice varied. Each file has a row in provenance.csv
+with the command that makes it again.
 
 Figures are kept by `experiments/reproduce FIGURE … --unpack PACKED --accept MACHINE`, which draws them.
 
@@ -23,9 +24,11 @@ import sys
 import tempfile
 from pathlib import Path
 
-from paper_figures.workflow import accept, captions, commands, contents, everything, parts
+from paper_figures.workflow import accept, captions, commands, contents, everything, parts, varied
+from paper_figures.workflow import steady as repetitions
 from paper_figures.workflow.contents import COLUMNS, PROVENANCE, merge, rows_of
 from paper_figures.workflow.evidence import RESULTS, SCENES
+from paper_figures.workflow.jobs import RunFailure
 from paper_figures.workflow.kept import AcceptError, file_of, run_files
 
 SHORT = 10  # digits of a commit in a table
@@ -255,7 +258,31 @@ def measured(runs):
         raise Missing("measured: no study is there")
 
 
-KINDS = {each.__name__: each for each in (rows, windows, judge, determinism, laws, jittered, ablations, measured)}
+def steady(runs):
+    """Yields the table of repeated whole runs."""
+    folder = runs.of(varied.STEADY)
+    try:
+        table = repetitions.gathered(folder)
+    except RunFailure as error:
+        raise Missing(f"steady: {error}") from error
+    yield (f"steady_{runs.wanted.scale}.csv", as_csv(table),
+           {"figure": "steady", "redo": f"{runs.redo} steady_ROW, of each row",
+            **origin_of([manifest_of(path) for path in sorted(folder.rglob("run.json"))])})
+
+
+def solved_steps(runs):
+    """Yields the tables of Fig. 17's step with one choice varied."""
+    folder = runs.of(varied.FIG17)
+    paths = runs.there([folder / f"{name}.csv" for name in varied.FIG17_TABLES], "solved_steps")
+    words = origin_of([manifest_of(path) for path in sorted(folder.rglob("run.json"))])
+    for path in paths:
+        part = varied.FIG17_TABLES[path.stem]
+        yield (f"{path.stem}_{runs.wanted.scale}.csv", path.read_bytes(),
+               {"figure": part, "redo": f"{runs.redo} {part}", **words})
+
+
+KINDS = {each.__name__: each for each in (rows, windows, judge, determinism, laws, jittered, ablations, measured,
+                                          steady, solved_steps)}
 
 
 def keep(machine, runs, found, results):
