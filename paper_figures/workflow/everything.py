@@ -7,9 +7,11 @@ drawings and the other measured studies. Left out are other people's programs (e
 fuzz, which need builds of their own, and tables about rejected ideas.
 
 What is finished is kept, what the limit cut off goes on at the next call, which is due as long as the exit status is
-75. After each part its tables, manifests and some frames are packed into files that are small enough to be carried
-(--pack). Everything is of one program: runs of another one in the folder are made again, and a program with uncommitted
-changes, or whose sources are not those of the checkout's HEAD, is refused.
+75. After each part its tables, manifests and some frames are packed into archives of at most 16 MiB (--pack). On
+another machine, or at home, --unpack brings them back: what is in them is not made again, but a run that begins with a
+state that was not packed is refused there. Everything is of one program: runs of another one in the folder are made
+again, its archives are refused, and so is a program with uncommitted changes, or whose sources are not those of the
+checkout's HEAD.
 
 Expected times are those of an earlier call into the same folder, else of the accepted results, on the machine that made
 them; "–" where nobody measured. Python's own library is enough, except for the list of ablations, which needs PyYAML:
@@ -25,7 +27,10 @@ Examples:
   experiments/evidence cores --dry-run                                    # what there is, and how long it takes
   experiments/evidence cores --time-limit 3600 --pack packed              # on two cores, an hour at a time
   experiments/evidence gpu --program bundle/ogc --time-limit 500 --pack packed --studies studies.json
-  CUDA_VISIBLE_DEVICES=1 experiments/evidence gpu --share 2/4 --out runs_2  # the second of four cards side by side
+  experiments/evidence gpu --cards 4 --time-limit 500 --pack packed --frames 0  # four cards side by side, tables alone
+  experiments/evidence gpu --cards 4 --unpack packed --pack packed        # goes on, on another machine
+  taskset -c 0-15 experiments/evidence gpu fig18_solvers windows_twist    # times of 16 processors of a larger machine
+  CUDA_VISIBLE_DEVICES=1 experiments/evidence gpu --share 2/4 --out runs_2  # the second of four calls
   experiments/evidence gpu judge twist fig20                              # these parts alone
 """
 
@@ -39,6 +44,7 @@ import re
 import shutil
 import subprocess
 import sys
+import threading
 import time
 from dataclasses import dataclass, replace
 from importlib.util import find_spec
@@ -49,9 +55,11 @@ from paper_figures.workflow.durations import RESULTS, in_words, measured_times, 
 from paper_figures.workflow.jobs import (AUDIT, CALL_AGAIN, FAILED, FINISHED, KEPT, STOPPED, Limit, RunFailure,
                                          command_in, last_lines)
 from paper_figures.workflow.runner import Runner
+from paper_figures.workflow.side_by_side import SideBySide
 
-STAMP = "program.txt"  # in the folder of the runs: what the program says of itself; newer than the runs of another one
-TIMES = "times.json"  # there: part -> seconds that its calls took, and whether it is finished
+# In the folder of the runs: what the program says of itself, newer than the runs of another one (STAMP); part ->
+# seconds that its calls took, and whether it is finished (TIMES).
+STAMP, TIMES = packing.STAMP, packing.TIMES
 FOUND = (0, 1)  # exit status of a command that came to an end; 1: a check failed, which is a result
 JITTERED = ("twist", "knot", "dress")
 STARTS = 10  # jittered ones
@@ -71,6 +79,11 @@ def line_of(said, begin):
     return next((line.strip().removeprefix(begin) for line in said.splitlines() if line.strip().startswith(begin)), "")
 
 
+def program_in(said):
+    """Returns what names the program in what it says of itself: not the machine's devices."""
+    return said.partition("backends")[0]
+
+
 @dataclass(frozen=True)
 class Command:
     """Runs a command as a job (jobs.py) in a folder of its own, with its standard output in said.txt there.
@@ -86,23 +99,23 @@ class Command:
 
     PROGRAM, PYTHON, FOLDER = "{ogc}", "{python}", "{folder}"
 
-    def digest(self, program):
-        said = Path(os.environ["OGC_STAMP"]).read_text()
-        return hashlib.sha256(json.dumps([said, self.words, str(program)]).encode()).hexdigest()
+    def digest(self):
+        said = program_in(Path(os.environ["OGC_STAMP"]).read_text())
+        return hashlib.sha256(json.dumps([said, self.words]).encode()).hexdigest()
 
     def record(self, root):
         path = root / self.name / "made.json"
         return json.loads(path.read_text()) if path.is_file() else {}
 
     def done(self, root):
-        return "status" in self.record(root)
+        return "status" in self.record(root) and self.record(root)["digest"] == self.digest()
 
     def make(self, program, root, limit=Limit(), _shown=False):
-        folder, digest = root / self.name, self.digest(program)
+        folder, digest = root / self.name, self.digest()
+        if self.done(root):
+            return KEPT
         if self.record(root).get("digest") != digest:
             shutil.rmtree(folder, ignore_errors=True)
-        elif self.done(root):
-            return KEPT
         if limit.left() == 0:
             return STOPPED
         folder.mkdir(parents=True, exist_ok=True)
@@ -115,7 +128,9 @@ class Command:
                 return STOPPED
             raise RunFailure(f"{' '.join(words)}: exit status {code}\n  {last_lines(folder / 'log.txt')}")
         (folder / "said.part").replace(folder / "said.txt")
-        (folder / "made.json").write_text(json.dumps({"digest": digest, "status": code, "words": self.words}))
+        made = {"digest": digest, "status": code, "words": self.words,
+                "said": Path(os.environ["OGC_STAMP"]).read_text()}
+        (folder / "made.json").write_text(json.dumps(made))
         return FINISHED
 
     def results(self, root, _frames, _last):
@@ -141,9 +156,9 @@ class Counts:
         return False
 
     def rows(self, root):
-        said = Path(os.environ["OGC_STAMP"]).read_text()
-        device = re.search(r"\((.*)\)", line_of(said, f"{self.backend}: "))
         for seed in self.seeds:
+            said = seed.record(root).get("said", "")
+            device = re.search(r"\((.*)\)", line_of(said, f"{self.backend}: "))
             for stage in json.loads((root / seed.name / "said.txt").read_text())["stages"] if seed.done(root) else ():
                 errors = "; ".join(f"{each['name']} {each['maximum']:.4g}/{each['tolerance']:.4g}"
                                    for each in stage["metrics"])
@@ -327,13 +342,35 @@ def check_program(said):
 
 
 def stamp(out, said):
-    """Keeps what the program says of itself, and so makes runs of another one in the folder due (jobs.same_command)."""
+    """Keeps what the program says of itself, and so makes runs of another one in the folder due (jobs.same_command);
+    another machine makes nothing due."""
     path = out / STAMP
     out.mkdir(parents=True, exist_ok=True)
-    if not path.is_file() or path.read_text() != said:
+    if not path.is_file() or program_in(path.read_text()) != program_in(said):
         path.write_text(said)
         (out / TIMES).unlink(missing_ok=True)
+    elif path.read_text() != said:
+        about = path.stat()
+        path.write_text(said)
+        os.utime(path, ns=(about.st_atime_ns, about.st_mtime_ns))
     os.environ["OGC_STAMP"] = str(path)
+
+
+def bring(folder, out, said):
+    """Unpacks what --pack packed of this program, and takes over how long its parts took. Throws PlanError where
+    nothing is there or it is of another program, UnpackError for a damaged archive."""
+    found = sorted(folder.glob("runs_*.tar.gz"))
+    if not found:
+        raise PlanError(f"{folder} has no runs_NN.tar.gz: name the folder that --pack filled")
+    for path in found:
+        if program_in(packing.read(path, STAMP)) != program_in(said):
+            commit = line_of(packing.read(path, STAMP), "commit ") or "unknown"
+            raise PlanError(f"{path.name} is of another program (commit {commit}): move it away")
+    for path in found:
+        packing.note(out, packing.extract(path, out, (STAMP, TIMES)))
+        times, packed = measured_before(out), json.loads(packing.read(path, TIMES) or "{}")
+        times |= {name: each for name, each in packed.items() if times.get(name, {}).get("end") not in (FINISHED, KEPT)}
+        (out / TIMES).write_text(json.dumps(times, indent=1) + "\n")
 
 
 def dry_run(chosen, seconds, before):
@@ -349,18 +386,25 @@ def dry_run(chosen, seconds, before):
 def make(options, chosen):
     """Makes the chosen parts, packs each as it ends, and returns the exit status."""
     limit = Limit(options.time_limit)
-    runner = Runner(options.program, options.out, limit, options.part_limit, options.jobs)
-    archive = packing.Archive(options.pack, options.out) if options.pack else None
-    ends, lines = [], []
-    for name, part in chosen.items():
-        begun = time.monotonic()
-        ends.append(runner.make(name, part))
-        times = measured_before(options.out)
-        earlier = times.get(name, {}).get("seconds", 0)
-        times[name] = {"seconds": round(earlier + time.monotonic() - begun, 1), "end": ends[-1]}
-        (options.out / TIMES).write_text(json.dumps(times, indent=1) + "\n")
-        if archive:
-            lines = archive.write(chosen)
+    common = (options.program, options.out, limit, options.part_limit, options.jobs)
+    archive = packing.Archive(options.pack, options.out, options.frames, (STAMP, TIMES)) if options.pack else None
+    ends, lines, lock = [], [], threading.Lock()
+
+    def ended(name, end, seconds):
+        with lock:
+            ends.append(end)
+            times = measured_before(options.out)
+            earlier = times.get(name, {}).get("seconds", 0)
+            times[name] = {"seconds": round(earlier + seconds, 1), "end": end}
+            (options.out / TIMES).write_text(json.dumps(times, indent=1) + "\n")
+            lines[:] = archive.write(chosen) if archive else []
+
+    if options.cards:
+        SideBySide(*common, cards=options.cards).make_all(chosen, groups(chosen), ended)
+    else:
+        for name, part in chosen.items():
+            begun = time.monotonic()
+            ended(name, Runner(*common).make(name, part), time.monotonic() - begun)
     print("\n".join(lines), end="\n" if lines else "")
     return 1 if FAILED in ends else CALL_AGAIN if STOPPED in ends else 0
 
@@ -379,6 +423,9 @@ def arguments():
     add("--part-limit", type=float, metavar="SECONDS", help="of each part")
     add("--jobs", type=int, default=1, help="chains of a part that go on side by side (default: 1)")
     add("--pack", type=Path, metavar="FOLDER", help="pack what is finished after each part")
+    add("--unpack", type=Path, metavar="FOLDER", help="first unpack what --pack packed, which then is not made again")
+    add("--frames", type=int, metavar="N", help="pack at most N frames of a run (default: as its picture needs)")
+    add("--cards", type=int, default=0, metavar="N", help="make parts side by side on N devices of this machine")
     add("--share", default="1/1", metavar="K/N", help="the K-th of N calls side by side, each with its own --out")
     add("--studies", type=Path, metavar="FILE", help="the ablations' commands, where PyYAML is missing")
     add("--no-studies", action="store_true", help="leave the ablations out")
@@ -426,11 +473,13 @@ def main():
         said = said_by(options.program)
         if not options.changed:
             check_program(said)
+        stamp(options.out.resolve(), said)
+        if options.unpack:
+            bring(options.unpack, options.out, said)
     except KeyError as name:
         parser.error(f"no part {name}; --dry-run lists them")
-    except (PlanError, OSError) as error:
+    except (PlanError, packing.UnpackError, OSError) as error:
         parser.error(str(error))
-    stamp(options.out.resolve(), said)
     sys.exit(make(options, chosen))
 
 

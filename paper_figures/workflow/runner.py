@@ -11,6 +11,7 @@ the step at hand and its checkpoint: leave it that.
 """
 
 import argparse
+import contextlib
 import os
 import shutil
 import signal
@@ -23,7 +24,7 @@ from pathlib import Path
 from paper_figures.workflow import packing, parts
 from paper_figures.workflow.device_memory import DeviceMemory
 from paper_figures.workflow.jobs import (CALL_AGAIN, FAILED, FINISHED, KEPT, MEMORY, STOPPED, Limit, RunFailure,
-                                         manifest_of)
+                                         here, manifest_of)
 
 
 class Runner:
@@ -41,18 +42,22 @@ class Runner:
             if state and manifest_of(root / state[0]).get("status", "").startswith("failed"):
                 continue
             wanted = job.on_device and not job.done(root)
-            with DeviceMemory(root / f"{job.name}{MEMORY}", wanted):
+            with self.place(job.on_device, limit), DeviceMemory(root / f"{job.name}{MEMORY}", wanted):
                 ends.append(job.make(self.program, root, limit))
             if ends[-1] == STOPPED:
                 return STOPPED
         return FINISHED if FINISHED in ends else KEPT
+
+    def place(self, _on_device, _limit):
+        """Returns a context with a place for a job; here it is the machine."""
+        return contextlib.nullcontext()
 
     def part(self, part):
         """Makes a part and returns how it ended. Throws RunFailure with the messages of its chains, when all have
         ended."""
         limit = Limit(self.part_limit, self.limit)
         with ThreadPoolExecutor(max_workers=self.jobs) as pool:
-            tasks = [pool.submit(self.chain, part, chain, limit) for chain in part.chains]
+            tasks = [pool.submit(here(self.chain, part, chain, limit)) for chain in part.chains]
         problems = [task.exception() for task in tasks if task.exception()]
         unexpected = next((problem for problem in problems if not isinstance(problem, RunFailure)), None)
         if unexpected:
