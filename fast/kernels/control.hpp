@@ -112,9 +112,9 @@ struct StepControl {
 };
 
 /// Returns whether a detection is due because of cuts, and resets the counts. None is due unless `may_detect`. It is
-/// due if at least `least_cut` vertices were cut, or, with `deep_asks`, if any vertex was cut while one is deep inside a
-/// volume. It is also due if prescribed vertices lag and one of them has moved since the last detection. If none of them has moved,
-/// it is due only once in a step.
+/// due if at least `least_cut` vertices were cut, or, with `deep_asks`, if any vertex was cut while one is deep inside
+/// a volume. It is also due if prescribed vertices lag and one of them has moved since the last detection. If none of
+/// them has moved, it is due only once in a step.
 OGC_HD inline bool take_request(StepControl& c, int least_cut, bool may_detect = true, bool deep_asks = true) {
   const bool lag_asks = may_detect && c.lagging > 0 && (c.advanced > 0 || c.lag_asked == 0),
              asks = c.cut >= least_cut || (deep_asks && c.cut > 0 && c.deep_inside > 0);

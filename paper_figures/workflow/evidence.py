@@ -400,9 +400,9 @@ class Evidence:
                         (a.side, b.side))
 
     def _of_table(self, spec, scale):
-        """Returns a cell of a table of this scale (a `scale` of the spec's own goes first), or the quotient of two; `column` is then one for both, or a list of one for each. If runs
-        vary, [smallest, largest] bounds the ratio of every run of the first to every run of the second. `membrane`:
-        that of the rows."""
+        """Returns a cell of a table of this scale (a `scale` of the spec's own goes first), or the quotient of two;
+        `column` is then one for both, or a list of one for each. If runs vary, [smallest, largest] bounds the ratio of
+        every run of the first to every run of the second. `membrane`: that of the rows."""
         asked = {"membrane": spec["membrane"]} if "membrane" in spec else {}
         for table in reversed([t for t in self.tables if t.name == spec["table"] and t.scale == scale]):
             places = ("over", "under") if "over" in spec else ("where",)

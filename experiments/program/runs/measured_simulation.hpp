@@ -54,8 +54,8 @@ const VertexMeasures& vertex_measures(const compare::Simulation& simulation);
 /// The times of iteration rows are measured: StepMetrics::iteration_ends_ms and detection_ends_ms, which a simulation
 /// has with SimulationOptions::profile. Without them they are not-a-number.
 ///
-/// With `repeats` each step is done once to warm up, and then so often again from the same state. Its times are those of
-/// the repetition whose time is the median. Throws std::logic_error if a repetition ends in another state.
+/// With `repeats` each step is done once to warm up, and then so often again from the same state. Its times are those
+/// of the repetition whose time is the median. Throws std::logic_error if a repetition ends in another state.
 ///
 /// Meetings (compare/meetings.md) are counted from each X_prev to the next, and from the last X_prev to the end of the
 /// step. These states come from the simulation (compare::WayTeller) or from the trace. If a contestant has neither,

@@ -13,7 +13,8 @@ using namespace ogc::fast;
 
 TEST_CASE("the order of volumes is that of the rest positions, wherever the scene begins", "[unit]") {
   compare::Scene scene = test::empty_scene();
-  append_body(scene, {.name = "block", .contact = compare::BodyContact::volume}, tests::block_mesh(4, 0.1));
+  append_body(scene, {.name = "block", .material = {}}, tests::block_mesh(4, 0.1));
+  scene.bodies[0].contact = compare::BodyContact::volume;
   const compare::Topology topology = compare::build_topology(scene);
   const VolumeParts parts = volume_parts(scene, topology);
   REQUIRE(parts.size() == 1);

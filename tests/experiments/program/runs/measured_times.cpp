@@ -19,7 +19,9 @@ namespace {
 /// A simulation whose steps take the given times in turn. With `drifts` a step that follows a restore ends elsewhere.
 class Scripted : public compare::Simulation {
  public:
-  Scripted(std::vector<double> times, bool drifts) : times_(std::move(times)), drifts_(drifts) {}
+  Scripted(std::vector<double> times, bool drifts) : times_(std::move(times)), drifts_(drifts) {
+    state_.positions.resize(1);
+  }
 
   std::vector<compare::StepMetrics> advance(std::int64_t) override {
     compare::StepMetrics row;
@@ -42,7 +44,7 @@ class Scripted : public compare::Simulation {
   std::vector<double> times_;
   bool drifts_;
   std::size_t at_ = 0;
-  compare::Snapshot state_{.positions = {{}}, .velocities = {{}}};
+  compare::Snapshot state_;
 };
 
 std::vector<compare::StepMetrics> advanced(std::vector<double> times, std::int64_t repeats, std::int64_t steps,
