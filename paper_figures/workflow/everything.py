@@ -64,7 +64,11 @@ FOUND = (0, 1)  # exit status of a command that came to an end; 1: a check faile
 JITTERED = ("twist", "knot", "dress")
 STARTS = 10  # jittered ones
 SEEDS = {"smoke": 2, "small": 10, "paper": 10}  # of the judge
-CASES = {"smoke": 100, "small": 100_000, "paper": 1_000_000}  # that it asks of each stage
+CASES = {"smoke": 100, "small": 100_000, "paper": 1_000_000}  # that it asks of a cheap stage, of a dear one a tenth
+CHEAP = ("rest_state", "closest_face", "closest_points", "block", "detect_vertex_facet", "detect_edge_edge", "bound",
+         "initial_guess", "activation", "contact_force", "friction_force", "volume_force", "membrane", "bending",
+         "spring", "tetrahedron", "rod", "truncate")
+DEAR = ("plane", "volume_depth", "orientation", "sweep", "step")  # for the reference, whose answers take the time
 MEASURED = {"activation_load": True, "creep": True, "falling": False, "radius": True}  # whether it has scales
 MEASURED_ON_DEVICE = ("mat_volumes", "yarn_return")
 LARGEST = 2**20  # bytes of a packed file
@@ -146,7 +150,7 @@ class Counts:
 
     backend: str
     seeds: tuple
-    on_device = False
+    on_device = None  # it takes no time
 
     @property
     def name(self):
@@ -162,7 +166,7 @@ class Counts:
             for stage in json.loads((root / seed.name / "said.txt").read_text())["stages"] if seed.done(root) else ():
                 errors = "; ".join(f"{each['name']} {each['maximum']:.4g}/{each['tolerance']:.4g}"
                                    for each in stage["metrics"])
-                yield {"stage": stage["stage"], "generator": "all", "seed": seed.name.removeprefix("seed_"),
+                yield {"stage": stage["stage"], "generator": "all", "seed": seed.name.split("_")[1],
                        "cases": stage["cases"], "mismatches": stage["mismatches"],
                        "grey share of generic cases": stage["grey_share_generic"],
                        "largest errors over tolerances": errors, "seconds": f"{stage['seconds']:.2f}",
@@ -192,11 +196,14 @@ def judged(wanted):
     """Returns the judge's counts under SEEDS seeds, and, as a part of its own, digests that another machine can
     compare."""
     begin, on_device = (Command.PROGRAM, "compare", "--backend", wanted.backend), wanted.backend == "cuda"
-    made = tuple(Command(f"seed_{seed}", (*begin, "--cases", str(CASES[wanted.scale]), "--seed", str(seed), "--json",
-                                          "--report", Command.FOLDER), ("report.txt",), on_device)
-                 for seed in range(1, 1 + SEEDS[wanted.scale]))
+    cases = CASES[wanted.scale]
+    made = tuple(Command(f"seed_{seed}_{kind}", (*begin, *stages, "--cases", str(number), "--seed", str(seed), "--json",
+                                                 "--report", Command.FOLDER), ("report.txt",), on_device)
+                 for seed in range(1, 1 + SEEDS[wanted.scale])
+                 for kind, stages, number in (("cheap", CHEAP, cases), ("dear", DEAR, cases // 10)))
     same = Command("all", (*begin, "--determinism", "--json"), (), on_device)
-    return {"judge": parts.Part(wanted.folder("judge"), ((*made, Counts(wanted.backend, made)),), frames=0),
+    return {"judge": parts.Part(wanted.folder("judge"), (*((each,) for each in made), (Counts(wanted.backend, made),)),
+                                frames=0),
             "determinism": commands_of("determinism", [same], wanted)}
 
 
@@ -356,7 +363,17 @@ def stamp(out, said):
     os.environ["OGC_STAMP"] = str(path)
 
 
-def bring(folder, out, said):
+def half_made(chosen, times):
+    """Returns the folders of runs whose states other jobs of their part still need: a packed run has few states, and is
+    made again."""
+    for name, part in chosen.items():
+        if times.get(name, {}).get("end") not in (FINISHED, KEPT):
+            needed = {state[0] for job in part.jobs if (state := getattr(job, "state", ()))}
+            needed |= {job.of for job in part.jobs if hasattr(job, "of")}
+            yield from (f"{part.folder}/{run}/" for run in needed)
+
+
+def bring(folder, out, said, chosen):
     """Unpacks what --pack packed of this program, and takes over how long its parts took. Throws PlanError where
     nothing is there or it is of another program, UnpackError for a damaged archive."""
     found = sorted(folder.glob("runs_*.tar.gz"))
@@ -366,11 +383,14 @@ def bring(folder, out, said):
         if program_in(packing.read(path, STAMP)) != program_in(said):
             commit = line_of(packing.read(path, STAMP), "commit ") or "unknown"
             raise PlanError(f"{path.name} is of another program (commit {commit}): move it away")
+    times = {}
     for path in found:
-        packing.note(out, packing.extract(path, out, (STAMP, TIMES)))
-        times, packed = measured_before(out), json.loads(packing.read(path, TIMES) or "{}")
+        packed = json.loads(packing.read(path, TIMES) or "{}")
         times |= {name: each for name, each in packed.items() if times.get(name, {}).get("end") not in (FINISHED, KEPT)}
-        (out / TIMES).write_text(json.dumps(times, indent=1) + "\n")
+    left_out = (STAMP, TIMES, *half_made(chosen, times))
+    for path in found:
+        packing.note(out, packing.extract(path, out, left_out))
+    (out / TIMES).write_text(json.dumps({**times, **measured_before(out)}, indent=1) + "\n")
 
 
 def dry_run(chosen, seconds, before):
@@ -393,6 +413,9 @@ def make(options, chosen):
     def ended(name, end, seconds):
         with lock:
             ends.append(end)
+            for job in chosen[name].jobs:
+                if isinstance(job, Counts):
+                    job.make("", options.out / chosen[name].folder)
             times = measured_before(options.out)
             earlier = times.get(name, {}).get("seconds", 0)
             times[name] = {"seconds": round(earlier + seconds, 1), "end": end}
@@ -475,7 +498,7 @@ def main():
             check_program(said)
         stamp(options.out.resolve(), said)
         if options.unpack:
-            bring(options.unpack, options.out, said)
+            bring(options.unpack, options.out, said, chosen)
     except KeyError as name:
         parser.error(f"no part {name}; --dry-run lists them")
     except (PlanError, packing.UnpackError, OSError) as error:

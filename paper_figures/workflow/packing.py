@@ -103,12 +103,12 @@ def read(path, name):
 
 
 def extract(path, out, left_out=()):
-    """Writes the members of an archive but those `left_out` below `out` and returns their names. Throws UnpackError,
-    before anything is written, if a member is not a plain file or would be written elsewhere, or if the archive is
-    truncated. Python's own data filter is not in Debian 12's."""
+    """Writes the members of an archive below `out`, but those whose names begin as in `left_out`, and returns their
+    names. Throws UnpackError, before anything is written, if a member is not a plain file or would be written
+    elsewhere, or if the archive is truncated. Python's own data filter is not in Debian 12's."""
     try:
         with tarfile.open(path) as archive:
-            members = [member for member in archive.getmembers() if member.name not in left_out]
+            members = [member for member in archive.getmembers() if not member.name.startswith(tuple(left_out))]
             for member in members:
                 inside = PurePosixPath(member.name)
                 folder = out.joinpath(inside).parent.resolve()

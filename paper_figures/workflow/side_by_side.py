@@ -1,6 +1,7 @@
-"""Makes parts side by side on a machine with several devices. A job on a device has one of them for itself, and half of
-the processors that fall to it; jobs that need processors alone, as audits do, share the other halves, one each. Parts
-that time processors come last, one after the other, with the machine for themselves. Python's own library is enough.
+"""Makes parts side by side on a machine with several devices. A job on a device has one of them for itself; all of
+these jobs together have a quarter of the processors, and as many jobs that need processors alone, as audits do, divide
+the rest. Parts that time processors come last, one after the other, with the machine for themselves. Python's own
+library is enough.
 """
 
 import contextlib
@@ -26,11 +27,12 @@ def devices(number):
 
 
 def places(names, cores):
-    """Returns places on the devices, and places beside them. Without two processors a device nothing is pinned."""
-    each = len(cores) // (2 * len(names))
-    halves = [tuple(cores[begin:begin + each]) for begin in range(0, 2 * each * len(names), each)] if each else []
-    on_device = [Place(name, half) for name, half in zip(names, halves[::2] or [()] * len(names))]
-    return on_device, [Place("", half) for half in halves[1::2] or [()] * len(names)]
+    """Returns places on the devices, and places beside them. Without four processors a device nothing is pinned."""
+    quarter = len(cores) // 4 if len(cores) >= 4 * len(names) else 0
+    each = (len(cores) - quarter) // len(names) if quarter else 0
+    begins = range(quarter, quarter + each * len(names), each) if each else [0] * len(names)
+    return ([Place(name, tuple(cores[:quarter])) for name in names],
+            [Place("", tuple(cores[begin:begin + each])) for begin in begins])
 
 
 class SideBySide(Runner):
@@ -48,8 +50,8 @@ class SideBySide(Runner):
     @contextlib.contextmanager
     def place(self, on_device, limit):
         """Waits for a place, at most until the limit, and sets it for the commands of this thread."""
-        place = Place() if self.alone and not on_device else None
-        while place is None and limit.left() > 0:
+        place, anywhere = None, on_device is None or self.alone and not on_device
+        while not (anywhere or place) and limit.left() > 0:
             with contextlib.suppress(queue.Empty):
                 place = self.free[on_device].get(timeout=LOOK)
         before, begun = PLACE.set(place or Place()), time.monotonic()
@@ -58,7 +60,7 @@ class SideBySide(Runner):
         finally:
             PLACE.reset(before)
             self.held.append((PART.get(), time.monotonic() - begun))
-            if place and not (self.alone and not on_device):
+            if place:
                 self.free[on_device].put(place)
 
     def make_all(self, chosen, groups, ended):

