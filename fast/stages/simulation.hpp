@@ -55,7 +55,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
                  solid_tables(topology_, volume_tetrahedra(scene_)), asker_rows(scene_, topology_, colouring_.order),
                  sweep_.slots(), sweep_.colour()),
         rods_(scene_, rest_, longest_frame),
-        parts_(backend_, std::move(hall), part, colouring_),
+        parts_(backend_, std::move(hall), part, colouring_, rest_),
         clock_(backend_, options.profile, options.iterations),
         moving_(static_cast<std::size_t>(compare::bounded_count(topology_, exclusions_.groups))),
         step_(backend_, state_, detection_, sweep_, volumes_, rods_, parts_, clock_,
