@@ -104,6 +104,38 @@ struct ContactFaces {
   }
 };
 
+/// Notes, for each vertex of a part of a simulation, which other parts read its position (fast/kernels/parts.hpp): those
+/// with a free vertex in the same contact or element.
+struct Readers {
+  std::uint64_t* readers = nullptr;  ///< by slot: bit p is set if part p reads the vertex; null: there are no parts
+  const int* begin = nullptr;        ///< as in PartsView
+  int slots = 0;                     ///< number of free vertices
+  int first_own = 0, end_own = std::numeric_limits<int>::max();  ///< own vertices
+
+  OGC_HD bool is_own(int v) const { return first_own <= v && v < end_own; }
+  /// Notes the readers of a contact. `numbers`: rows of free vertices are in the order of slots.
+  OGC_HD void note(const RoleVertices& vertices, const RowNumbers& numbers) const {
+    if (readers == nullptr) return;
+    std::uint64_t others = 0;
+    int own_slot[4] = {-1, -1, -1, -1};
+    for (int k = 0; k < 4; ++k) {
+      const int v = vertices.role[k], slot = v < 0 ? slots : numbers(v, false);
+      if (slot >= slots) continue;
+      if (is_own(v)) {
+        own_slot[k] = slot;
+      } else {
+        int p = 0;
+        while (v >= begin[p + 1]) ++p;
+        others |= std::uint64_t{1} << p;
+      }
+    }
+    if (others == 0) return;
+    for (const int slot : own_slot) {
+      if (slot >= 0) atomic_or(&readers[slot], others);
+    }
+  }
+};
+
 /// Holds the counts of a detection on the backend.
 struct ListStatus {
   int contacts = 0;      ///< contacts entered, including those that did not fit
@@ -165,11 +197,10 @@ struct ListsView {
   int* incidence_filled = nullptr;   ///< by row: incidences written so far
   LooseIncidence* loose = nullptr;   ///< row by row, in any order within a row
   Incidence* incidences = nullptr;   ///< row by row, ascending
-  /// vertices that have rows; the rows of others stay empty (fast/kernels/parts.hpp)
-  int first_own = 0, end_own = std::numeric_limits<int>::max();
+  Readers readers;                   ///< of the own vertices; the rows of others stay empty (fast/kernels/parts.hpp)
 
   /// Returns whether a vertex has rows; −1, no vertex, has none.
-  OGC_HD bool has_rows(int v) const { return first_own <= v && v < end_own; }
+  OGC_HD bool has_rows(int v) const { return readers.is_own(v); }
   /// Returns whether all lists were long enough so far.
   OGC_HD bool fit() const { return *noted_count <= noted_capacity && *contact_count <= capacity && *without_slot == 0; }
 
@@ -341,6 +372,7 @@ struct WriteRecords {
       lists.vertex_facet_face[record] = own.second;
     }
     add_incidences(lists, vertices, edge_edge, record);
+    lists.readers.note(vertices, lists.rows);
   }
 
  private:

@@ -1,19 +1,22 @@
 // Divides a simulation among several backends of one host, its parts. Each part holds the whole state and makes the
 // same decisions; work is divided, not data:
 //
-//   searches   part p of n makes every n-th search, and decides the pairs that these note
+//   searches   a part makes every n-th run of searches, and decides the pairs that these note
 //   contacts   every part takes over the others' contacts and has the records of all, but incidences of its own
 //              vertices only, so that the records have the numbers that one part would give them
+//   bounds     a part computes those of its own vertices, and sends them to all others
 //   guess      a part moves its own vertices, and sends the positions to all others
-//   sweep      the same, colour by colour
+//   sweep      the same, colour by colour, but a position goes only to parts that read it (Readers); what the others
+//              lack goes to all parts before a detection and at the end of the step
 //
-// The rest (trees, bounds, certificates, sums) every part does by itself, with the same bits. A part's own vertices are
-// a range of numbers. Between two launches that need the others' results the parts meet (Backend::meet): each sends
-// messages and positions into the memory of all others, then waits for theirs.
+// The rest (trees, certificates, sums) every part does by itself, with the same bits. A part's own vertices are a range
+// of numbers. Between two launches that need the others' results the parts meet (Backend::meet): each writes messages
+// and positions into the memory of others, then waits for theirs.
 #pragma once
 
 #include <cstdint>
 
+#include "fast/kernels/bound.hpp"
 #include "fast/kernels/control.hpp"
 #include "fast/kernels/lists.hpp"
 #include "fast/kernels/sweep_view.hpp"
@@ -30,10 +33,11 @@ struct alignas(16) PartMessage {
 /// Arrays of a part which the others read or write.
 struct PartArrays {
   Vec *position = nullptr, *taken = nullptr;                                        ///< those of StepState
+  PaddedVec* padded = nullptr;                                                      ///< the same
   LeftForce* left = nullptr;                                                        ///< by slot
   float *d_min_vertex = nullptr, *d_min_edge = nullptr, *d_min_triangle = nullptr;  ///< of a detection [m]
+  float* bound = nullptr;                                                           ///< b_v by vertex [m]
   const RawContact* found = nullptr;  ///< contacts of the part's own searches
-  PaddedVec* mail = nullptr;          ///< [meeting, even or odd][slot]: positions that the others send [m]
   PartMessage* inbox = nullptr;       ///< [meeting, even or odd][part that sends]
 };
 
@@ -43,7 +47,6 @@ struct PartsView {
   const PartArrays* arrays = nullptr;       ///< by part
   const int* begin = nullptr;               ///< part p has the vertices begin[p] … begin[p + 1] − 1
   const std::uint32_t* meetings = nullptr;  ///< number of meetings so far
-  int slots = 0;                            ///< number of free vertices
 
   /// Returns the part that has a vertex.
   OGC_HD int part_of(int v) const {
@@ -58,10 +61,6 @@ struct PartsView {
   }
   /// Returns the message of another part, once the meeting has ended.
   OGC_HD const PartMessage& received(int p) const { return arrays[own].inbox[inbox_row() + p]; }
-  /// Returns the first index in PartArrays::mail for positions sent before the meeting that follows, and for those
-  /// sent before the last one.
-  OGC_HD int mail_row() const { return (*meetings & 1u) != 0 ? slots : 0; }
-  OGC_HD int taken_mail_row() const { return slots - mail_row(); }
 
  private:
   // A part that has left a meeting may send for the next one, while another still reads; it cannot be two ahead.
@@ -94,7 +93,16 @@ struct TakeCounts {
   }
 };
 
-/// Sends positions of the guess loop's round. Runs once for each own vertex.
+/// Copies numbers of this part to the same place in all others, one word a thread: writes into another device's memory
+/// are slow unless neighbouring threads write neighbouring words.
+OGC_HD inline void send_word(const PartsView& parts, const Vec* from, Vec* PartArrays::*to, int word) {
+  static_assert(sizeof(Vec) == 3 * sizeof(float));
+  const float number = reinterpret_cast<const float*>(from)[word];
+  for (int p = 0; p < parts.count; ++p)
+    if (p != parts.own) reinterpret_cast<float*>(parts.arrays[p].*to)[word] = number;
+}
+
+/// Sends positions of the guess loop's round. Runs once for each coordinate of own vertices.
 struct SendGuess {
   PartsView parts;
   int first;            ///< first own vertex
@@ -104,51 +112,51 @@ struct SendGuess {
   const StepControl* control;
 
   OGC_HD void operator()(int i) const {
-    const int v = first + i, to = control->rounds % 2 != 0 ? v : v + vertex_count;
-    const Vec x = position[v], change = taken[to];
-    for (int p = 0; p < parts.count; ++p) {
-      if (p == parts.own) continue;
-      parts.arrays[p].position[v] = x;
-      parts.arrays[p].taken[to] = change;
-    }
+    send_word(parts, position, &PartArrays::position, 3 * first + i);
+    send_word(parts, taken, &PartArrays::taken, 3 * (control->rounds % 2 != 0 ? first : first + vertex_count) + i);
   }
 };
 
-/// Sends the new positions of a colour, slot by slot: writes into another device's memory are slow unless neighbouring
-/// threads write neighbouring words. Runs once for each own slot of the colour.
+/// Sends the new positions of a colour into the fresh buffers of the parts that read them. No part reads fresh positions
+/// of a colour before the meeting that ends it. Runs once for each own slot of the colour.
 struct SendColour {
   PartsView parts;
-  const SweepVertex* vertices;  ///< by slot
-  int first_slot;               ///< first own slot of the colour
-  const PaddedVec* fresh;       ///< fresh positions by vertex [m]
-  const int* turn;              ///< as in SweepShared
+  const std::uint64_t* readers;  ///< as in Readers
+  const SweepVertex* vertices;   ///< by slot
+  int first_slot;                ///< first own slot of the colour
+  const PaddedVec* padded;       ///< as in StepState [m]
+  int fresh;                     ///< where the fresh positions begin in `padded`
+  const int* turn;               ///< as in SweepShared
   int iteration;
 
-  OGC_HD bool is_off() const { return turn != nullptr && *turn != iteration; }
   OGC_HD void operator()(int i) const {
-    if (is_off()) return;
+    if (turn != nullptr && *turn != iteration) return;
     const int slot = first_slot + i;
-    const PaddedVec x = fresh[vertices[slot].vertex];
+    const std::uint64_t to = readers[slot];
+    if (to == 0) return;
+    const int at = fresh + vertices[slot].vertex;
+    const PaddedVec x = padded[at];
     for (int p = 0; p < parts.count; ++p)
-      if (p != parts.own) parts.arrays[p].mail[parts.mail_row() + slot] = x;
+      if ((to >> p & 1) != 0) parts.arrays[p].padded[at] = x;
   }
 };
 
-/// Takes over the positions of a colour that the other parts have sent, after the meeting. Runs once for each slot of
-/// the colour that is not the part's own.
-struct TakeColour {
-  SendColour sent;
-  int first, own_count;  ///< first slot of the colour; number of own slots
-  PaddedVec* fresh;      ///< fresh positions by vertex, written [m]
-  Vec* position;         ///< by vertex, written [m]
+/// Sends the positions of own vertices in all buffers to all parts. What a part has of them already are the same bits.
+/// Runs once for each coordinate of own vertices.
+struct SendPositions {
+  PartsView parts;
+  int first, own_count;     ///< first own vertex; number of own vertices
+  int vertex_count;         ///< length of one buffer of `padded`
+  const Vec* position;      ///< as in StepState [m]
+  const PaddedVec* padded;  ///< the same
 
   OGC_HD void operator()(int i) const {
-    if (sent.is_off()) return;
-    const int slot = first + i < sent.first_slot ? first + i : first + i + own_count;
-    const PaddedVec x = sent.parts.arrays[sent.parts.own].mail[sent.parts.taken_mail_row() + slot];
-    const int v = sent.vertices[slot].vertex;
-    fresh[v] = x;
-    position[v] = x;
+    send_word(parts, position, &PartArrays::position, 3 * first + i);
+    if (i >= 2 * own_count) return;
+    const int at = first + (i < own_count ? i : i - own_count + vertex_count);
+    const PaddedVec x = padded[at];
+    for (int p = 0; p < parts.count; ++p)
+      if (p != parts.own) parts.arrays[p].padded[at] = x;
   }
 };
 
@@ -218,6 +226,14 @@ struct ShowContacts {
   }
 };
 
+/// Forgets which contacts the other parts read: only those stay that read a vertex's elements. Runs once for each slot.
+struct ForgetReaders {
+  const std::uint64_t* of_elements;  ///< by slot: as in Readers, of the elements alone
+  std::uint64_t* readers;            ///< as in Readers
+
+  OGC_HD void operator()(int slot) const { readers[slot] = of_elements[slot]; }
+};
+
 /// Enters the contacts of the other parts. Runs once for each.
 struct TakeContacts {
   PartsView parts;
@@ -233,27 +249,51 @@ struct TakeContacts {
   }
 };
 
-/// Takes over smallest distances that are smaller than the part's own. Runs once for each index below count().
+/// Takes over smallest distances of primitives of own vertices that are smaller than the part's own. Runs once for each
+/// index below count().
 struct TakeDistances {
   PartsView parts;
-  int vertex_count, edge_count, triangle_count;
+  SurfaceView surface;
+  int first, end;  ///< own vertices
   const int* overflow;
 
   OGC_HD int count() const {
-    const int most = vertex_count > edge_count ? vertex_count : edge_count;
-    return most > triangle_count ? most : triangle_count;
+    const int most = surface.vertex_count > surface.edge_count ? surface.vertex_count : surface.edge_count;
+    return most > surface.triangle_count ? most : surface.triangle_count;
   }
   OGC_HD void operator()(int i) const {
     if (*overflow != 0) return;
-    const PartArrays& own = parts.arrays[parts.own];
-    // The other part may lower its number at the same time: to the number of a third part, which this part reads too.
-    for (int p = 0; p < parts.count; ++p) {
-      if (p == parts.own) continue;
-      const PartArrays& from = parts.arrays[p];
-      if (i < vertex_count) lower(own.d_min_vertex + i, atomic_load(from.d_min_vertex + i));
-      if (i < edge_count) lower(own.d_min_edge + i, atomic_load(from.d_min_edge + i));
-      if (i < triangle_count) lower(own.d_min_triangle + i, atomic_load(from.d_min_triangle + i));
+    if (i < surface.vertex_count && is_own(i)) take(&PartArrays::d_min_vertex, i);
+    if (i < surface.edge_count) {
+      const EdgeEnds e = surface.edges[i];
+      if (is_own(e.a) || is_own(e.b)) take(&PartArrays::d_min_edge, i);
     }
+    if (i < surface.triangle_count) {
+      const int* corner = surface.facets[i].corner;
+      if (is_own(corner[0]) || is_own(corner[1]) || is_own(corner[2])) take(&PartArrays::d_min_triangle, i);
+    }
+  }
+
+ private:
+  OGC_HD bool is_own(int v) const { return first <= v && v < end; }
+  // The other part may lower its number at the same time: to the number of a third part, which this part reads too.
+  OGC_HD void take(float* PartArrays::*distances, int i) const {
+    for (int p = 0; p < parts.count; ++p)
+      if (p != parts.own) lower(parts.arrays[parts.own].*distances + i, atomic_load(parts.arrays[p].*distances + i));
+  }
+};
+
+/// Computes the bound of an own vertex, and sends it to the other parts. Runs once for each own vertex.
+struct SendBound {
+  PartsView parts;
+  ConservativeBound bounds;
+  int first;  ///< first own vertex
+
+  OGC_HD void operator()(int i) const {
+    const int v = first + i;
+    bounds(v);
+    for (int p = 0; p < parts.count; ++p)
+      if (p != parts.own) parts.arrays[p].bound[v] = bounds.bound[v];
   }
 };
 

@@ -30,11 +30,24 @@ struct Searches {
   TreeView tree;  ///< refitted at the positions that the query reads
   int count;      ///< number of searches
   Query query;
-  int first = 0, step = 1;  ///< numbers of the searches for Query::begin: first, first + step, …
+  /// The searches are those of part `own` of several parts, which take runs of `run` searches in turn.
+  int own = 0, parts = 1, run = 1;
 
-  OGC_HD Search begin(int i) const { return query.begin(first + step * i); }
-  /// Returns every n-th of these searches: the i-th, the i + n-th, …
-  Searches every(int n, int i) const { return {tree, (count - i + n - 1) / n, query, first + step * i, step * n}; }
+  /// Returns the i-th search.
+  OGC_HD Search begin(int i) const { return query.begin(((i / run) * parts + own) * run + i % run); }
+
+  /// Returns those of all searches that part `p` of `n` makes. A run is long, because neighbours open the same nodes
+  /// and lower each other's smallest distances; each part has many runs, because long searches are neighbours, too.
+  Searches of_part(int n, int p) const {
+    constexpr int runs_of_part = 64, longest_run = 1024;
+    Searches of = *this;
+    of.own = p, of.parts = n, of.run = count / (runs_of_part * n);
+    of.run = of.run < 1 ? 1 : of.run < longest_run ? of.run : longest_run;
+    const int runs = (count + of.run - 1) / of.run, own_runs = (runs - p + n - 1) / n;
+    const bool has_last = own_runs > 0 && (runs - 1) % n == p;
+    of.count = own_runs * of.run - (has_last ? runs * of.run - count : 0);
+    return of;
+  }
 };
 
 }  // namespace ogc::fast

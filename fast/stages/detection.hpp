@@ -80,8 +80,7 @@ class Detection {
     const auto assemble = [&] {
       lists_.collect_contacts(backend_, {padded_.data()}, contact_radius, bounded(), bounds(bounds_relaxation),
                               planes_.distances());
-      if (is_divided())
-        parts_->share_contacts(lists_.view(), {surface_.view()}, distances_of_parts(), bounds(bounds_relaxation));
+      if (is_divided()) parts_->share_contacts(lists_.view(), {surface_.view()}, bounds(bounds_relaxation));
       lists_.assemble(backend_, launches);
     };
     if (!planes_.is_used()) return assemble();
@@ -115,12 +114,12 @@ class Detection {
   /// Divides the searches and the contacts among the parts of a simulation; `parts` must outlive the detection.
   void divide(Parts<Backend>& parts) {
     parts_ = &parts;
-    if (is_divided()) lists_.keep_rows_of(parts.vertices().begin, parts.vertices().end);
+    if (is_divided()) lists_.keep_own_rows(parts.readers());
   }
   /// Adds the arrays that other parts read.
   void publish(PartArrays& arrays) {
     arrays.d_min_vertex = d_min_vertex_.data(), arrays.d_min_edge = d_min_edge_.data(),
-    arrays.d_min_triangle = d_min_triangle_.data();
+    arrays.d_min_triangle = d_min_triangle_.data(), arrays.bound = bound_.data();
   }
 
   /// Forwards to Planes::divide_by.
@@ -221,17 +220,13 @@ class Detection {
       const Searches<DetectEdgeEdge> edges = searches_of(edge_edge);
       const Searches<DetectVertexFacet> facets = searches_of(vertex_facet);
       if (is_divided())
-        backend_.search(edges.every(parts_->count(), parts_->own()), facets.every(parts_->count(), parts_->own()));
+        backend_.search(edges.of_part(parts_->count(), parts_->own()), facets.of_part(parts_->count(), parts_->own()));
       else
         backend_.search(edges, facets);
     }
   }
 
   bool is_divided() const { return parts_ != nullptr && parts_->is_one_of_several(); }
-  TakeDistances distances_of_parts() {
-    const SurfaceView surface = surface_.view();
-    return {{}, surface.vertex_count, surface.edge_count, surface.triangle_count, lists_.overflow()};
-  }
 
   /// Returns the number of searches for facets; 0 if there is no facet.
   int facet_searches() { return searches_of(vertex_facet_query(0)).count; }

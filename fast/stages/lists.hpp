@@ -37,8 +37,8 @@ class Lists {
   /// Sets RowNumbers::place, on the backend; null: rows are in the order of vertices. Call it before the first
   /// detection.
   void number_rows(const int* places) { places_ = places; }
-  /// Leaves the rows of other vertices than these empty.
-  void keep_rows_of(int first, int end) { first_own_ = first, end_own_ = end; }
+  /// Leaves the rows of all but the own vertices of a part empty, and notes who reads these.
+  void keep_own_rows(const Readers& readers) { readers_ = readers; }
 
   /// Returns the lists as kernels see them.
   ListsView view() {
@@ -68,8 +68,7 @@ class Lists {
             .incidence_filled = incidence_filled_.data(),
             .loose = loose_.data(),
             .incidences = incidences_.data(),
-            .first_own = first_own_,
-            .end_own = end_own_};
+            .readers = readers_};
   }
 
   /// Returns the number of vertex–facet records, on the backend.
@@ -194,7 +193,7 @@ class Lists {
   SurfaceView surface_;
   int buckets_, capacity_, noted_capacity_;
   const int* places_ = nullptr;
-  int first_own_ = 0, end_own_ = std::numeric_limits<int>::max();
+  Readers readers_;
   Buffer<ListStatus> status_;
   Buffer<NotedPair> noted_;
   Buffer<ContactSlot> table_;

@@ -108,7 +108,8 @@ class Step {
 
   /// Adds the arrays that other parts read or write.
   void publish(PartArrays& arrays) {
-    arrays.position = state_.position.data(), arrays.taken = state_.taken.data(), arrays.left = left_forces_.left();
+    arrays.position = state_.position.data(), arrays.taken = state_.taken.data(), arrays.padded = state_.padded.data();
+    arrays.left = left_forces_.left();
   }
 
   /// Returns r plus the contact margin [m].
@@ -123,7 +124,9 @@ class Step {
     clock_.time(StepStage::initial_guess, [&] { guess_loop(); });
     if (measures) clock_.time(StepStage::metrics, [&] { left_forces_.begin(sweep_, view(0)); });
     clock_.time(StepStage::sweep, [&] {
+      clock_.end_iteration(0);
       for (int i = 0; i < settings_.iterations; i += group) iterate(i, std::min(group, settings_.iterations - i));
+      share_positions();
     });
     clock_.time(StepStage::metrics, [&] {
       if (measures) measure_end();
@@ -304,7 +307,9 @@ class Step {
       }
     };
     const auto detect_after_sweep = [&] {
+      clock_.end_iteration(last + 1);
       observe(compare::StepEventKind::sweep);
+      share_positions();
       detect();
     };
     sweeps_from(first);
@@ -315,6 +320,7 @@ class Step {
       backend_.when(end(first), due, detect_after_sweep);
     else
       backend_.for_each(1, end(first));
+    clock_.end_iteration(last + 1);
     observe(compare::StepEventKind::sweep);
   }
 
@@ -345,11 +351,17 @@ class Step {
   void sweep(int iteration, const int* turn, Start start) {
     SweepView view = this->view(iteration);
     view.turn = turn;
-    sweep_.iterate(view, start, &parts_);
+    if (parts_.is_one_of_several())
+      sweep_.iterate(view, parts_, state_.padded.data());
+    else
+      sweep_.iterate(view, start);
     if (volumes_.has_free())
       backend_.for_each(volumes_.rows(), CountDeepInside{view.volumes, view.position, settings_.contact_radius, turn,
                                                          iteration, control()});
   }
+
+  /// Tells the other parts the positions of this part's vertices that they did not read in the sweep.
+  void share_positions() { parts_.share_positions(state_.position.data(), state_.padded.data(), state_.vertex_count); }
 
   /// Measures the forces at the end of the step. If the step may settle, either buffer may have x: both are tried, and
   /// the turn tells which one measures (ControlSettings::turn_after_end).

@@ -175,9 +175,7 @@ class Sweep {
   /// Runs one iteration: prescribed vertices, segments, then vertices, colour by colour. Each position is truncated
   /// before it is written, and each cut is counted. Pass `overlapping` only if the sweep reads nothing that the
   /// previous launch writes, except StepControl::turn.
-  /// `parts`: null, or the parts of a simulation; then the sweep updates the vertices of its own part alone.
-  void iterate(const SweepView& view, Start start = Start::after_previous, Parts<Backend>* parts = nullptr) {
-    if (parts != nullptr && parts->is_one_of_several()) return iterate_part(view, *parts);
+  void iterate(const SweepView& view, Start start = Start::after_previous) {
     const int prescribed = static_cast<int>(prescribed_host_.size());
     // The first colour may begin before UpdatePrescribed ends. Only the colour's sums read the positions that
     // UpdatePrescribed writes, and a sum first waits for the previous launch.
@@ -196,6 +194,23 @@ class Sweep {
     }
   }
 
+  /// Does the work of iterate for the own vertices of one of several parts. `padded`: as in StepState.
+  void iterate(const SweepView& view, Parts<Backend>& parts, const PaddedVec* padded) {
+    const Range own = parts.vertices();
+    backend_.for_each(static_cast<int>(prescribed_host_.size()),
+                      UpdatePrescribed{view, prescribed_.data(), own.begin, own.end});
+    for (int c = 0; c < colours_; ++c) {
+      const auto k = static_cast<std::size_t>(c);
+      const Range slots = parts.slots(c);
+      Sums::with(sum_, [&](auto sum) {
+        update_vertices(backend_, lanes_, {slots.count(), colour_begin_[k + 1] - colour_begin_[k]},
+                        UpdateVertex<decltype(sum)>{view, slots.begin, false},
+                        c == 0 ? Start::after_previous : Start::overlapping);
+      });
+      parts.share_colour(view, padded, c);
+    }
+  }
+
   /// Writes the force on each free vertex into `left` (see MeasureVertex).
   void measure(const SweepView& view, LeftForce* left, bool is_end) const {
     measure_vertices(backend_, slots(), MeasureVertex<GatherAll>{view, left, is_end});
@@ -205,22 +220,6 @@ class Sweep {
   template <class T>
   using Buffer = typename Backend::template Buffer<T>;
   using Sums = typename Backend::Sums;
-
-  /// Does the work of iterate for one part. Each colour ends with a meeting, so no launch overlaps another.
-  void iterate_part(const SweepView& view, Parts<Backend>& parts) {
-    const Range own = parts.vertices();
-    backend_.for_each(static_cast<int>(prescribed_host_.size()),
-                      UpdatePrescribed{view, prescribed_.data(), own.begin, own.end});
-    for (int c = 0; c < colours_; ++c) {
-      const auto k = static_cast<std::size_t>(c);
-      const Range slots = parts.slots(c);
-      Sums::with(sum_, [&](auto sum) {
-        update_vertices(backend_, lanes_, {slots.count(), colour_begin_[k + 1] - colour_begin_[k]},
-                        UpdateVertex<decltype(sum)>{view, slots.begin, false}, Start::after_previous);
-      });
-      parts.share_colour(view, c);
-    }
-  }
 
   template <class T>
   static void upload(Buffer<T>& buffer, const std::vector<T>& items) {

@@ -84,7 +84,7 @@ VolumeParts volume_parts(const compare::Scene& scene, const compare::Topology& t
     for (int k = 0; body.is_volume() && k < body.triangle_count; ++k) triangles.push_back(body.first_triangle + k);
   }
   return parts_of(topology, triangles, volume_tetrahedra(scene), compare::volume_cavities(scene),
-                  compare::to_single(scene.mesh.positions));
+                  compare::to_single(scene.rest_positions));
 }
 
 VolumeParts volume_parts(const compare::Topology& topology, std::span<const compare::Tetrahedron> tetrahedra,

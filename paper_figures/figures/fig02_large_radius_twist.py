@@ -248,7 +248,7 @@ def runs_of(arguments):
 if __name__ == "__main__":
     parser = baseline_arguments(__doc__.splitlines()[0], backends=("cpu", "cuda"))
     parser.add_argument("--made", action="store_true", help="draw the runs that are there, and make none")
-    parser.add_argument("--variants", choices=("variants", "neighbours"),
+    parser.add_argument("--variants", choices=("variants", "neighbours", "wide_softer"),
                         help="instead: a table of OGC's runs with one choice varied, at ten edges or at one")
     options = parser.parse_args()
     try:

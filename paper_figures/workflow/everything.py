@@ -18,6 +18,9 @@ them; "–" where nobody measured. Python's own library is enough, except for th
 where that is missing, --studies names the file that --write-studies wrote elsewhere. Drawings and measured studies need
 the project's Python environment; where NumPy is missing they are left out, which is said.
 
+What is finished becomes results by `python3 -m paper_figures.workflow.taken MACHINE RUNS`, and figures by
+`experiments/reproduce FIGURE … --unpack PACKED --accept MACHINE`.
+
 Exit status: 0 all is finished, 1 a part failed (the others were made), 2 wrong words, 75 the limit came first.
 
 Examples:
@@ -47,7 +50,7 @@ from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from pathlib import Path
 
-from paper_figures.workflow import contents, packing, parts
+from paper_figures.workflow import contents, packing, parts, varied
 from paper_figures.workflow.durations import RESULTS, in_words, measured_times, seconds_between
 from paper_figures.workflow.jobs import (AUDIT, CALL_AGAIN, FAILED, FINISHED, KEPT, STOPPED, Limit, RunFailure,
                                          command_in, last_lines)
@@ -263,7 +266,7 @@ def plan(where, wanted, listed):
     last = {name: book.pop(name) for name in list(book) if name.startswith("windows_")}
     small = replace(wanted, scale="smoke") if wanted.scale == "small" else wanted
     return {**book, **judged(wanted), "laws": laws(wanted), "jittered": jittered(wanted),
-            **studies(small, listed), **measured_studies(where, wanted), **last}
+            **studies(small, listed), **measured_studies(where, wanted), **varied.parts_of(where, wanted), **last}
 
 
 def accepted_seconds(name, wanted, times):
@@ -279,7 +282,7 @@ def accepted_seconds(name, wanted, times):
     if name == "illustrations":
         return sum(seconds for (_, scale, _), (seconds, _) in times.items() if scale == "-")
     known = times.get((name, wanted.scale, wanted.backend))
-    return known[0] if known else None
+    return known[0] if known else varied.EXPECTED.get(name) if wanted.scale == "paper" else None
 
 
 def seconds_of_steps(name, wanted):

@@ -11,7 +11,7 @@ import json
 import subprocess
 from dataclasses import dataclass
 
-from paper_figures.workflow.commands import NEO_HOOKEAN, TWIST, on, shared
+from paper_figures.workflow.commands import NEO_HOOKEAN, ST_VENANT, TWIST, on, shared
 from paper_figures.workflow.jobs import Job
 
 SIDES = {"smoke": 16, "small": 60, "paper": 200}  # vertices along a side
@@ -123,11 +123,22 @@ def neighbours(scale, backend="cpu"):
     more = ("--audit", "end", *on(backend), "--set", "frame_steps=200", "--steps", 1200)
     base = (TWIST, *shared(scale), *more)
     varied = {"thin": f"contact_radius={RADIUS * edge(scale) / 5:.6g}", "stiffness_10": "contact_stiffness=10",
-              "stiffness_1": "contact_stiffness=1"}
+              "stiffness_1": "contact_stiffness=1", "st_venant": ST_VENANT[1]}
     return [Job("neighbours/printed", base),
             *(Job(f"neighbours/{name}", more, scene=LeftOut(scale, reach))
               for name, reach in (("one_ring", 1.5), ("two_rings", RINGS))),
             *(Job(f"neighbours/{name}", (*base, "--set", setting)) for name, setting in varied.items())]
+
+
+def wide_softer(scale, backend="cpu"):
+    """Returns OGC's whole runs at r = ten edges, with k_c varied, with the other membrane, and without the neighbours
+    on the sheet that are nearer than r."""
+    more = ("--audit", "end", *on(backend), "--set", "frame_steps=200", "--steps", 1200, *wide(scale))
+    base = (TWIST, *shared(scale), *more)
+    varied = {"printed": (), **{f"stiffness_{k:g}": ("--set", f"contact_stiffness={k:g}") for k in (10, 1, 0.1)},
+              "st_venant": ST_VENANT}
+    return [*(Job(f"wide/{name}", (*base, *options)) for name, options in varied.items()),
+            Job("wide/excluded", more, scene=LeftOut(scale, 11.5))]
 
 
 def variants(scale, backend="cpu"):

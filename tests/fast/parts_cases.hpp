@@ -1,6 +1,8 @@
 // Holds what the tests of parts (fast/kernels/parts.hpp) on the host and on devices share.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <span>
 #include <string>
@@ -48,6 +50,21 @@ inline Outcome run(compare::Simulation& simulation, std::int64_t steps) {
   outcome.rows = simulation.advance(steps);
   outcome.end = simulation.snapshot();
   return outcome;
+}
+
+/// Returns the same scene with one detection a step, so that rows have the counts of all detections.
+inline compare::Scene falling_sheets_detected_once() {
+  compare::Scene scene = falling_sheets();
+  scene.settings.iterations = 1, scene.settings.guess_rounds = 1;
+  return scene;
+}
+
+/// Returns a number of contacts of which those of the rows come nearly up to (ListRoom::full).
+inline int nearly_full_capacity(const Outcome& outcome) {
+  std::int64_t most = 0;
+  for (const compare::StepMetrics& row : outcome.rows)
+    most = std::max(most, row.vertex_facet_contacts + row.edge_edge_contacts);
+  return static_cast<int>(most + most / 10);
 }
 
 template <class T>

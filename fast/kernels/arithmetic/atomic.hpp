@@ -57,6 +57,15 @@ OGC_HD inline void atomic_max(std::uint64_t* target, std::uint64_t value) {
 #endif
 }
 
+/// Sets the bits of `value` in the target.
+OGC_HD inline void atomic_or(std::uint64_t* target, std::uint64_t value) {
+#if defined(__CUDA_ARCH__)
+  atomicOr(reinterpret_cast<unsigned long long*>(target), static_cast<unsigned long long>(value));
+#else
+  std::atomic_ref<std::uint64_t>(*target).fetch_or(value, std::memory_order_relaxed);
+#endif
+}
+
 /// Writes `value` if the target is `expected`, and returns the target's previous value.
 OGC_HD inline std::uint64_t atomic_compare_exchange(std::uint64_t* target, std::uint64_t expected,
                                                     std::uint64_t value) {

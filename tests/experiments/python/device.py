@@ -225,6 +225,22 @@ class Device(unittest.TestCase):
         self.assertTrue(ogc.audit(np.stack(states), scene.faces, groups=groups).clean)
         self.assertGreater(sim.metrics.vertex_facet_contacts[-1], 0)
 
+    def test_worlds_run_there(self):
+        scene = ogc.scene("cloth_on_sphere", scale="smoke")
+        worlds, alone = scene.worlds(3, backend="cuda"), scene.start(backend="cuda")
+        begin = worlds.snapshot(1)
+        rows = worlds.advance([20, 12, 20])
+        own = alone.advance(20)
+        self.assertEqual((worlds.failures, [len(of_world) for of_world in rows]), ({}, [20, 12, 20]))
+        self.assertGreater(own.vertex_facet_contacts[-1], 0)
+        for world in (0, 2):
+            self.assertEqual(worlds.snapshot(world).positions.tobytes(), alone.positions.cpu().tobytes(), world)
+            self.assertEqual(rows[world].elastic_energy.tolist(), own.elastic_energy.tolist(), world)
+        self.assertNotEqual(worlds.snapshot(1).positions.tobytes(), alone.positions.cpu().tobytes())
+        worlds.reset(1, begin)
+        worlds.advance([0, 20, 0])
+        self.assertEqual(worlds.snapshot(1).positions.tobytes(), alone.positions.cpu().tobytes())
+
     @unittest.skipUnless(PROGRAM, "no program was named")
     def test_a_simulation_ends_where_the_program_ends(self):
         scene = ogc.scene("cloth_on_sphere", scale="smoke")

@@ -1,6 +1,4 @@
 // The parts of a simulation compute the bits of the whole (fast/kernels/parts.hpp), here on the host's threads.
-#include <algorithm>
-
 #include "fast/cpu/simulation.hpp"
 #include "tests/catch.hpp"
 #include "tests/fast/parts_cases.hpp"
@@ -37,15 +35,11 @@ TEST_CASE("parts repeat a step together when a list of one of them was too small
 // A simulation ends a frame when a list is nearly full (ListRoom). Parts note different numbers of pairs, so one part
 // would end its frame while the others wait for it. So they go on until a list is too small, which all learn.
 TEST_CASE("no part of a simulation ends a frame because a list is nearly full") {
-  compare::Scene scene = falling_sheets();
-  scene.settings.iterations = 1, scene.settings.guess_rounds = 1;  // one detection a step: rows have all counts
+  const compare::Scene scene = falling_sheets_detected_once();
   const auto whole = start_cpu(scene, {});
   const Outcome expected = run(*whole, 30);
-  std::int64_t most = 0;
-  for (const compare::StepMetrics& row : expected.rows)
-    most = std::max(most, row.vertex_facet_contacts + row.edge_edge_contacts);
-  const std::int64_t capacity = most + most / 10;  // nearly full from 7/8 on
-  const auto divided = start_cpu_parts(scene, {}, 2, static_cast<int>(capacity));
+  const int capacity = nearly_full_capacity(expected);
+  const auto divided = start_cpu_parts(scene, {}, 2, capacity);
   const Outcome parts = run(*divided, 30);
   require_equal(parts, expected);
   REQUIRE(parts.end.capacities.size() == 2);

@@ -46,6 +46,22 @@ TEST_CASE("several devices repeat a step together when a list of one was too sma
   }
 }
 
+TEST_CASE("no device ends a frame because a list is nearly full", "[gpu]") {
+  const compare::Scene scene = falling_sheets_detected_once();
+  const auto whole = start_cuda(scene, {});
+  const Outcome expected = run(*whole, 30);
+  const int capacity = nearly_full_capacity(expected);
+  for (const int devices : numbers_of_devices()) {
+    CAPTURE(devices);
+    const auto divided = start_cuda_parts(scene, {}, devices, capacity);
+    const Outcome parts = run(*divided, 30);
+    require_equal(parts, expected);
+    for (const compare::StepMetrics& row : parts.rows) REQUIRE(row.repeats == 0);
+    REQUIRE(parts.end.capacities.size() == 2);
+    CHECK(parts.end.capacities[0] == capacity);
+  }
+}
+
 TEST_CASE("more devices than the machine has are refused by number", "[gpu]") {
   CHECK_THROWS_WITH(start_cuda_parts(falling_sheets(), {}, 65), ContainsSubstring("65 devices are asked for"));
 }
