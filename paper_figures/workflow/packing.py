@@ -130,7 +130,11 @@ def unpack(folder, out, program):
     """Unpacks every archive in `folder`, and assembles the file that meshes are drawn from (trajectory.vtkhdf) from the
     unpacked frames; returns the runs. Throws UnpackError, with nothing of that archive written."""
     out.mkdir(parents=True, exist_ok=True)
-    names = [name for path in sorted(folder.glob("runs_*.tar.gz")) for name in extract(path, out, (STAMP, TIMES))]
+    archives = sorted(folder.glob("runs_*.tar.gz"))
+    for said in filter(None, (read(path, STAMP) for path in archives)):
+        if not (out / STAMP).exists():
+            (out / STAMP).write_text(said)  # before the runs, which are of this program
+    names = [name for path in archives for name in extract(path, out, (STAMP, TIMES))]
     runs = sorted({(out / name).parent for name in names if name.endswith(("/run.json", f"/{AUDIT}"))})
     for run in runs:
         assemble(program, run)

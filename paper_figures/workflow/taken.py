@@ -152,8 +152,8 @@ def program_of(runs):
 def judge(runs):
     """Yields the judge's counts, a row for each stage and seed."""
     backend = runs.wanted.backend
-    wanted = [runs.of("judge") / f"seed_{seed}" / "said.txt"
-              for seed in range(1, 1 + everything.SEEDS[runs.wanted.scale])]
+    asked = everything.judged(runs.wanted)["judge"].jobs
+    wanted = [runs.of("judge") / job.name / "said.txt" for job in asked if isinstance(job, everything.Command)]
     runs.there(wanted, "judge")
     path = runs.of("judge") / f"judge_{backend}.csv"
     runs.there([path], "judge")
@@ -245,7 +245,7 @@ def measured(runs):
     on_device = runs.wanted.backend == "cuda"
     for name in everything.MEASURED_ON_DEVICE if on_device else everything.MEASURED:
         folder = runs.of(name) / "all"
-        if not everything.Command("all", ()).done(folder.parent):
+        if "status" not in everything.Command("all", ()).record(folder.parent):
             continue
         has_scales = on_device or everything.MEASURED[name]
         for path in sorted([*folder.glob("*.csv"), *folder.glob("*.png")]):
