@@ -72,6 +72,7 @@ CHEAP = ("rest_state", "closest_face", "closest_points", "block", "detect_vertex
 DEAR = ("plane", "volume_depth", "orientation", "sweep", "step")  # for the reference, whose answers take the time
 MEASURED = {"activation_load": True, "creep": True, "falling": False, "radius": True}  # whether it has scales
 MEASURED_ON_DEVICE = ("mat_volumes", "yarn_return")
+SECONDS = "part_seconds.csv"  # of a machine's results: how long parts took there
 LARGEST = 2**20  # bytes of a packed file
 PACK_EVERY = 20  # seconds at least between two packings, which take seconds of all parts
 
@@ -274,6 +275,10 @@ def plan(where, wanted, listed):
 def accepted_seconds(name, wanted, times):
     """Returns how long a part took where its accepted results were made: a row's run and its audit, or a figure; None
     if nobody measured."""
+    part = (name, wanted.scale, wanted.backend)
+    for row in (row for path in sorted(RESULTS.glob(f"*/{SECONDS}")) for row in contents.rows_of(path)):
+        if (row["part"], row["scale"], row["backend"]) == part:
+            return float(row["seconds"])
     run = RESULTS / f"h200/{name}_run.json"
     if wanted.scale == "paper" and run.is_file():
         audit = run.with_name(f"{name}_{AUDIT}")
@@ -385,14 +390,9 @@ def bring(folder, out, said, chosen):
         if program_in(packing.read(path, STAMP)) != program_in(said):
             commit = line_of(packing.read(path, STAMP), "commit ") or "unknown"
             raise PlanError(f"{path.name} is of another program (commit {commit}): move it away")
-    times = {}
-    for path in found:
-        packed = json.loads(packing.read(path, TIMES) or "{}")
-        times |= {name: each for name, each in packed.items() if times.get(name, {}).get("end") not in (FINISHED, KEPT)}
-    left_out = (STAMP, TIMES, *half_made(chosen, times))
+    left_out = (STAMP, TIMES, *half_made(chosen, packing.take_times(found, out)))
     for path in found:
         packing.note(out, packing.extract(path, out, left_out))
-    (out / TIMES).write_text(json.dumps({**times, **measured_before(out)}, indent=1) + "\n")
 
 
 def dry_run(chosen, seconds, before):
