@@ -18,10 +18,12 @@ from collections import Counter
 from paper_figures.site import claims as words
 from paper_figures.site.origins import Origins
 from paper_figures.workflow import contents, recipes, releasable, verdicts
+from paper_figures.workflow.durations import measured_times
 from paper_figures.workflow.evidence import RESULTS, ROOM, Evidence
 
 PAGE, DRAFTS = ROOM / "claims.md", ROOM / "drafts"
 ROOT = ROOM.parent
+FROM_NOTHING = "two_cores/from_nothing.csv"  # its first row: packages, build, one figure
 WIDE = 120
 LONG = 80  # letters of a command; a longer one stands in provenance.csv alone
 RUNNER = re.compile(r"python3 -m paper_figures\.workflow\.runner .*--backend cuda (\w+)$")
@@ -34,9 +36,10 @@ the named hardware, and the accepted file. Minutes are of the whole run, figure 
 or no run was made. `experiments/evidence gpu` makes everything on a GPU, `experiments/evidence cores` what two cores
 can. {settings} ([verdicts.csv](results/verdicts.csv), with notes).
 
-`experiments/reproduce --quick` needs two cores: the drawings, {quick} at scale small, Table 1's scenes at smoke. Its
-`--check` then holds the drawings' data, the runs' audits and means, and the claims whose band has a meaning at these
-scales against the accepted results.
+`experiments/reproduce --quick` makes the drawings, {quick} at scale small, and Table 1's scenes at smoke: by the
+accepted [durations](results/two_cores/durations.csv) {minutes} minutes on two cores after an installation and build
+[from nothing](results/two_cores/from_nothing.csv) of {build}. Its `--check` then holds the drawings' data, the runs'
+audits and means, and the claims whose band has a meaning at these scales against the accepted results.
 """
 HEAD = ("claim", "verdict", "band", "command", "minutes", "hardware", "file")
 
@@ -89,11 +92,21 @@ def settings_in_words(given):
     return f"{len(given)} settings and counts of meshes: {counted}"
 
 
+def quick_seconds(book, times):
+    """Returns how long the installation and build of the quick path took on two cores, and how long its figures did
+    [s]. Throws KeyError with a figure that nobody timed."""
+    drawn = [(name, "-", "-") for name, recipe in book.items() if "illustration" in recipe.body]
+    figures = [*drawn, *((name, "small", "cpu") for name in recipes.QUICK), ("table1", "smoke", "cpu")]
+    first, *_ = contents.rows_of(RESULTS / FROM_NOTHING)
+    return float(first["seconds"]), sum(times[figure][0] for figure in figures)
+
+
 def page(judgements, evidence, book):
     """Returns the text of claims.md."""
     origins = Origins(evidence.runs)
     own, studies = verdicts.by_origin(judgements)
-    filled = {"settings": settings_in_words(verdicts.apart(judgements)[1]),
+    build, figures = (f"{seconds / 60:.0f}" for seconds in quick_seconds(book, measured_times()))
+    filled = {"settings": settings_in_words(verdicts.apart(judgements)[1]), "build": build, "minutes": figures,
               "quick": ", ".join(f"`{name}`" for name in recipes.QUICK)}
     return "\n\n".join([wrapped(INTRODUCTION.format(**filled)), "## The paper's own", table(own, origins, book),
                         "## Our studies'", table(studies, origins, book)]) + "\n"

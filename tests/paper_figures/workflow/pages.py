@@ -18,6 +18,7 @@ except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
 from paper_figures.site.origins import Origin  # noqa: E402
+from paper_figures.workflow.durations import measured_times  # noqa: E402
 from paper_figures.workflow.evidence import Evidence  # noqa: E402
 
 
@@ -46,6 +47,10 @@ class Pages(unittest.TestCase):
             self.assertTrue(hardware, name)
             for link in re.findall(r"\]\((\S+)\)", f"{command} {file}"):
                 self.assertTrue((pages.ROOM / link).exists(), link)
+
+    def test_the_quick_path_fits_into_half_an_hour_by_the_accepted_durations(self):
+        self.assertLess(sum(pages.quick_seconds(self.book, measured_times())), 1800)
+        self.assertRaises(KeyError, pages.quick_seconds, self.book, {})
 
     def test_a_verdict_that_changes_changes_pages_and_the_title(self):
         changed = [replace(each, verdict="refuted") if each.verdict == "reproduced" else each
