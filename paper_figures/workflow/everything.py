@@ -39,6 +39,7 @@ import csv
 import hashlib
 import io
 import json
+import math
 import os
 import re
 import shutil
@@ -71,7 +72,9 @@ CHEAP = ("rest_state", "closest_face", "closest_points", "block", "detect_vertex
 DEAR = ("plane", "volume_depth", "orientation", "sweep", "step")  # for the reference, whose answers take the time
 MEASURED = {"activation_load": True, "creep": True, "falling": False, "radius": True}  # whether it has scales
 MEASURED_ON_DEVICE = ("mat_volumes", "yarn_return")
+SECONDS = "part_seconds.csv"  # of a machine's results: how long parts took there
 LARGEST = 2**20  # bytes of a packed file
+PACK_EVERY = 20  # seconds at least between two packings, which take seconds of all parts
 
 
 class PlanError(Exception):
@@ -272,6 +275,10 @@ def plan(where, wanted, listed):
 def accepted_seconds(name, wanted, times):
     """Returns how long a part took where its accepted results were made: a row's run and its audit, or a figure; None
     if nobody measured."""
+    part = (name, wanted.scale, wanted.backend)
+    for row in (row for path in sorted(RESULTS.glob(f"*/{SECONDS}")) for row in contents.rows_of(path)):
+        if (row["part"], row["scale"], row["backend"]) == part:
+            return float(row["seconds"])
     run = RESULTS / f"h200/{name}_run.json"
     if wanted.scale == "paper" and run.is_file():
         audit = run.with_name(f"{name}_{AUDIT}")
@@ -383,14 +390,9 @@ def bring(folder, out, said, chosen):
         if program_in(packing.read(path, STAMP)) != program_in(said):
             commit = line_of(packing.read(path, STAMP), "commit ") or "unknown"
             raise PlanError(f"{path.name} is of another program (commit {commit}): move it away")
-    times = {}
-    for path in found:
-        packed = json.loads(packing.read(path, TIMES) or "{}")
-        times |= {name: each for name, each in packed.items() if times.get(name, {}).get("end") not in (FINISHED, KEPT)}
-    left_out = (STAMP, TIMES, *half_made(chosen, times))
+    left_out = (STAMP, TIMES, *half_made(chosen, packing.take_times(found, out)))
     for path in found:
         packing.note(out, packing.extract(path, out, left_out))
-    (out / TIMES).write_text(json.dumps({**times, **measured_before(out)}, indent=1) + "\n")
 
 
 def dry_run(chosen, seconds, before):
@@ -404,11 +406,11 @@ def dry_run(chosen, seconds, before):
 
 
 def make(options, chosen):
-    """Makes the chosen parts, packs each as it ends, and returns the exit status."""
+    """Makes the chosen parts, packs them as they end, and returns the exit status."""
     limit = Limit(options.time_limit)
     common = (options.program, options.out, limit, options.part_limit, options.jobs)
     archive = packing.Archive(options.pack, options.out, options.frames, (STAMP, TIMES)) if options.pack else None
-    ends, lines, lock = [], [], threading.Lock()
+    ends, lock, packed_at = [], threading.Lock(), [-math.inf]
 
     def ended(name, end, seconds):
         with lock:
@@ -420,7 +422,9 @@ def make(options, chosen):
             earlier = times.get(name, {}).get("seconds", 0)
             times[name] = {"seconds": round(earlier + seconds, 1), "end": end}
             (options.out / TIMES).write_text(json.dumps(times, indent=1) + "\n")
-            lines[:] = archive.write(chosen) if archive else []
+            if archive and time.monotonic() - packed_at[0] > PACK_EVERY:
+                archive.write(chosen)
+                packed_at[0] = time.monotonic()
 
     if options.cards:
         SideBySide(*common, cards=options.cards).make_all(chosen, groups(chosen), ended)
@@ -428,6 +432,7 @@ def make(options, chosen):
         for name, part in chosen.items():
             begun = time.monotonic()
             ended(name, Runner(*common).make(name, part), time.monotonic() - begun)
+    lines = archive.write(chosen) if archive else []
     print("\n".join(lines), end="\n" if lines else "")
     return 1 if FAILED in ends else CALL_AGAIN if STOPPED in ends else 0
 

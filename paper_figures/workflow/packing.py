@@ -11,7 +11,7 @@ import tarfile
 from pathlib import PurePosixPath
 
 from paper_figures.workflow import parts
-from paper_figures.workflow.jobs import AUDIT, remove
+from paper_figures.workflow.jobs import AUDIT, FINISHED, KEPT, remove
 
 MIB = 2**20
 PACKED = "packed.json"  # beside the runs: packed file -> its last change [ns]
@@ -102,6 +102,20 @@ def read(path, name):
         raise UnpackError(f"{path.name} is cut or damaged ({error})") from error
 
 
+def take_times(archives, out):
+    """Takes over how long the parts of the archives took, unless it is known below `out`; returns it all."""
+    ended = lambda found, name: found.get(name, {}).get("end") in (FINISHED, KEPT)  # noqa: E731
+    times = {}
+    for path in archives:
+        packed = json.loads(read(path, TIMES) or "{}")
+        times |= {name: each for name, each in packed.items() if not ended(times, name)}
+    known = json.loads((out / TIMES).read_text()) if (out / TIMES).is_file() else {}
+    times |= {name: each for name, each in known.items() if not ended(times, name)}
+    if times:
+        (out / TIMES).write_text(json.dumps(times, indent=1) + "\n")
+    return times
+
+
 def extract(path, out, left_out=()):
     """Writes the members of an archive below `out`, but those whose names begin as in `left_out`, and returns their
     names. Throws UnpackError, before anything is written, if a member is not a plain file or would be written
@@ -130,7 +144,12 @@ def unpack(folder, out, program):
     """Unpacks every archive in `folder`, and assembles the file that meshes are drawn from (trajectory.vtkhdf) from the
     unpacked frames; returns the runs. Throws UnpackError, with nothing of that archive written."""
     out.mkdir(parents=True, exist_ok=True)
-    names = [name for path in sorted(folder.glob("runs_*.tar.gz")) for name in extract(path, out, (STAMP, TIMES))]
+    archives = sorted(folder.glob("runs_*.tar.gz"))
+    for said in filter(None, (read(path, STAMP) for path in archives)):
+        if not (out / STAMP).exists():
+            (out / STAMP).write_text(said)  # before the runs, which are of this program
+    take_times(archives, out)
+    names = [name for path in archives for name in extract(path, out, (STAMP, TIMES))]
     runs = sorted({(out / name).parent for name in names if name.endswith(("/run.json", f"/{AUDIT}"))})
     for run in runs:
         assemble(program, run)

@@ -34,7 +34,7 @@ SOURCES = ("compare", "reference", "fast", "experiments")
 KEYS = {"title", "illustrations", "scene", "script", "run", "options", "of", "movie", "rows", "backends",
         "missing", "kept", "study"}
 STUDIES = "ablations"  # the studies' folder, and the name for all of them
-QUICK = ("fig17", "fig18", "fig18_solvers", "fig20")  # with illustrations: `experiments/reproduce --quick`
+QUICK = ("fig17", "fig18", "fig18_solvers", "fig20")  # with illustrations: experiments/reproduce --quick, at small
 
 
 class RecipeError(Exception):

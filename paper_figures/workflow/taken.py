@@ -1,7 +1,7 @@
 """Takes what experiments/evidence made, and no figure keeps, into results/MACHINE: the whole runs of Table 1's rows
 with their audits, windows on the processors, the judge's counts and digests, the laws, jittered starts, the ablations,
-the measured studies, repeated runs, and steps of Fig. 17 with one choice varied. Each file has a row in provenance.csv
-with the command that makes it again.
+the measured studies, repeated runs, steps of Fig. 17 with one choice varied, and how long each part took. Each file has
+a row in provenance.csv with the command that makes it again.
 
 Figures are kept by `experiments/reproduce FIGURE … --unpack PACKED --accept MACHINE`, which draws them.
 
@@ -28,7 +28,7 @@ from paper_figures.workflow import accept, captions, commands, contents, everyth
 from paper_figures.workflow import steady as repetitions
 from paper_figures.workflow.contents import COLUMNS, PROVENANCE, merge, rows_of
 from paper_figures.workflow.evidence import RESULTS, SCENES
-from paper_figures.workflow.jobs import RunFailure
+from paper_figures.workflow.jobs import FINISHED, KEPT, RunFailure
 from paper_figures.workflow.kept import AcceptError, file_of, run_files
 
 SHORT = 10  # digits of a commit in a table
@@ -152,8 +152,8 @@ def program_of(runs):
 def judge(runs):
     """Yields the judge's counts, a row for each stage and seed."""
     backend = runs.wanted.backend
-    wanted = [runs.of("judge") / f"seed_{seed}" / "said.txt"
-              for seed in range(1, 1 + everything.SEEDS[runs.wanted.scale])]
+    asked = everything.judged(runs.wanted)["judge"].jobs
+    wanted = [runs.of("judge") / job.name / "said.txt" for job in asked if isinstance(job, everything.Command)]
     runs.there(wanted, "judge")
     path = runs.of("judge") / f"judge_{backend}.csv"
     runs.there([path], "judge")
@@ -245,7 +245,7 @@ def measured(runs):
     on_device = runs.wanted.backend == "cuda"
     for name in everything.MEASURED_ON_DEVICE if on_device else everything.MEASURED:
         folder = runs.of(name) / "all"
-        if not everything.Command("all", ()).done(folder.parent):
+        if "status" not in everything.Command("all", ()).record(folder.parent):
             continue
         has_scales = on_device or everything.MEASURED[name]
         for path in sorted([*folder.glob("*.csv"), *folder.glob("*.png")]):
@@ -256,6 +256,18 @@ def measured(runs):
             found += 1
     if not found:
         raise Missing("measured: no study is there")
+
+
+def seconds(runs):
+    """Yields how long each finished part took, all its calls and the jobs of its chains together."""
+    path, about = runs.folder / everything.TIMES, program_of(runs)
+    runs.there([path], "seconds")
+    table = [{"part": part, "scale": runs.wanted.scale, "backend": runs.wanted.backend, "seconds": each["seconds"],
+              "device": about["device"], "commit": about["commit"][:SHORT]}
+             for part, each in sorted(said_by(path).items()) if each["end"] in (FINISHED, KEPT) and each["seconds"]]
+    if not table:
+        raise Missing("seconds: no part is finished")
+    yield everything.SECONDS, as_csv(table), {"figure": "seconds", "scale": "-", "redo": runs.redo, **about}
 
 
 def steady(runs):
@@ -282,7 +294,7 @@ def solved_steps(runs):
 
 
 KINDS = {each.__name__: each for each in (rows, windows, judge, determinism, laws, jittered, ablations, measured,
-                                          steady, solved_steps)}
+                                          steady, solved_steps, seconds)}
 
 
 def keep(machine, runs, found, results):

@@ -12,12 +12,13 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 SOURCE, OGC = Path(sys.argv[1]).resolve(), str(Path(sys.argv[2]).resolve())
 del sys.argv[1:3]
 sys.path.insert(0, str(SOURCE))
 try:
-    from paper_figures.workflow import taken  # noqa: E402
+    from paper_figures.workflow import everything, parts, taken  # noqa: E402
     from paper_figures.workflow.kept import AcceptError  # noqa: E402
 except ImportError as error:
     print(f"skipped: {error}")
@@ -89,6 +90,17 @@ class Taken(unittest.TestCase):
         first = rows_of(self.results / "machine/cpu_windows_smoke.csv")[0]
         took = [float(row["wall [ms]"]) for row in rows_of(self.made / "table1-smoke-cpu/twist/cpu_0/steps.csv")]
         self.assertAlmostEqual(float(first["mean step [ms]"]), sum(took) / len(took), delta=1e-3 * max(took))
+
+    def test_how_long_parts_took_is_what_a_later_call_expects(self):
+        self.take("seconds")
+        table = {row["part"]: row for row in rows_of(self.results / "machine" / everything.SECONDS)}
+        times = json.loads((self.made / everything.TIMES).read_text())
+        self.assertEqual(set(table), {"twist", "windows_twist"})
+        self.assertEqual(float(table["twist"]["seconds"]), times["twist"]["seconds"])
+        wanted = parts.Wanted(scale="smoke", backend="cpu")
+        with mock.patch.object(everything, "RESULTS", self.results):
+            self.assertEqual(everything.accepted_seconds("twist", wanted, {}), times["twist"]["seconds"])
+            self.assertIsNone(everything.accepted_seconds("knot", wanted, {}))
 
     def test_a_table_without_one_of_its_parts_is_left_as_it_was(self):
         with self.assertRaisesRegex(taken.Missing, "windows: .*run.json is missing"):
