@@ -90,6 +90,13 @@ class SolvedSteps(Scratch):
             self.assertTrue(0 < share < 1)
         manifest = json.loads((folder / "share_500_1/run.json").read_text())
         self.assertEqual(manifest["time_repeats"], str(varied.REPEATS))
+        for path in self.folder.rglob("run.json"):  # they stand in for those of a commit
+            path.write_text(json.dumps({**json.loads(path.read_text()), "dirty": False, "commit": "a" * 40}))
+        some = taken.Runs(self.folder, "smoke", "cpu", True)
+        self.assertEqual([(name, words["figure"]) for name, _, words in taken.solved_steps(some)],
+                         [("fig17_share_smoke.csv", "fig17_share")])
+        with self.assertRaisesRegex(taken.Missing, "fig17_printed.csv is missing"):
+            list(taken.solved_steps(taken.Runs(self.folder, "smoke", "cpu")))
 
     def test_a_row_for_each_step_with_the_printed_share_and_measured_times(self):
         folder, _ = self.make("fig17_printed")
