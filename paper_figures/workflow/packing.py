@@ -32,12 +32,13 @@ class Archive:
 
     def write(self, book):
         """Packs what is new of the parts in `book`; returns lines about them."""
-        packed, lines = {}, []
+        packed, lines, seen = {}, [], set()
         for name, part in book.items():
-            files = self.new_files(part)
+            files = [path for path in self.new_files(part) if path.resolve() not in seen]
+            seen.update(path.resolve() for path in files)
             if files:
                 lines.append(f"{name}: {len(files)} files, {sum(path.stat().st_size for path in files) / MIB:.1f} MiB")
-            packed.update((path.relative_to(self.out).as_posix(), path) for path in files)  # parts share runs
+            packed.update((path.resolve().relative_to(self.out.resolve()).as_posix(), path) for path in files)
         if not packed:
             return lines
         self.folder.mkdir(parents=True, exist_ok=True)
@@ -51,11 +52,12 @@ class Archive:
         return [*lines, f"{self.path.stat().st_size / MIB:.1f} MiB in {self.path}"]
 
     def new_files(self, part):
-        """Returns the files of a part's jobs that no earlier call packed in their current form."""
-        root, files = self.out / part.folder, {}
+        """Returns the files of a part's jobs that no earlier call packed in their current form. A link to a row's run
+        (Part.shown_as) is packed as that run, from which unpacking makes it again."""
+        root, files, out = self.out / part.folder, {}, self.out.resolve()
         for job in part.jobs:
             files.update(dict.fromkeys(job.results(root, part.frames, part.last)))
-        known = lambda path: self.before.get(path.relative_to(self.out).as_posix())  # noqa: E731
+        known = lambda path: self.before.get(path.resolve().relative_to(out).as_posix())  # noqa: E731
         return [path for path in files if known(path) != path.stat().st_mtime_ns]
 
 
