@@ -193,7 +193,7 @@ def draw(runs, out):
     ten = [name for name in TEN if name in runs]
     shown = [(edge, None), (edge, MIDDLE), *([(ten, None)] if ten else [])]
     sizes = [style.pictures(len(names), NEAR if reach else SIZE) for names, reach in shown]
-    figure, axes = style.page([*sizes, (2.4, [(1 / 3, "plot")] * 3), (0.75, [(1, "picture")])], title_of(rows),
+    figure, axes = style.page([*sizes, (2.4, [(1 / 3, "plot")] * 3), (0.55, [(1, "picture")])], title_of(rows),
                               below_of(runs, rows))
     letters = iter("abcdefghijklmnop")
     for places, (names, reach) in zip(axes, shown):
