@@ -8,6 +8,7 @@
 
 #include "compare/oracle/volume_audit.hpp"
 #include "fast/cpu/simulation.hpp"
+#include "fast/stages/volume_parts.hpp"
 #include "tests/catch.hpp"
 #include "tests/compare/problem/solid_scene.hpp"
 #include "tests/fast/scenes.hpp"
@@ -232,6 +233,18 @@ TEST_CASE("free volumes: the same bits again, on any number of threads and acros
     wrong.capacities[wrong.capacities.size() - 1 - of_corners] = 0;
     CHECK_THROWS_AS(second->restore(wrong), std::invalid_argument);
   }
+}
+
+TEST_CASE("a volume's trees have one order, whatever the state with which a scene begins", "[unit]") {
+  Scene scene = empty_scene();
+  add_block(scene, {0, 0, 0}, rubber());
+  const compare::Topology topology = compare::build_topology(scene);
+  const PartOrder before = volume_parts(scene, topology).at(0);
+  for (Vec3& x : scene.mesh.positions) x = {-3 * x.y, x.z, 2 * x.x};
+  CHECK(volume_parts(scene, topology).at(0).facets == before.facets);
+  CHECK(volume_parts(scene, topology).at(0).tetrahedra == before.tetrahedra);
+  scene.rest_positions = scene.mesh.positions;  // of another shape at rest the order is another
+  CHECK(volume_parts(scene, topology).at(0).facets != before.facets);
 }
 
 TEST_CASE("a body whose rest shape lies in itself is pushed out of itself", "[property]") {
