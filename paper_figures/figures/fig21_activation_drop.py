@@ -267,8 +267,9 @@ def draw_states(axes, results):
     image = render.picture(coloured(runs[0], frames[0], shades), camera, SIZE, **look)
     style.picture(axes[3], image, f"(a) by its distance to (b), median {1e3 * np.median(far):.2g} mm")
     shown = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, 1e3 * far.max()), DISTANCES)
-    inset = axes[3].inset_axes((0.72, 0.09, 0.24, 0.035))
-    axes[3].figure.colorbar(shown, cax=inset, orientation="horizontal", label="mm").ax.tick_params(labelsize=7)
+    inset = axes[3].inset_axes((0.66, 0.09, 0.24, 0.035))
+    axes[3].figure.colorbar(shown, cax=inset, orientation="horizontal").ax.tick_params(labelsize=7)
+    inset.text(1.06, 0.5, "mm", fontsize=7.5, va="center", transform=inset.transAxes)
     return far
 
 

@@ -39,12 +39,13 @@ class Archive:
 
     def write(self, book):
         """Packs what is new of the parts in `book`; returns lines about them."""
-        packed, lines = {}, []
+        packed, lines, seen = {}, [], set()
         for name, part in book.items():
-            files = self.new_files(part)
+            files = [path for path in self.new_files(part) if path.resolve() not in seen]
+            seen.update(path.resolve() for path in files)
             if files:
                 lines.append(f"{name}: {len(files)} files, {sum(path.stat().st_size for path in files) / MIB:.1f} MiB")
-            packed.update((path.relative_to(self.out).as_posix(), path) for path in files)  # parts share runs
+            packed.update((self.inside(path), path) for path in files)
         while packed:
             changed, full = self.piece(packed)
             (self.out / PACKED).write_text(json.dumps({**packed_before(self.out), **changed}))
@@ -70,13 +71,17 @@ class Archive:
         partial.replace(self.path)
         return changed, full
 
+    def inside(self, path):
+        return path.resolve().relative_to(self.out.resolve()).as_posix()
+
     def new_files(self, part):
-        """Returns the files of a part's jobs that no closed archive has in their current form."""
+        """Returns the files of a part's jobs that no closed archive has in their current form. A link to a row's run
+        (Part.shown_as) is packed as that run, from which unpacking makes it again."""
         root, files = self.out / part.folder, {}
         frames = part.frames if self.frames is None else min(part.frames, self.frames)
         for job in part.jobs:
             files.update(dict.fromkeys(job.results(root, frames, part.last)))
-        known = lambda path: self.before.get(path.relative_to(self.out).as_posix())  # noqa: E731
+        known = lambda path: self.before.get(self.inside(path))  # noqa: E731
         return [path for path in files if known(path) != path.stat().st_mtime_ns]
 
 
