@@ -124,6 +124,9 @@ struct StepMetrics {
   std::vector<IterationMetrics> iteration_rows;  ///< with SimulationOptions::iterations
   /// with profile: time of each stage, in the order of Simulation::stage_names()
   std::vector<double> stage_ms;
+  /// With profile and iterations, if a trace tells the iterations (Contestant::step): measured times from the start of
+  /// the step to the end of each detection, and to the start of the first iteration and the end of each [ms].
+  std::vector<double> detection_ends_ms, iteration_ends_ms;
 };
 
 /// Holds the state at the end of a step and the data that the motion certificate needs.
@@ -148,10 +151,12 @@ struct Snapshot {
 
 /// Selects what a simulation records besides its states.
 struct SimulationOptions {
-  bool profile = false;     ///< times by stage (adds synchronisations)
-  bool energies = true;     ///< energies of StepMetrics
-  bool iterations = false;  ///< StepMetrics::iteration_rows, if the solver keeps them
-  bool condition = false;   ///< condition number in each iteration row (slow), if the solver factorises
+  bool profile = false;  ///< times by stage (adds synchronisations)
+  bool energies = true;  ///< energies of StepMetrics
+  /// StepMetrics::iteration_rows if the solver keeps them; else, with profile, the ends of events (adds
+  /// synchronisations)
+  bool iterations = false;
+  bool condition = false;  ///< condition number in each iteration row (slow), if the solver factorises
 };
 
 /// A simulation whose data stay where the contestant computes; they are copied to the host only on request.

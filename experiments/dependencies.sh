@@ -1,5 +1,5 @@
-# Functions for tests/run and experiments/reproduce that install missing packages and build. The names of packages were
-# tested on Debian 12; Ubuntu 24.04 has the same names but was not tested.
+# Functions for tests/run and experiments/reproduce that install missing packages and build. Debian 12 and Ubuntu 24.04
+# have these names of packages (tests/experiments/container/bare_root.sh).
 
 packages=(
   build-essential cmake ninja-build git ca-certificates

@@ -91,7 +91,8 @@ def page(rows, title, below=""):
 
 
 def label_ends(axes, fontsize=7.5):
-    """Names each line at its right end, outside the data, in its colour; names that would touch are moved apart."""
+    """Names each line at its right end, outside the data, in its colour; names that would touch are moved apart, and
+    are smaller where they are too many for the height of the panel, which they do not leave."""
     lines = [line for line in axes.get_lines() if not line.get_label().startswith("_") and len(line.get_xdata())]
     named = []
     for line in lines:
@@ -101,16 +102,28 @@ def label_ends(axes, fontsize=7.5):
             place = axes.transAxes.inverted().transform(axes.transData.transform((x[known[-1]], y[known[-1]])))
             named.append([float(np.clip(place[1], 0, 1)), line])
     inches = axes.get_position().height * axes.figure.get_size_inches()[1]
-    apart, named = fontsize * 0.62 / 72 / inches, sorted(named, key=lambda pair: pair[0])
+    named.sort(key=lambda pair: pair[0])
     tall = {line: 1 + line.get_label().count("\n") for _, line in named}
+    most = inches * 72 / 1.24 / max(1, sum(tall.values()))  # size of names that fill the height
+    fontsize = min(fontsize, most)
+    apart = fontsize * 0.62 / 72 / inches  # half of a line of text
     for _ in range(50):  # neighbours push one another apart until all names are readable
         for low, high in zip(named, named[1:]):
             overlap = apart * (tall[low[1]] + tall[high[1]]) - (high[0] - low[0])
             if overlap > 0:
                 low[0], high[0] = low[0] - overlap / 2, high[0] + overlap / 2
+        for pair in named:
+            inside = apart * tall[pair[1]]
+            pair[0] = min(max(pair[0], inside), 1 - inside)
     for height, line in named:
         axes.annotate(line.get_label(), (1.015, height), xycoords="axes fraction", va="center", ha="left",
                       fontsize=fontsize, color=line.get_color(), annotation_clip=False)
+
+
+def key(axes, lines, columns=4, fontsize=8):
+    """Names lines in a cell of their own, a picture of `page`, for panels that share them."""
+    axes.axis("off")
+    axes.legend(handles=list(lines), loc="center", ncol=columns, fontsize=fontsize, frameon=False)
 
 
 def not_run(axes, words="not run"):

@@ -21,6 +21,7 @@ struct Readers {
 constexpr auto table = std::to_array<Readers>({
     {"bounds", "dat", {"vbd", "reference_vbd"}, "whose line search scales all vertices at once"},
     {"detection_gap", "", {"vbd", "reference_vbd"}, "whose iterations detect where a line search ends"},
+    {"detection_deep", "", {"vbd", "reference_vbd"}, "whose iterations detect where a line search ends"},
     {"settled_move", "", {"vbd", "reference_vbd"}, "which ends its steps by tolerances of its own"},
     {"newton_truncation", "", {"newton"}, "which holds no pairs to planes that travel with them"},
     {"rod_orientation", "", {"vbd", "reference_vbd"}, "which sweeps over no orientations"},
@@ -70,9 +71,8 @@ void refuse_unread(const Settings& settings, std::string_view solver) {
 }
 
 bool has_declared_settings() {
-  return std::ranges::any_of(setting_table(), [](const SettingInfo& info) {
-    return std::holds_alternative<DeclaredSetting>(info.field);
-  });
+  return std::ranges::any_of(
+      setting_table(), [](const SettingInfo& info) { return std::holds_alternative<DeclaredSetting>(info.field); });
 }
 
 }  // namespace ogc::compare

@@ -58,6 +58,10 @@ constexpr auto problem_table = std::to_array<SettingInfo>({
      "bounds "
      "stop; detection_every goes first",
      1, most_count, &Settings::detection_gap},
+    {"detection_deep", "1",
+     "vbd, reference_vbd: 1: while a vertex lies deep inside a volume, any cut vertex causes a detection; 0: only as "
+     "many as detection_fraction says do",
+     0, 1, &Settings::detection_deep},
     {"settled_move", "m",
      "vbd, reference_vbd: a step ends after an iteration that cut no vertex and moved none farther than this along any "
      "axis, unless a detection is due; 0: a step has all its iterations",

@@ -65,6 +65,7 @@ struct Settings {
   double detection_fraction = 0.01;  ///< γ_e, Alg. 3 line 29
   std::int64_t detection_every = 0;  ///< number of iterations after which contacts are detected again; 0: no limit
   std::int64_t detection_gap = 1;    ///< least number of iterations between two detections of a step
+  std::int64_t detection_deep = 1;   ///< 1: a vertex deep inside a volume causes detections (compare/volumes.md); 0: no
   double settled_move = 0;           ///< largest move of an iteration that ends a step [m]; 0: none does
   std::int64_t guess_rounds = 16;    ///< rounds of the guess loop (method.md §5.2); 1: as printed in Eq. 28
   double friction_velocity = 0.01;   ///< ε_v [m/s]

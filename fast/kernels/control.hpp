@@ -38,6 +38,7 @@ struct ControlSettings {
   double redetect_vertices = 1;    ///< γ_e K
   int detection_every = 0;         ///< at most this number of iterations between two detections; 0: no limit
   int detection_gap = 1;           ///< at least this number of iterations between two detections
+  bool deep_asks = true;           ///< whether vertices deep inside volumes cause detections
   int iterations = 1 << 30;        ///< iterations of a step; no detection follows the last one
   int guess_rounds = 16;           ///< largest number of rounds of a step's guess loop
   int sort_every = 1;              ///< steps between two sorts of the trees
@@ -111,12 +112,12 @@ struct StepControl {
 };
 
 /// Returns whether a detection is due because of cuts, and resets the counts. None is due unless `may_detect`. It is
-/// due if at least `least_cut` vertices were cut, or if any vertex was cut while one is deep inside a volume. It is
-/// also due if prescribed vertices lag and one of them has moved since the last detection. If none of them has moved,
-/// it is due only once in a step.
-OGC_HD inline bool take_request(StepControl& c, int least_cut, bool may_detect = true) {
+/// due if at least `least_cut` vertices were cut, or, with `deep_asks`, if any vertex was cut while one is deep inside
+/// a volume. It is also due if prescribed vertices lag and one of them has moved since the last detection. If none of
+/// them has moved, it is due only once in a step.
+OGC_HD inline bool take_request(StepControl& c, int least_cut, bool may_detect = true, bool deep_asks = true) {
   const bool lag_asks = may_detect && c.lagging > 0 && (c.advanced > 0 || c.lag_asked == 0),
-             asks = c.cut >= least_cut || (c.cut > 0 && c.deep_inside > 0);
+             asks = c.cut >= least_cut || (deep_asks && c.cut > 0 && c.deep_inside > 0);
   if (lag_asks) c.lag_asked = 1;
   c.cut_last = c.cut + c.lagging;
   c.cut = c.lagging = c.advanced = c.deep_inside = 0;
@@ -211,7 +212,8 @@ struct EndIteration {
     if (number >= 0 && c.turn != number) return;
     ++c.iterations;
     ++c.since_detection;
-    const bool asked = take_request(c, settings.least_cut(), c.since_detection >= settings.detection_gap);
+    const bool asked = take_request(c, settings.least_cut(), c.since_detection >= settings.detection_gap,
+                                    settings.deep_asks);
     const bool due = settings.detection_every > 0 && c.since_detection >= settings.detection_every;
     // cut_last counts every cut and every lag, those that detection_gap or a lag's single request keep from asking, too
     const bool is_settled = settings.may_settle() && c.cut_last == 0 && c.moved == 0 && !due;

@@ -56,7 +56,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
                  sweep_.slots(), sweep_.colour()),
         rods_(scene_, rest_, longest_frame),
         parts_(backend_, std::move(hall), part, colouring_, rest_),
-        clock_(backend_, options.profile),
+        clock_(backend_, options.profile, options.iterations),
         moving_(static_cast<std::size_t>(compare::bounded_count(topology_, exclusions_.groups))),
         step_(backend_, state_, detection_, sweep_, volumes_, rods_, parts_, clock_,
               step_settings(scene_, moving_, options.energies), static_cast<int>(rest_.mass.size())),
@@ -310,6 +310,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     backend_.synchronize();
     const std::vector<double> wall_ms = is_replayed() ? backend_.replay_milliseconds() : std::exchange(wall_ms_, {});
     const std::vector<std::vector<double>> stage_ms = std::exchange(stage_ms_, {});
+    std::vector<EventEnds> ends = std::exchange(ends_, {});
     StepControl control;
     report_.download(&control, 1);
     since_sort_ = control.since_sort;
@@ -321,6 +322,10 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
       compare::StepMetrics row = metrics(device_rows[i], step_number_ + k + 1);
       row.wall_ms = wall_ms[i];
       if (clock_.on()) row.stage_ms = stage_ms[i];
+      if (clock_.by_iteration()) {
+        row.detection_ends_ms = std::move(ends[i].detections);
+        row.iteration_ends_ms = std::move(ends[i].iterations);
+      }
       row.repeats = std::exchange(repeats_, 0);
       if (row.repeats > 0) row.status |= compare::step_list_grew;
       rows.push_back(std::move(row));
@@ -344,10 +349,12 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
     using Clock = std::chrono::steady_clock;
     for (int k = 0; k < count; ++k) {
       const Clock::time_point start = Clock::now();
-      step_.enqueue(group_, Sorting::asked, is_measured(step_number_ + k + 1));
+      clock_.begin_step();
+      step_.enqueue(clock_.by_iteration() ? 1 : group_, Sorting::asked, is_measured(step_number_ + k + 1));
       if (!clock_.on()) backend_.synchronize();
       wall_ms_.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
       stage_ms_.push_back(clock_.take());
+      ends_.push_back(clock_.take_ends());
     }
   }
   bool is_replayed() const { return !clock_.on() && !step_.is_observed(); }
@@ -487,6 +494,7 @@ class ResidentSimulation : public compare::Simulation, public compare::WayTeller
   std::int64_t repeats_ = 0;                               ///< of the next step
   std::vector<double> wall_ms_;                            ///< of the frame's steps, if they are not replayed
   std::vector<std::vector<double>> stage_ms_;
+  std::vector<EventEnds> ends_;
 };
 
 }  // namespace ogc::fast

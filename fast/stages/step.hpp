@@ -124,6 +124,7 @@ class Step {
     clock_.time(StepStage::initial_guess, [&] { guess_loop(); });
     if (measures) clock_.time(StepStage::metrics, [&] { left_forces_.begin(sweep_, view(0)); });
     clock_.time(StepStage::sweep, [&] {
+      clock_.end_iteration(0);
       for (int i = 0; i < settings_.iterations; i += group) iterate(i, std::min(group, settings_.iterations - i));
       share_positions();
     });
@@ -306,6 +307,7 @@ class Step {
       }
     };
     const auto detect_after_sweep = [&] {
+      clock_.end_iteration(last + 1);
       observe(compare::StepEventKind::sweep);
       share_positions();
       detect();
@@ -318,6 +320,7 @@ class Step {
       backend_.when(end(first), due, detect_after_sweep);
     else
       backend_.for_each(1, end(first));
+    clock_.end_iteration(last + 1);
     observe(compare::StepEventKind::sweep);
   }
 

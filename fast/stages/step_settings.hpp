@@ -64,6 +64,7 @@ inline StepSettings step_settings(const compare::Scene& scene, std::size_t movin
   to.control.redetect_vertices = from.detection_fraction * static_cast<double>(moving);
   to.control.detection_every = static_cast<int>(from.detection_every);
   to.control.detection_gap = static_cast<int>(from.detection_gap);
+  to.control.deep_asks = from.detection_deep != 0;
   to.control.settled_move = static_cast<float>(from.settled_move);
   to.control.guess_rounds = static_cast<int>(from.guess_rounds);
   to.control.sort_every = steps_between_sorts;

@@ -17,7 +17,9 @@ struct PartOrder {
 using VolumeParts = std::vector<PartOrder>;
 
 /// Returns the parts of a scene's volumes in the order of their lowest-numbered triangles. Facets and tetrahedra are
-/// sorted along a Hilbert curve at the scene's start. Tetrahedra are numbered as in volume_tetrahedra.
+/// sorted along a Hilbert curve through their rest positions: the order of a tree is the order in which a vertex's
+/// contacts are added up, so that it must not depend on the state in which a scene begins (a trace begins at a later
+/// one). Tetrahedra are numbered as in volume_tetrahedra.
 VolumeParts volume_parts(const compare::Scene& scene, const compare::Topology& topology);
 
 /// Returns the parts of one volume whose surface is all triangles of the topology, at `positions`. `cavities`: see

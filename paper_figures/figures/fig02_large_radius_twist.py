@@ -34,6 +34,9 @@ NAMES = {OGC: "OGC", "vbd_thin": "OGC, r = 1/5 edge", "vbd_rings": "OGC without 
 EDGE, TEN = ("pairs", "ipc", OGC, "vbd_rings"), ("vbd_wide", "vbd_wide_k1", "vbd_wide_excluded")  # rows of pictures
 CURVES = {OGC: style.OURS, "vbd_rings": style.COLOURS[2], "ipc": style.BASELINE, "pairs": style.COLOURS[5],
           "ipc_stiff": style.COLOURS[1], "vbd_wide": style.COLOURS[4], "vbd_wide_excluded": style.COLOURS[6]}
+# Whose contacts the title compares with OGC's set, and how stiff they are.
+SETS = {"pairs": "IPC's contact set at OGC's stiffness", "ipc_stiff": "IPC's contact set at OGC's stiffness",
+        "ipc": "IPC's contact set"}
 ALT = ("Renderings of a square cloth that is twisted by half a turn, pairs of methods side by side: a sheet, blue in "
        "front and sand behind, wound once about its middle. Curves over time: angle defect of the vertices, stretch of "
        "edges, and kinetic energy. At the last states: {said}.")
@@ -124,18 +127,19 @@ def variant_rows(runs):
 
 def title_of(rows):
     """Returns the title: what the table says about IPC's contacts and OGC's. `rows`: run -> row."""
-    theirs, ours = next((rows[name] for name in ("pairs", "ipc_stiff", "ipc") if name in rows), None), rows[OGC]
+    other, ours = next((name for name in SETS if name in rows), None), rows[OGC]
+    theirs = rows.get(other)
     bulges, without = ours["angle defect [rad]"], rows.get("vbd_rings", ours)["angle defect [rad]"]
     words = []
     if theirs:
         apart = theirs["stretch median [1]"] - theirs["stretch median of OGC then [1]"]
         bulged = theirs["angle defect [rad]"] >= max(VISIBLE, 2 * theirs["angle defect of OGC then [rad]"])
-        words.append("IPC's contacts " + (
-            f"stretch the sheet by {100 * (theirs['stretch median [1]'] - 1):.0f} %" if apart >= 0.01 else
-            "bulge the sheet" if bulged else "leave the sheet smooth"))
+        words.append(f"{SETS[other]} " + (
+            f"stretches the sheet by {100 * (theirs['stretch median [1]'] - 1):.0f} %" if apart >= 0.01 else
+            "bulges the sheet" if bulged else "leaves the sheet smooth"))
     sheet = "it" if words else "the sheet"
-    words.append(f"OGC's leave {sheet} smooth" if bulges < VISIBLE else f"OGC's bulge {sheet}" + (
-        " only where they hold its own neighbours" if without <= bulges / 2 else ""))
+    words.append(f"OGC's leaves {sheet} smooth" if bulges < VISIBLE else f"OGC's bulges {sheet}" + (
+        " only by its own neighbours" if without <= bulges / 2 else ""))
     return f"Fig. 2. {'; '.join(words)}"
 
 
@@ -161,6 +165,11 @@ def frame_beside(run, others):
 
 def draw_row(axes, runs, names, letters, reach=None):
     """Draws states of runs side by side, whole or, from one place, so much of them (`reach` [m])."""
+    for place, letter, name in zip(axes, letters, names):
+        if name not in runs:
+            style.not_run(place, f"({letter}) {NAMES[name]}: not run, or no step in its time")
+    there = [(place, letter, name) for place, letter, name in zip(axes, letters, names) if name in runs]
+    axes, letters, names = zip(*there)
     others = [runs[name] for name in names if runs[name].manifest["solver"] != "vbd"]
     shown = [(runs[name], frame_beside(runs[name], others if name == OGC else [])) for name in names]
     size, camera = (NEAR, None) if reach else (SIZE, None)
@@ -179,14 +188,18 @@ def draw(runs, out):
     name -> run. Returns a line about each run."""
     style.use()
     rest, rows = rest_of(runs), {row["run"]: row for row in rows_of(runs)}
-    edge, ten = ([name for name in names if name in runs] for names in (EDGE, TEN))
+    whole_size = runs[OGC].manifest["scale"] == "paper"  # there IPC and OGC are drawn alone
+    edge = [name for name in EDGE if name in runs or not whole_size]
+    ten = [name for name in TEN if name in runs]
     shown = [(edge, None), (edge, MIDDLE), *([(ten, None)] if ten else [])]
     sizes = [style.pictures(len(names), NEAR if reach else SIZE) for names, reach in shown]
-    figure, axes = style.page([*sizes, (2.4, [(1 / 3, "plot")] * 3)], title_of(rows), below_of(runs, rows))
+    figure, axes = style.page([*sizes, (2.4, [(1 / 3, "plot")] * 3), (0.55, [(1, "picture")])], title_of(rows),
+                              below_of(runs, rows))
     letters = iter("abcdefghijklmnop")
     for places, (names, reach) in zip(axes, shown):
         draw_row(places, runs, names, [next(letters) for _ in names], reach)
-    draw_curves(axes[-1], runs, rest)
+    draw_curves(axes[-2], runs, rest)
+    style.key(axes[-1][0], axes[-2][0].get_lines()[:-1])
     said = ", ".join(f"{NAMES.get(name, name)} {row['angle defect [rad]']:.2g} rad, edges stretched by "
                      f"{row['stretch median [1]']:.3g}" for name, row in rows.items())
     style.save(figure, out, title_of(rows), ALT.format(said=said), source_of(list(runs.values())))
@@ -214,18 +227,21 @@ def draw_curves(panels, runs, rest):
             continue
         run = runs[name]
         time, defect, stretches = history(run, rest)
-        words = NAMES[name].replace(", ", ",\n").replace(" in OGC", "\nin OGC").replace(" without", "\nwithout")
-        bulges.plot(time[time > 0], defect[time > 0], color=colour, label=words)
-        stretched.plot(time, stretches[:, 1], color=colour, label=words)
+        bulges.plot(time[time > 0], defect[time > 0], color=colour, label=NAMES[name])
+        stretched.plot(time, stretches[:, 1], color=colour)
         energy.plot(run.column("step") * run.setting("time_step"), run.column("kinetic_energy"), color=colour,
-                    linewidth=0.8, label=words)
+                    linewidth=0.8)
     bulges.axhline(VISIBLE, color=style.PAPER, linewidth=0.8, linestyle=":")
     bulges.set(xlabel="time [s]", ylabel="angle defect [rad]", title="Bulges; dotted: a tenth of an edge", yscale="log")
     stretched.set(xlabel="time [s]", ylabel="length / rest length", title="Stretch of edges, median",
                   yscale="log" if any("wide" in name for name in runs) else "linear")
     energy.set(xlabel="time [s]", ylabel="energy [J]", title="Kinetic energy", yscale="log")
-    for place in panels:
-        style.label_ends(place, 6.5)
+
+
+def has_steps(folder):
+    """Returns whether a run has a step: one whose first step takes longer than its time has none."""
+    rows = Path(folder) / "steps.csv"
+    return rows.is_file() and rows.read_text().count("\n") > 1
 
 
 def runs_of(arguments):
@@ -233,7 +249,7 @@ def runs_of(arguments):
     steps from states of OGC's run."""
     folder = Path(arguments.folder)
     if arguments.made:
-        found = {name: Run(folder / name) for name in NAMES if (folder / name / "steps.csv").is_file()}
+        found = {name: Run(folder / name) for name in NAMES if has_steps(folder / name)}
         windows = sorted((Run(path.parent) for path in folder.glob("ipc_*/run.json") if path.parent.name not in NAMES),
                          key=lambda run: run.column("step")[0])
         return {**found, **({"ipc": windows[-1]} if windows and "ipc" not in found else {})}
@@ -241,14 +257,14 @@ def runs_of(arguments):
             for job in half_turn.ogc(arguments.scale, arguments.backend, arguments.membrane)}
     if arguments.scale == "paper":
         return {**runs, "ipc": ipc_windows(arguments, SCENE, runs[OGC], commands.TWIST_WINDOWS)[-1]}
-    return {**runs, **{job.name: run_job(arguments.ogc, job, folder)
-                       for job in half_turn.ipc(arguments.scale, arguments.membrane)}}
+    slow = {job.name: run_job(arguments.ogc, job, folder) for job in half_turn.ipc(arguments.scale, arguments.membrane)}
+    return {**runs, **{name: run for name, run in slow.items() if has_steps(run.folder)}}
 
 
 if __name__ == "__main__":
     parser = baseline_arguments(__doc__.splitlines()[0], backends=("cpu", "cuda"))
     parser.add_argument("--made", action="store_true", help="draw the runs that are there, and make none")
-    parser.add_argument("--variants", choices=("variants", "neighbours"),
+    parser.add_argument("--variants", choices=("variants", "neighbours", "wide_softer"),
                         help="instead: a table of OGC's runs with one choice varied, at ten edges or at one")
     options = parser.parse_args()
     try:

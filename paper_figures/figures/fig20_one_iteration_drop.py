@@ -1,5 +1,5 @@
-"""Fig. 20: one iteration a step, by OGC and by IPC: frames 0, 50 and 80 (of 10 steps each), kinetic energy, and height
-of the cloth over time."""
+"""Fig. 20: one iteration a step, by OGC and by IPC: frames 0, 50 and 80 (of 10 steps each), and 20, in which IPC's
+cloth has stopped and OGC's falls; kinetic energy, and height of the cloth over time."""
 
 import sys
 from pathlib import Path
@@ -15,8 +15,9 @@ from plots.scene_figure import WIDTH, show, source_of
 from ogc_testbed.runs import RunError
 
 SCENE, FRAMES = commands.ONE_ITERATION, (0, 50, 80)
+SHOWN = (0, 20, 50, 80)
 TITLE = "Fig. 20. With one iteration a step IPC loses the fall's energy at first self-contact; OGC keeps it"
-ALT = ("Two rows of three renderings of a cloth that falls on a small sphere. Above, by OGC, it wraps the sphere and "
+ALT = ("Two rows of four renderings of a cloth that falls on a small sphere. Above, by OGC, it wraps the sphere and "
        "hangs down in folds; below, by IPC, it stops when parts of it first meet and hangs higher. Curves: kinetic "
        "energy and mean height over time; IPC loses {ipc:.2g} J of kinetic energy within one step, OGC {ogc:.2g} J at "
        "most.")
@@ -56,21 +57,22 @@ def rows(runs):
 def draw(runs, out):
     """Draws a row of pictures for each run, and the curves. Returns a line about each run."""
     style.use()
-    states = [[run.frame_at_step(round(number / FRAMES[-1] * run.column("step")[-1])) for number in FRAMES]
+    states = [[run.frame_at_step(round(number / FRAMES[-1] * run.column("step")[-1])) for number in SHOWN]
               for run in runs]
-    # The first frame has a camera of its own: the flat cloth is twice as wide as the fallen one.
+    # The first two frames have cameras of their own: the flat cloth is twice as wide as the fallen one.
     seen = [np.concatenate([subject(run, frame, bodies) for run, found in zip(runs, states) for frame in found[part]])
-            for part, bodies in ((slice(0, 1), None), (slice(1, None), is_cloth))]
-    size = render.shape_of(view_of(SCENE), seen[1], WIDTH, 0.7, 0.85)
-    cameras = [view_of(SCENE).fit(points, size) for points in (seen[0], seen[1], seen[1])]
+            for part, bodies in ((slice(0, 1), None), (slice(1, 2), None), (slice(2, None), is_cloth))]
+    size = render.shape_of(view_of(SCENE), seen[-1], WIDTH, 0.7, 0.85)
+    cameras = [view_of(SCENE).fit(points, size) for points in (*seen, seen[-1])]
     scale = runs[0].manifest["scale"]
     below = "4,900 vertices, one iteration in each step of 1/500 s" if scale == "paper" else f"scale {scale}"
     below += "; loss of kinetic energy in one step, at most: " + ", ".join(
         f"{label(run)} {largest_loss(run):.2g} of {run.column('kinetic_energy').max():.2g} J" for run in runs)
-    figure, axes = style.page([*[style.pictures(3, size)] * len(runs), (2.5, [(0.5, "plot")] * 2)], TITLE, below)
+    figure, axes = style.page([*[style.pictures(len(SHOWN), size)] * len(runs), (2.5, [(0.5, "plot")] * 2)], TITLE,
+                              below)
     for run, found, row in zip(runs, states, axes):
-        for frame, number, place, camera in zip(found, FRAMES, row, cameras):
-            show(place, run, frame, camera, f"{label(run)}, frame {number}, t = {frame.time:.2g} s", size)
+        for frame, place, camera in zip(found, row, cameras):
+            show(place, run, frame, camera, f"{label(run)}, t = {frame.time:.2g} s", size)
     energy, height = axes[-1]
     lines = []
     for run, colour in zip(runs, (style.OURS, style.BASELINE)):

@@ -37,7 +37,6 @@ from ogc_testbed.runs import Run, RunError
 
 SCENE, STEPS, VARIANTS = commands.ACTIVATIONS, commands.ACTIVATION_STEPS, commands.VARIANTS
 OGC, IPC = PAPER = commands.PRINTED[:2]
-ABOVE_HALF = commands.WEAK[0]
 SIZE, DISTANCES = (800, 640), "cividis"  # pixels; the colours of distances
 NAMES = {"ogc": "OGC's", "ipc_log": "IPC's"}
 TITLE = "Fig. 21. OGC's and IPC's activation drape the cloth alike; here OGC's converges no faster"
@@ -268,8 +267,9 @@ def draw_states(axes, results):
     image = render.picture(coloured(runs[0], frames[0], shades), camera, SIZE, **look)
     style.picture(axes[3], image, f"(a) by its distance to (b), median {1e3 * np.median(far):.2g} mm")
     shown = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, 1e3 * far.max()), DISTANCES)
-    inset = axes[3].inset_axes((0.72, 0.09, 0.24, 0.035))
-    axes[3].figure.colorbar(shown, cax=inset, orientation="horizontal", label="mm").ax.tick_params(labelsize=7)
+    inset = axes[3].inset_axes((0.66, 0.09, 0.24, 0.035))
+    axes[3].figure.colorbar(shown, cax=inset, orientation="horizontal").ax.tick_params(labelsize=7)
+    inset.text(1.06, 0.5, "mm", fontsize=7.5, va="center", transform=inset.transAxes)
     return far
 
 
@@ -316,7 +316,7 @@ def draw_by_ratio(axes, kept, step):
     axes.set_title(f"VBD in double, step {step}, by κ and contact stiffness")
     for variant in VARIANTS:
         rows = [row for row in kept if row["activation"] == variant.label]
-        if rows:
+        if rows and not variant.other_membrane:
             axes.plot([int(row["iteration [1]"]) for row in rows],
                       [max(float(row["residual [1]"]), 1e-16) for row in rows], "--" if variant.weak else "-",
                       color=colour(variant), linewidth=1, label=short(variant.label))
@@ -398,7 +398,7 @@ def main(folder, ogc, scale="small", backend="cpu", without=()):
         if found.double
     }
     rows = [
-        row_of(v, found, states.get(v), results.get(ABOVE_HALF if v.weak else OGC), scale)
+        row_of(v, found, states.get(v), results.get(v.beside), scale)
         for v, found in results.items()
     ]
     write_table(

@@ -257,6 +257,7 @@ def main():
     parser.add_argument("--backend", default="cpu", choices=("cpu", "cuda"))
     parser.add_argument("--runs", default=recipes.ROOT / "runs", type=Path)
     parser.add_argument("--ogc", default=recipes.ROOT / "build/default/ogc", help="the program that made them")
+    parser.add_argument("--results", default=RESULTS, type=Path, help="where to (default: paper_figures/results)")
     parser.add_argument("--redo", metavar="COMMAND",
                         help="that makes the figure again, where the workflow's does not (options of its script)")
     parser.add_argument("--incomplete", action="store_true",
@@ -266,14 +267,15 @@ def main():
     try:
         chosen = recipes.choose(options.figures, recipes.load(), options.backend)
         rows = accept(chosen, options.scale, options.backend, options.runs, options.machine, str(options.ogc),
-                      incomplete=options.incomplete, by_hand=options.redo, pictures=options.pictures)
+                      results=options.results, incomplete=options.incomplete, by_hand=options.redo,
+                      pictures=options.pictures)
     except (AcceptError, recipes.RecipeError) as error:
         sys.exit(f"accept: {error}")
     try:
-        contents.write()
+        contents.write(options.results)
     except contents.ContentsError as error:
         print(f"accept: results/contents.csv is as it was: {error}", file=sys.stderr)
-    print(f"{len(rows)} files accepted into paper_figures/results/{options.machine}; then: python3 -m "
+    print(f"{len(rows)} files accepted into {options.results / options.machine}; then: python3 -m "
           "paper_figures.workflow.verdicts --write, and look at what changed")
 
 

@@ -21,6 +21,7 @@ from paper_figures.workflow.evidence import RESULTS, Evidence, EvidenceError, co
 from paper_figures.workflow.verdicts import STATES, band_in_words, judge_all, within
 
 BANDS = RESULTS / "bands.json"
+NOTHING = [0, 0]  # a band
 QUESTION = ("settings", "scale", "solver", "backend", "scene", "jitter", "jitter_seed")
 SAME_BITS = ("device", "commit", "compiler")
 # Words in the name of a measure that is a time, or a share of it, or a size of the scene.
@@ -113,8 +114,10 @@ def compare_claims(new, kept):
 
 def movable(claim):
     """Returns whether the claim's band is meaningful at another scale: not for times, nor for sizes, which are part of
-    the question, nor if the printed number is an end of the band."""
+    the question, nor if the printed number is an end of the band. That nothing happens is meaningful at each scale."""
     band, value = claim.get("band"), claim["value"]
+    if band == NOTHING:
+        return True
     if not isinstance(band, list) or None in band or not value:
         return False
     if any(word in json.dumps(claim["measure"]) for word in NOT_COMPARED):
@@ -137,7 +140,7 @@ def compare_smaller(claim, new, kept):
         if found and before and math.isnan(before.value):
             yield f"{claim['id']} at {scale}: {found.value:.4g}; the accepted run never reached it", True
         elif found and before:
-            moved = [end * before.value / claim["value"] for end in claim["band"]]
+            moved = [end * before.value / (claim["value"] or 1) for end in claim["band"]]
             good = within(found.value, before.value, moved)
             numbers = f"{found.value:.4g}, accepted {before.value:.4g}"
             band = f"the claim's band moved there {band_in_words({'band': moved})}"

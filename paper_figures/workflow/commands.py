@@ -15,6 +15,7 @@ from paper_figures.workflow.jobs import Job, Share, Step
 TWIST, THREE_CLOTHS = "large_radius_twist", "three_cloths_on_sphere"
 ONE_ITERATION, ACTIVATIONS = "one_iteration_drop", "activation_drop"
 NEO_HOOKEAN = "stable_neo_hookean"  # in all scenes (compare/deviations.md)
+ST_VENANT = ("--set", "membrane=st_venant_kirchhoff")  # the other one that the paper leaves open
 
 TWIST_STEPS, TWIST_WINDOWS = 1200, (300, 600, 900, 1180)  # at scales small and paper
 
@@ -23,6 +24,7 @@ THREE_CLOTHS_OTHERS = {"paper": (25, 41)}  # for these the start stores the stat
 # The paper draws 500 and 50.
 THREE_CLOTHS_ITERATIONS = {"smoke": {"vbd": 500, "newton": 50}, "small": {"vbd": 1000, "newton": 150},
                            "paper": {"vbd": 1000, "newton": 150}}
+REPEATS = 5  # of a step whose time is measured, after a first one that warms up
 ANY = ("--set", "detection_fraction=0")
 SLOW = ("--set", "friction_velocity=1e-4")
 PLANES, PAIRS = ("--set", "bounds=planes"), ("--set", "newton_truncation=pair")  # how Newton's step is truncated
@@ -86,12 +88,13 @@ def three_cloths(scale, backends, start_iterations=None):
     variants = (("", ()), ("_any", ANY))
     slow = ("_any_slow", (*ANY, *SLOW))
     with_slow = (*variants, *([] if scale == "smoke" else [slow]))
-    single = [Job(f"vbd_{backend}{suffix}", (*solve, "--backend", backend, *vbd, *more), state) for backend in backends
-              for suffix, more in (with_slow if backend == backends[-1] else variants)]
+    timed = ("--repeats", REPEATS)
+    single = [Job(f"vbd_{backend}{suffix}", (*solve, *timed, "--backend", backend, *vbd, *more), state)
+              for backend in backends for suffix, more in (with_slow if backend == backends[-1] else variants)]
     others = [(other, ("start", Step(other - 1))) for other in THREE_CLOTHS_OTHERS.get(scale, ())]
     again = (*base, "--iterations", "--profile")
     single += [Job(f"vbd_{backends[-1]}_any_at_{other}",
-                   (*again, "--backend", backends[-1], *vbd, *ANY, "--steps", other), begin)
+                   (*again, *timed, "--backend", backends[-1], *vbd, *ANY, "--steps", other), begin)
                for other, begin in others]
     bounds = [] if scale == "smoke" else [("_any_planes", (*ANY, *PLANES)), ("_any_pairs", (*ANY, *PAIRS))]
     narrow = [("_any_pairs_narrow", (*ANY, *PAIRS, *NARROW))] if others else []
@@ -106,21 +109,31 @@ def three_cloths(scale, backends, start_iterations=None):
 
 @dataclass(frozen=True)
 class Variant:
-    """Describes a run of Fig. 21: the energy, the ratio κ of its contact stiffness to that of OGC's run beside it, and
-    whether the latter is the printed k_c or so weak that half of OGC's contacts lie above f = k_c r/2."""
+    """Describes a run of Fig. 21: the energy, the ratio κ of its contact stiffness to that of OGC's run beside it,
+    whether the latter is the printed k_c or so weak that half of OGC's contacts lie above f = k_c r/2, and whether the
+    membrane is the other one that the paper leaves open."""
 
     energy: str
     ratio: int = 1
     weak: bool = False
+    other_membrane: bool = False
 
     @property
     def label(self):
         ratio = f", κ = {self.ratio}" if self.ratio != 1 else ""
-        return self.energy + ratio + (", weak contact" if self.weak else "")
+        other = ", St. Venant–Kirchhoff" if self.other_membrane else ""
+        return self.energy + ratio + (", weak contact" if self.weak else "") + other
 
     @property
     def name(self):
-        return self.energy + (f"_kappa{self.ratio}" if self.ratio != 1 else "") + ("_weak" if self.weak else "")
+        other = "_st_venant" if self.other_membrane else ""
+        return (self.energy + (f"_kappa{self.ratio}" if self.ratio != 1 else "") + ("_weak" if self.weak else "")
+                + other)
+
+    @property
+    def beside(self):
+        """Returns OGC's variant beside which this one is held."""
+        return replace(self, energy="ogc", ratio=1)
 
     def stiffness(self, scale):
         """Returns k_c [N/m]."""
@@ -128,13 +141,15 @@ class Variant:
 
     def options(self, scale):
         return (*(("--set", f"contact_stiffness={self.stiffness(scale):g}") if self.ratio != 1 or self.weak else ()),
+                *(ST_VENANT if self.other_membrane else ()),
                 "--set", f"contact_activation={self.energy}")
 
 
 PRINTED = tuple(map(Variant, ENERGIES))
 RATIOS = tuple(Variant("ipc_log", ratio) for ratio in STIFFNESS_RATIOS[1:])
 WEAK = (Variant("ogc", weak=True), *(Variant("ipc_log", ratio, True) for ratio in STIFFNESS_RATIOS))
-VARIANTS = (*PRINTED, *RATIOS, *WEAK)
+OTHER_MEMBRANE = tuple(Variant(energy, other_membrane=True) for energy in PAPER_ENERGIES)
+VARIANTS = (*PRINTED, *RATIOS, *WEAK, *OTHER_MEMBRANE)
 
 
 def compared(variant):

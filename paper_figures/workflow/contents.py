@@ -5,9 +5,9 @@ accepted file names (`git rev-parse COMMIT:fast`). Two commits with the same tre
 history and never by hand. A commit that the history of HEAD does not have has UNKNOWN trees. An accepted file is *old*
 if a commit that it names has other trees than HEAD's, or unknown ones, or if it names none.
 
-Usage: python3 -m paper_figures.workflow.contents: prints how many files are old; `--list` names them; `--release` exits
-with status 1 if there is any, as no release may have one; `--write` keeps results/contents.csv. `--keep MACHINE/FILE
---redo COMMAND` keeps the row of provenance.csv about a table that no figure made. The standard library is enough.
+Usage: python3 -m paper_figures.workflow.contents: prints how many files are old; `--list` names them; `--write` keeps
+results/contents.csv. `--keep MACHINE/FILE --redo COMMAND` keeps the row of provenance.csv about a table that no figure
+made. The standard library is enough.
 """
 
 import argparse
@@ -207,7 +207,6 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--write", action="store_true", help="keep results/contents.csv")
     parser.add_argument("--list", action="store_true", help="name the old files")
-    parser.add_argument("--release", action="store_true", help="exit status 1 if any is old")
     parser.add_argument("--keep", type=Path, metavar="FILE", help="a table below the results: MACHINE/FILE.csv")
     parser.add_argument("--redo", metavar="COMMAND", help="that makes the table again")
     options = parser.parse_args()
@@ -222,7 +221,6 @@ def main():
         print("\n".join([*(stale if options.list else []), in_words()]))
     except ContentsError as error:
         sys.exit(f"contents: {error}")
-    sys.exit(1 if options.release and stale else 0)
 
 
 if __name__ == "__main__":

@@ -6,16 +6,18 @@ import os
 import subprocess
 import threading
 
+from paper_figures.workflow.jobs import PLACE
+
 
 class DeviceMemory:
-    """Samples the memory in use on the device that CUDA counts first [MiB] once a second while its block runs, and
-    keeps the first and the largest number in a file; does nothing without nvidia-smi. One process samples all the time,
-    because its start takes locks of the driver, which would show in a step."""
+    """Samples the memory in use on the place's device, or that CUDA counts first [MiB], once a second while its block
+    runs, and keeps the first and the largest number in a file; does nothing without nvidia-smi. One process samples all
+    the time, because its start takes locks of the driver, which would show in a step."""
 
     COMMAND = ("nvidia-smi", "--query-gpu=memory.used", "--format=csv,noheader,nounits", "--loop=1")
 
     def __init__(self, path, wanted, command=None):
-        device = os.environ.get("CUDA_VISIBLE_DEVICES", "0").split(",")[0]
+        device = PLACE.get().device or os.environ.get("CUDA_VISIBLE_DEVICES", "0").split(",")[0]
         self.path, self.command = path, (command or (*self.COMMAND, f"--id={device}")) if wanted else None
         self.samples, self.process, self.first = [], None, threading.Event()
 

@@ -7,14 +7,19 @@ drawings and the other measured studies. Left out are other people's programs (e
 fuzz, which need builds of their own, and tables about rejected ideas.
 
 What is finished is kept, what the limit cut off goes on at the next call, which is due as long as the exit status is
-75. After each part its tables, manifests and some frames are packed into files that are small enough to be carried
-(--pack). Everything is of one program: runs of another one in the folder are made again, and a program with uncommitted
-changes, or whose sources are not those of the checkout's HEAD, is refused.
+75. After each part its tables, manifests and some frames are packed into archives of at most 16 MiB (--pack). On
+another machine, or at home, --unpack brings them back: what is in them is not made again, but a run that begins with a
+state that was not packed is refused there. Everything is of one program: runs of another one in the folder are made
+again, its archives are refused, and so is a program with uncommitted changes, or whose sources are not those of the
+checkout's HEAD.
 
 Expected times are those of an earlier call into the same folder, else of the accepted results, on the machine that made
 them; "–" where nobody measured. Python's own library is enough, except for the list of ablations, which needs PyYAML:
 where that is missing, --studies names the file that --write-studies wrote elsewhere. Drawings and measured studies need
 the project's Python environment; where NumPy is missing they are left out, which is said.
+
+What is finished becomes results by `python3 -m paper_figures.workflow.taken MACHINE RUNS`, and figures by
+`experiments/reproduce FIGURE … --unpack PACKED --accept MACHINE`.
 
 Exit status: 0 all is finished, 1 a part failed (the others were made), 2 wrong words, 75 the limit came first.
 
@@ -22,7 +27,10 @@ Examples:
   experiments/evidence cores --dry-run                                    # what there is, and how long it takes
   experiments/evidence cores --time-limit 3600 --pack packed              # on two cores, an hour at a time
   experiments/evidence gpu --program bundle/ogc --time-limit 500 --pack packed --studies studies.json
-  CUDA_VISIBLE_DEVICES=1 experiments/evidence gpu --share 2/4 --out runs_2  # the second of four cards side by side
+  experiments/evidence gpu --cards 4 --time-limit 500 --pack packed --frames 0  # four cards side by side, tables alone
+  experiments/evidence gpu --cards 4 --unpack packed --pack packed        # goes on, on another machine
+  taskset -c 0-15 experiments/evidence gpu fig18_solvers windows_twist    # times of 16 processors of a larger machine
+  CUDA_VISIBLE_DEVICES=1 experiments/evidence gpu --share 2/4 --out runs_2  # the second of four calls
   experiments/evidence gpu judge twist fig20                              # these parts alone
 """
 
@@ -31,32 +39,42 @@ import csv
 import hashlib
 import io
 import json
+import math
 import os
 import re
 import shutil
 import subprocess
 import sys
+import threading
 import time
 from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from pathlib import Path
 
-from paper_figures.workflow import contents, packing, parts
+from paper_figures.workflow import contents, packing, parts, varied
 from paper_figures.workflow.durations import RESULTS, in_words, measured_times, seconds_between
 from paper_figures.workflow.jobs import (AUDIT, CALL_AGAIN, FAILED, FINISHED, KEPT, STOPPED, Limit, RunFailure,
                                          command_in, last_lines)
 from paper_figures.workflow.runner import Runner
+from paper_figures.workflow.side_by_side import SideBySide
 
-STAMP = "program.txt"  # in the folder of the runs: what the program says of itself; newer than the runs of another one
-TIMES = "times.json"  # there: part -> seconds that its calls took, and whether it is finished
+# In the folder of the runs: what the program says of itself, newer than the runs of another one (STAMP); part ->
+# seconds that its calls took, and whether it is finished (TIMES).
+STAMP, TIMES = packing.STAMP, packing.TIMES
 FOUND = (0, 1)  # exit status of a command that came to an end; 1: a check failed, which is a result
 JITTERED = ("twist", "knot", "dress")
 STARTS = 10  # jittered ones
 SEEDS = {"smoke": 2, "small": 10, "paper": 10}  # of the judge
-CASES = {"smoke": 100, "small": 100_000, "paper": 1_000_000}  # that it asks of each stage
+CASES = {"smoke": 100, "small": 100_000, "paper": 1_000_000}  # that it asks of a cheap stage, of a dear one a tenth
+CHEAP = ("rest_state", "closest_face", "closest_points", "block", "detect_vertex_facet", "detect_edge_edge", "bound",
+         "initial_guess", "activation", "contact_force", "friction_force", "volume_force", "membrane", "bending",
+         "spring", "tetrahedron", "rod", "truncate")
+DEAR = ("plane", "volume_depth", "orientation", "sweep", "step")  # for the reference, whose answers take the time
 MEASURED = {"activation_load": True, "creep": True, "falling": False, "radius": True}  # whether it has scales
 MEASURED_ON_DEVICE = ("mat_volumes", "yarn_return")
+SECONDS = "part_seconds.csv"  # of a machine's results: how long parts took there
 LARGEST = 2**20  # bytes of a packed file
+PACK_EVERY = 20  # seconds at least between two packings, which take seconds of all parts
 
 
 class PlanError(Exception):
@@ -66,6 +84,11 @@ class PlanError(Exception):
 def line_of(said, begin):
     """Returns the rest of the line that begins so, of what a program says of itself; empty if there is none."""
     return next((line.strip().removeprefix(begin) for line in said.splitlines() if line.strip().startswith(begin)), "")
+
+
+def program_in(said):
+    """Returns what names the program in what it says of itself: not the machine's devices."""
+    return said.partition("backends")[0]
 
 
 @dataclass(frozen=True)
@@ -83,23 +106,23 @@ class Command:
 
     PROGRAM, PYTHON, FOLDER = "{ogc}", "{python}", "{folder}"
 
-    def digest(self, program):
-        said = Path(os.environ["OGC_STAMP"]).read_text()
-        return hashlib.sha256(json.dumps([said, self.words, str(program)]).encode()).hexdigest()
+    def digest(self):
+        said = program_in(Path(os.environ["OGC_STAMP"]).read_text())
+        return hashlib.sha256(json.dumps([said, self.words]).encode()).hexdigest()
 
     def record(self, root):
         path = root / self.name / "made.json"
         return json.loads(path.read_text()) if path.is_file() else {}
 
     def done(self, root):
-        return "status" in self.record(root)
+        return "status" in self.record(root) and self.record(root)["digest"] == self.digest()
 
     def make(self, program, root, limit=Limit(), _shown=False):
-        folder, digest = root / self.name, self.digest(program)
+        folder, digest = root / self.name, self.digest()
+        if self.done(root):
+            return KEPT
         if self.record(root).get("digest") != digest:
             shutil.rmtree(folder, ignore_errors=True)
-        elif self.done(root):
-            return KEPT
         if limit.left() == 0:
             return STOPPED
         folder.mkdir(parents=True, exist_ok=True)
@@ -112,7 +135,9 @@ class Command:
                 return STOPPED
             raise RunFailure(f"{' '.join(words)}: exit status {code}\n  {last_lines(folder / 'log.txt')}")
         (folder / "said.part").replace(folder / "said.txt")
-        (folder / "made.json").write_text(json.dumps({"digest": digest, "status": code, "words": self.words}))
+        made = {"digest": digest, "status": code, "words": self.words,
+                "said": Path(os.environ["OGC_STAMP"]).read_text()}
+        (folder / "made.json").write_text(json.dumps(made))
         return FINISHED
 
     def results(self, root, _frames, _last):
@@ -128,7 +153,7 @@ class Counts:
 
     backend: str
     seeds: tuple
-    on_device = False
+    on_device = None  # it takes no time
 
     @property
     def name(self):
@@ -138,13 +163,13 @@ class Counts:
         return False
 
     def rows(self, root):
-        said = Path(os.environ["OGC_STAMP"]).read_text()
-        device = re.search(r"\((.*)\)", line_of(said, f"{self.backend}: "))
         for seed in self.seeds:
+            said = seed.record(root).get("said", "")
+            device = re.search(r"\((.*)\)", line_of(said, f"{self.backend}: "))
             for stage in json.loads((root / seed.name / "said.txt").read_text())["stages"] if seed.done(root) else ():
                 errors = "; ".join(f"{each['name']} {each['maximum']:.4g}/{each['tolerance']:.4g}"
                                    for each in stage["metrics"])
-                yield {"stage": stage["stage"], "generator": "all", "seed": seed.name.removeprefix("seed_"),
+                yield {"stage": stage["stage"], "generator": "all", "seed": seed.name.split("_")[1],
                        "cases": stage["cases"], "mismatches": stage["mismatches"],
                        "grey share of generic cases": stage["grey_share_generic"],
                        "largest errors over tolerances": errors, "seconds": f"{stage['seconds']:.2f}",
@@ -174,11 +199,14 @@ def judged(wanted):
     """Returns the judge's counts under SEEDS seeds, and, as a part of its own, digests that another machine can
     compare."""
     begin, on_device = (Command.PROGRAM, "compare", "--backend", wanted.backend), wanted.backend == "cuda"
-    made = tuple(Command(f"seed_{seed}", (*begin, "--cases", str(CASES[wanted.scale]), "--seed", str(seed), "--json",
-                                          "--report", Command.FOLDER), ("report.txt",), on_device)
-                 for seed in range(1, 1 + SEEDS[wanted.scale]))
+    cases = CASES[wanted.scale]
+    made = tuple(Command(f"seed_{seed}_{kind}", (*begin, *stages, "--cases", str(number), "--seed", str(seed), "--json",
+                                                 "--report", Command.FOLDER), ("report.txt",), on_device)
+                 for seed in range(1, 1 + SEEDS[wanted.scale])
+                 for kind, stages, number in (("cheap", CHEAP, cases), ("dear", DEAR, cases // 10)))
     same = Command("all", (*begin, "--determinism", "--json"), (), on_device)
-    return {"judge": parts.Part(wanted.folder("judge"), ((*made, Counts(wanted.backend, made)),), frames=0),
+    return {"judge": parts.Part(wanted.folder("judge"), (*((each,) for each in made), (Counts(wanted.backend, made),)),
+                                frames=0),
             "determinism": commands_of("determinism", [same], wanted)}
 
 
@@ -241,12 +269,16 @@ def plan(where, wanted, listed):
     last = {name: book.pop(name) for name in list(book) if name.startswith("windows_")}
     small = replace(wanted, scale="smoke") if wanted.scale == "small" else wanted
     return {**book, **judged(wanted), "laws": laws(wanted), "jittered": jittered(wanted),
-            **studies(small, listed), **measured_studies(where, wanted), **last}
+            **studies(small, listed), **measured_studies(where, wanted), **varied.parts_of(where, wanted), **last}
 
 
 def accepted_seconds(name, wanted, times):
     """Returns how long a part took where its accepted results were made: a row's run and its audit, or a figure; None
     if nobody measured."""
+    part = (name, wanted.scale, wanted.backend)
+    for row in (row for path in sorted(RESULTS.glob(f"*/{SECONDS}")) for row in contents.rows_of(path)):
+        if (row["part"], row["scale"], row["backend"]) == part:
+            return float(row["seconds"])
     run = RESULTS / f"h200/{name}_run.json"
     if wanted.scale == "paper" and run.is_file():
         audit = run.with_name(f"{name}_{AUDIT}")
@@ -257,7 +289,7 @@ def accepted_seconds(name, wanted, times):
     if name == "illustrations":
         return sum(seconds for (_, scale, _), (seconds, _) in times.items() if scale == "-")
     known = times.get((name, wanted.scale, wanted.backend))
-    return known[0] if known else None
+    return known[0] if known else varied.EXPECTED.get(name) if wanted.scale == "paper" else None
 
 
 def seconds_of_steps(name, wanted):
@@ -324,13 +356,43 @@ def check_program(said):
 
 
 def stamp(out, said):
-    """Keeps what the program says of itself, and so makes runs of another one in the folder due (jobs.same_command)."""
+    """Keeps what the program says of itself, and so makes runs of another one in the folder due (jobs.same_command);
+    another machine makes nothing due."""
     path = out / STAMP
     out.mkdir(parents=True, exist_ok=True)
-    if not path.is_file() or path.read_text() != said:
+    if not path.is_file() or program_in(path.read_text()) != program_in(said):
         path.write_text(said)
         (out / TIMES).unlink(missing_ok=True)
+    elif path.read_text() != said:
+        about = path.stat()
+        path.write_text(said)
+        os.utime(path, ns=(about.st_atime_ns, about.st_mtime_ns))
     os.environ["OGC_STAMP"] = str(path)
+
+
+def half_made(chosen, times):
+    """Returns the folders of runs whose states other jobs of their part still need: a packed run has few states, and is
+    made again."""
+    for name, part in chosen.items():
+        if times.get(name, {}).get("end") not in (FINISHED, KEPT):
+            needed = {state[0] for job in part.jobs if (state := getattr(job, "state", ()))}
+            needed |= {job.of for job in part.jobs if hasattr(job, "of")}
+            yield from (f"{part.folder}/{run}/" for run in needed)
+
+
+def bring(folder, out, said, chosen):
+    """Unpacks what --pack packed of this program, and takes over how long its parts took. Throws PlanError where
+    nothing is there or it is of another program, UnpackError for a damaged archive."""
+    found = sorted(folder.glob("runs_*.tar.gz"))
+    if not found:
+        raise PlanError(f"{folder} has no runs_NN.tar.gz: name the folder that --pack filled")
+    for path in found:
+        if program_in(packing.read(path, STAMP)) != program_in(said):
+            commit = line_of(packing.read(path, STAMP), "commit ") or "unknown"
+            raise PlanError(f"{path.name} is of another program (commit {commit}): move it away")
+    left_out = (STAMP, TIMES, *half_made(chosen, packing.take_times(found, out)))
+    for path in found:
+        packing.note(out, packing.extract(path, out, left_out))
 
 
 def dry_run(chosen, seconds, before):
@@ -344,20 +406,33 @@ def dry_run(chosen, seconds, before):
 
 
 def make(options, chosen):
-    """Makes the chosen parts, packs each as it ends, and returns the exit status."""
+    """Makes the chosen parts, packs them as they end, and returns the exit status."""
     limit = Limit(options.time_limit)
-    runner = Runner(options.program, options.out, limit, options.part_limit, options.jobs)
-    archive = packing.Archive(options.pack, options.out) if options.pack else None
-    ends, lines = [], []
-    for name, part in chosen.items():
-        begun = time.monotonic()
-        ends.append(runner.make(name, part))
-        times = measured_before(options.out)
-        earlier = times.get(name, {}).get("seconds", 0)
-        times[name] = {"seconds": round(earlier + time.monotonic() - begun, 1), "end": ends[-1]}
-        (options.out / TIMES).write_text(json.dumps(times, indent=1) + "\n")
-        if archive:
-            lines = archive.write(chosen)
+    common = (options.program, options.out, limit, options.part_limit, options.jobs)
+    archive = packing.Archive(options.pack, options.out, options.frames, (STAMP, TIMES)) if options.pack else None
+    ends, lock, packed_at = [], threading.Lock(), [-math.inf]
+
+    def ended(name, end, seconds):
+        with lock:
+            ends.append(end)
+            for job in chosen[name].jobs:
+                if isinstance(job, Counts):
+                    job.make("", options.out / chosen[name].folder)
+            times = measured_before(options.out)
+            earlier = times.get(name, {}).get("seconds", 0)
+            times[name] = {"seconds": round(earlier + seconds, 1), "end": end}
+            (options.out / TIMES).write_text(json.dumps(times, indent=1) + "\n")
+            if archive and time.monotonic() - packed_at[0] > PACK_EVERY:
+                archive.write(chosen)
+                packed_at[0] = time.monotonic()
+
+    if options.cards:
+        SideBySide(*common, cards=options.cards).make_all(chosen, groups(chosen), ended)
+    else:
+        for name, part in chosen.items():
+            begun = time.monotonic()
+            ended(name, Runner(*common).make(name, part), time.monotonic() - begun)
+    lines = archive.write(chosen) if archive else []
     print("\n".join(lines), end="\n" if lines else "")
     return 1 if FAILED in ends else CALL_AGAIN if STOPPED in ends else 0
 
@@ -376,6 +451,9 @@ def arguments():
     add("--part-limit", type=float, metavar="SECONDS", help="of each part")
     add("--jobs", type=int, default=1, help="chains of a part that go on side by side (default: 1)")
     add("--pack", type=Path, metavar="FOLDER", help="pack what is finished after each part")
+    add("--unpack", type=Path, metavar="FOLDER", help="first unpack what --pack packed, which then is not made again")
+    add("--frames", type=int, metavar="N", help="pack at most N frames of a run (default: as its picture needs)")
+    add("--cards", type=int, default=0, metavar="N", help="make parts side by side on N devices of this machine")
     add("--share", default="1/1", metavar="K/N", help="the K-th of N calls side by side, each with its own --out")
     add("--studies", type=Path, metavar="FILE", help="the ablations' commands, where PyYAML is missing")
     add("--no-studies", action="store_true", help="leave the ablations out")
@@ -423,11 +501,13 @@ def main():
         said = said_by(options.program)
         if not options.changed:
             check_program(said)
+        stamp(options.out.resolve(), said)
+        if options.unpack:
+            bring(options.unpack, options.out, said, chosen)
     except KeyError as name:
         parser.error(f"no part {name}; --dry-run lists them")
-    except (PlanError, OSError) as error:
+    except (PlanError, packing.UnpackError, OSError) as error:
         parser.error(str(error))
-    stamp(options.out.resolve(), said)
     sys.exit(make(options, chosen))
 
 

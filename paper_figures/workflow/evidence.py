@@ -33,7 +33,7 @@ PAPER_BOUNDS = "ball"
 SURFACE, VOLUME = "surface", "volume"  # kinds of contact of a body
 NOT_RUN = "not run"  # the status of a table's row about a run that its figure lacks
 TABLES = ("fig*.csv", "table*_*.csv", "ablations*.csv", "ablations*.csv.gz", "radius*.csv", "sphere_off*.csv",
-          "yarn_return*.csv", "cpu_windows_*.csv")
+          "yarn_return*.csv", "cpu_windows_*.csv", "steady_*.csv")
 WINDOWS = "cpu_windows"  # the table of steps on the CPU from states of whole runs
 MEMBRANES = {"stable_neo_hookean": "stable Neo-Hookean", "st_venant_kirchhoff": "St. Venant–Kirchhoff"}
 
@@ -235,6 +235,8 @@ class RunEvidence:
             return False
         if self.contact != wanted.get("body_contact", SURFACE):
             return False
+        if "time_repeats" in m:  # its times are those of warm repetitions of single steps
+            return False
         special = {"steps": lambda n: self.first_step == 1 and self.step_count >= n,
                    "profiled": lambda yes: bool(m.get("stages")) == yes,
                    "membrane": lambda name: self.membranes == {name},
@@ -359,7 +361,7 @@ class Evidence:
         if isinstance(spec, list):
             return next((found for found in (self.measure(each, wanted) for each in spec) if found), None)
         if "table" in spec:
-            return self._of_table(spec, wanted.get("scale"))
+            return self._of_table(spec, spec.get("scale", wanted.get("scale")))
         wanted = {**wanted, **({"membrane": spec["membrane"]} if "membrane" in spec else {})}
         if "ratio" in spec:
             return self._ratio(spec, wanted)
@@ -398,9 +400,9 @@ class Evidence:
                         (a.side, b.side))
 
     def _of_table(self, spec, scale):
-        """Returns a cell, or the quotient of two; `column` is then one for both, or a list of one for each. If runs
-        vary, [smallest, largest] bounds the ratio of every run of the first to every run of the second. `membrane`:
-        that of the rows."""
+        """Returns a cell of a table of this scale (a `scale` of the spec's own goes first), or the quotient of two;
+        `column` is then one for both, or a list of one for each. If runs vary, [smallest, largest] bounds the ratio of
+        every run of the first to every run of the second. `membrane`: that of the rows."""
         asked = {"membrane": spec["membrane"]} if "membrane" in spec else {}
         for table in reversed([t for t in self.tables if t.name == spec["table"] and t.scale == scale]):
             places = ("over", "under") if "over" in spec else ("where",)

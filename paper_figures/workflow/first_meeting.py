@@ -8,7 +8,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
-from paper_figures.workflow.jobs import FINISHED, KEPT, STOPPED, Limit
+from paper_figures.workflow.jobs import FINISHED, KEPT, PLACE, STOPPED, Limit, here
 
 
 def met_at(run):
@@ -47,8 +47,9 @@ class FirstMeeting:
         return all(window.done(root) for window in self.before(root))
 
     def make(self, program, root, limit=Limit(), shown=False):
-        with ThreadPoolExecutor(max_workers=max(1, (os.cpu_count() or 1) // 2)) as pool:
-            tasks = [pool.submit(window.make, program, root, limit, shown) for window in self.before(root)]
+        cores = len(PLACE.get().cores) or os.cpu_count() or 1
+        with ThreadPoolExecutor(max_workers=max(1, cores // 2)) as pool:
+            tasks = [pool.submit(here(window.make, program, root, limit, shown)) for window in self.before(root)]
         ends = [task.result() for task in tasks]
         return next((end for end in (STOPPED, FINISHED) if end in ends), KEPT)
 

@@ -11,7 +11,7 @@ import json
 import subprocess
 from dataclasses import dataclass
 
-from paper_figures.workflow.commands import NEO_HOOKEAN, TWIST, on, shared
+from paper_figures.workflow.commands import NEO_HOOKEAN, ST_VENANT, TWIST, on, shared
 from paper_figures.workflow.jobs import Job
 
 SIDES = {"smoke": 16, "small": 60, "paper": 200}  # vertices along a side
@@ -22,7 +22,9 @@ STIFFNESS = 100  # k_c [N/m]
 AS_STIFF = 0.1737
 RINGS = 2.9  # reach of what is left out at r = one edge: two rings of neighbours [edges]
 FEW = 3  # steps in which a cloth is torn; each takes seconds on a CPU
-LONGEST = {"smoke": 20, "small": 1800}  # after this time a run is stopped whose steps take long [s]
+# After so many seconds a run is stopped whose steps take long: IPC's and that with its set, which has 1200 steps; and
+# those of which a few steps tell enough.
+LONGEST, SHORTER = {"smoke": 20, "small": 1800}, {"smoke": 20, "small": 600}
 # What could tear OGC's cloth at ten edges, one choice at a time: folder -> setting.
 VARIANTS = {"printed": "", "stiffness_10": "contact_stiffness=10", "stiffness_1": "contact_stiffness=1",
             "stiffness_0.1": "contact_stiffness=0.1", "stiffness_0.01": "contact_stiffness=0.01",
@@ -106,14 +108,14 @@ def ipc(scale, membrane=NEO_HOOKEAN):
     and its contact set in OGC's solver."""
     base, by = (TWIST, *shared(scale, membrane)), ("--solver", "ipc", "--profile", "--audit", "frame")
     r = RADIUS * edge(scale)
-    jobs = [Job("ipc", (*base, *by)),
+    jobs = [Job("ipc", (*base, *by), seconds=LONGEST[scale] if scale == "small" else 0),
             Job("ipc_stiff", (*base, *by, "--set", f"ipc_stiffness={AS_STIFF * STIFFNESS / r**2:.6g}"),
-                seconds=LONGEST[scale]),
+                seconds=SHORTER[scale]),
             Job("pairs", (*base, "--solver", "reference_vbd", "--set", "reference_contact_set=pairs",
                           "--audit", "off"), seconds=LONGEST[scale])]
     if scale == "small":
         jobs.append(Job("ipc_wide", (*base, *by, "--set", f"contact_radius={10 * r:.6g}", "--set",
-                                     f"ipc_distance={10 * r:.6g}", "--steps", FEW), seconds=LONGEST[scale]))
+                                     f"ipc_distance={10 * r:.6g}", "--steps", FEW), seconds=SHORTER[scale]))
     return jobs
 
 
@@ -123,11 +125,22 @@ def neighbours(scale, backend="cpu"):
     more = ("--audit", "end", *on(backend), "--set", "frame_steps=200", "--steps", 1200)
     base = (TWIST, *shared(scale), *more)
     varied = {"thin": f"contact_radius={RADIUS * edge(scale) / 5:.6g}", "stiffness_10": "contact_stiffness=10",
-              "stiffness_1": "contact_stiffness=1"}
+              "stiffness_1": "contact_stiffness=1", "st_venant": ST_VENANT[1]}
     return [Job("neighbours/printed", base),
             *(Job(f"neighbours/{name}", more, scene=LeftOut(scale, reach))
               for name, reach in (("one_ring", 1.5), ("two_rings", RINGS))),
             *(Job(f"neighbours/{name}", (*base, "--set", setting)) for name, setting in varied.items())]
+
+
+def wide_softer(scale, backend="cpu"):
+    """Returns OGC's whole runs at r = ten edges, with k_c varied, with the other membrane, and without the neighbours
+    on the sheet that are nearer than r."""
+    more = ("--audit", "end", *on(backend), "--set", "frame_steps=200", "--steps", 1200, *wide(scale))
+    base = (TWIST, *shared(scale), *more)
+    varied = {"printed": (), **{f"stiffness_{k:g}": ("--set", f"contact_stiffness={k:g}") for k in (10, 1, 0.1)},
+              "st_venant": ST_VENANT}
+    return [*(Job(f"wide/{name}", (*base, *options)) for name, options in varied.items()),
+            Job("wide/excluded", more, scene=LeftOut(scale, 11.5))]
 
 
 def variants(scale, backend="cpu"):

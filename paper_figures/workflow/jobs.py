@@ -7,6 +7,7 @@ and returns how that ended (KEPT, FINISHED, STOPPED); it throws RunFailure. `res
 
 import argparse
 import contextlib
+import contextvars
 import json
 import math
 import os
@@ -27,6 +28,31 @@ PROCESSOR_TIME = "processor_time.json"  # beside the manifest of a run whose pro
 MEMORY = "_device_memory.json"  # end of the name of samples taken while a run was on a device
 ENDED_BY_TIME = "ended_by_time.json"  # beside the manifest of a run that reached its limit of seconds
 AUDIT = "audit.json"  # beside a manifest: what an audit of the finished run found (paper_figures.workflow.audited)
+
+
+@dataclass(frozen=True)
+class Place:
+    """Holds where commands run on a machine that several share: the device that they see (empty: those of the
+    environment), and their processors (none: all)."""
+
+    device: str = ""
+    cores: tuple = ()
+
+    def command(self, words):
+        pinned = self.cores and shutil.which("taskset")
+        return [*(["taskset", "-c", ",".join(map(str, self.cores))] if pinned else []), *words]
+
+    def environment(self):
+        return {**os.environ, "CUDA_VISIBLE_DEVICES": self.device} if self.device else None
+
+
+PLACE = contextvars.ContextVar("place", default=Place())  # of the commands of a thread; side_by_side.py sets it
+
+
+def here(function, *arguments):
+    """Returns a function without arguments for another thread, which keeps this one's place."""
+    context = contextvars.copy_context()
+    return lambda: context.run(function, *arguments)
 
 
 class RunFailure(Exception):
@@ -291,8 +317,10 @@ def command_in(command, limit=Limit(), log=None, out=None, seconds=0, waits=Fals
     """Returns (exit status, processor time) of a command that is told to stop at the limit, or after so many `seconds`,
     and is killed a minute later; `waits`: told before the limit, it may continue until then. Its output goes to the
     file `log`; its standard output to `out` if that is named; without both, errors and progress go to the screen."""
-    command = list(map(str, command))
-    apart = {"start_new_session": True}  # an interrupt reaches it only from us, and once: a second one kills
+    command, place = list(map(str, command)), PLACE.get()
+    # An interrupt reaches it only from us, and once: a second one kills.
+    apart = {"start_new_session": True, "env": place.environment()}
+    command = place.command(command)
     if log is None:
         return waited(subprocess.Popen(command, stdout=subprocess.DEVNULL, **apart), limit, seconds, waits)
     log.parent.mkdir(parents=True, exist_ok=True)

@@ -11,10 +11,12 @@ import tarfile
 from pathlib import PurePosixPath
 
 from paper_figures.workflow import parts
-from paper_figures.workflow.jobs import AUDIT, remove
+from paper_figures.workflow.jobs import AUDIT, FINISHED, KEPT, remove
 
 MIB = 2**20
 PACKED = "packed.json"  # beside the runs: packed file -> its last change [ns]
+STAMP, TIMES = "program.txt", "times.json"  # beside the runs of everything.py, which packs them with each archive
+PIECE = 10 * MIB  # of an archive, after which the next one begins: with one more file it has at most 16 MiB
 
 
 class UnpackError(Exception):
@@ -22,41 +24,71 @@ class UnpackError(Exception):
 
 
 class Archive:
-    """Writes the archive of one call: FOLDER/runs_NN.tar.gz with the first free number. It is rewritten whenever a part
-    is finished, so that nothing is lost if the machine is taken away."""
+    """Writes the archives of one call: FOLDER/runs_NN.tar.gz from the first free number on. The last one is rewritten
+    whenever a part is finished, so that nothing is lost if the machine is taken away; one that is full is closed. Of a
+    run it has at most so many `frames`, besides those with which jobs begin. `beside`: files of the runs' folder that
+    each archive has."""
 
-    def __init__(self, folder, out):
+    def __init__(self, folder, out, frames=None, beside=()):
         self.folder, self.out, self.before = folder, out, packed_before(out)
+        self.frames, self.beside, self.path = frames, beside, self.next_path()
+
+    def next_path(self):
         names = map("runs_{:02d}.tar.gz".format, itertools.count(1))
-        self.path = next(folder / name for name in names if not (folder / name).exists())
+        return next(self.folder / name for name in names if not (self.folder / name).exists())
 
     def write(self, book):
         """Packs what is new of the parts in `book`; returns lines about them."""
-        packed, lines = {}, []
+        packed, lines, seen = {}, [], set()
         for name, part in book.items():
-            files = self.new_files(part)
+            files = [path for path in self.new_files(part) if path.resolve() not in seen]
+            seen.update(path.resolve() for path in files)
             if files:
                 lines.append(f"{name}: {len(files)} files, {sum(path.stat().st_size for path in files) / MIB:.1f} MiB")
-            packed.update((path.relative_to(self.out).as_posix(), path) for path in files)  # parts share runs
-        if not packed:
-            return lines
+            packed.update((self.inside(path), path) for path in files)
+        while packed:
+            changed, full = self.piece(packed)
+            (self.out / PACKED).write_text(json.dumps({**packed_before(self.out), **changed}))
+            packed = {inside: path for inside, path in packed.items() if inside not in changed}
+            lines.append(f"{self.path.stat().st_size / MIB:.1f} MiB in {self.path}")
+            if full:
+                self.before.update(changed)
+                self.path = self.next_path()
+        return lines
+
+    def piece(self, packed):
+        """Packs files until the archive is full; returns (file -> its last change, whether it is full)."""
         self.folder.mkdir(parents=True, exist_ok=True)
-        partial = self.folder / f"packed_{os.getpid()}"
-        with tarfile.open(partial, "w:gz", compresslevel=6) as archive:
+        partial, changed, full = self.folder / f"packed_{os.getpid()}", {}, False
+        with partial.open("wb") as file, tarfile.open(fileobj=file, mode="w:gz", compresslevel=6) as archive:
+            for name in self.beside:
+                archive.add(self.out / name, name)
             for inside, path in packed.items():
                 archive.add(path, inside)
+                changed[inside] = path.stat().st_mtime_ns
+                if full := file.tell() >= PIECE:
+                    break
         partial.replace(self.path)
-        changed = {inside: path.stat().st_mtime_ns for inside, path in packed.items()}
-        (self.out / PACKED).write_text(json.dumps({**packed_before(self.out), **changed}))
-        return [*lines, f"{self.path.stat().st_size / MIB:.1f} MiB in {self.path}"]
+        return changed, full
+
+    def inside(self, path):
+        return path.resolve().relative_to(self.out.resolve()).as_posix()
 
     def new_files(self, part):
-        """Returns the files of a part's jobs that no earlier call packed in their current form."""
+        """Returns the files of a part's jobs that no closed archive has in their current form. A link to a row's run
+        (Part.shown_as) is packed as that run, from which unpacking makes it again."""
         root, files = self.out / part.folder, {}
+        frames = part.frames if self.frames is None else min(part.frames, self.frames)
         for job in part.jobs:
-            files.update(dict.fromkeys(job.results(root, part.frames, part.last)))
-        known = lambda path: self.before.get(path.relative_to(self.out).as_posix())  # noqa: E731
+            files.update(dict.fromkeys(job.results(root, frames, part.last)))
+        known = lambda path: self.before.get(self.inside(path))  # noqa: E731
         return [path for path in files if known(path) != path.stat().st_mtime_ns]
+
+
+def note(out, names):
+    """Notes that an archive has these files, so that they are not packed again."""
+    there = {name: (out / name).stat().st_mtime_ns for name in names}
+    (out / PACKED).write_text(json.dumps({**packed_before(out), **there}))
 
 
 def packed_before(out):
@@ -64,13 +96,38 @@ def packed_before(out):
     return json.loads(kept.read_text()) if kept.is_file() else {}
 
 
-def extract(path, out):
-    """Writes the members of an archive below `out` and returns their names. Throws UnpackError, before anything is
-    written, if a member is not a plain file or would be written elsewhere, or if the archive is truncated. Python's own
-    data filter is not in Debian 12's."""
+def read(path, name):
+    """Returns the text of a member of an archive; empty if there is none. Throws UnpackError as extract does."""
+    try:
+        with tarfile.open(path) as archive, archive.extractfile(name) as file:
+            return file.read().decode()
+    except KeyError:
+        return ""
+    except (EOFError, tarfile.TarError) as error:
+        raise UnpackError(f"{path.name} is cut or damaged ({error})") from error
+
+
+def take_times(archives, out):
+    """Takes over how long the parts of the archives took, unless it is known below `out`; returns it all."""
+    ended = lambda found, name: found.get(name, {}).get("end") in (FINISHED, KEPT)  # noqa: E731
+    times = {}
+    for path in archives:
+        packed = json.loads(read(path, TIMES) or "{}")
+        times |= {name: each for name, each in packed.items() if not ended(times, name)}
+    known = json.loads((out / TIMES).read_text()) if (out / TIMES).is_file() else {}
+    times |= {name: each for name, each in known.items() if not ended(times, name)}
+    if times:
+        (out / TIMES).write_text(json.dumps(times, indent=1) + "\n")
+    return times
+
+
+def extract(path, out, left_out=()):
+    """Writes the members of an archive below `out`, but those whose names begin as in `left_out`, and returns their
+    names. Throws UnpackError, before anything is written, if a member is not a plain file or would be written
+    elsewhere, or if the archive is truncated. Python's own data filter is not in Debian 12's."""
     try:
         with tarfile.open(path) as archive:
-            members = archive.getmembers()
+            members = [member for member in archive.getmembers() if not member.name.startswith(tuple(left_out))]
             for member in members:
                 inside = PurePosixPath(member.name)
                 folder = out.joinpath(inside).parent.resolve()
@@ -92,7 +149,12 @@ def unpack(folder, out, program):
     """Unpacks every archive in `folder`, and assembles the file that meshes are drawn from (trajectory.vtkhdf) from the
     unpacked frames; returns the runs. Throws UnpackError, with nothing of that archive written."""
     out.mkdir(parents=True, exist_ok=True)
-    names = [name for path in sorted(folder.glob("runs_*.tar.gz")) for name in extract(path, out)]
+    archives = sorted(folder.glob("runs_*.tar.gz"))
+    for said in filter(None, (read(path, STAMP) for path in archives)):
+        if not (out / STAMP).exists():
+            (out / STAMP).write_text(said)  # before the runs, which are of this program
+    take_times(archives, out)
+    names = [name for path in archives for name in extract(path, out, (STAMP, TIMES))]
     runs = sorted({(out / name).parent for name in names if name.endswith(("/run.json", f"/{AUDIT}"))})
     for run in runs:
         assemble(program, run)

@@ -88,7 +88,7 @@ def of_figures(wanted):
         "fig17_cpu": Part(folder("fig17"), (on_cpu,), "fig17", frames=0, last=1),
         "fig21": Part(folder("fig21"), tuple(map(tuple, commands.activations(scale, backend))), "fig21", frames=0,
                       last=2),
-        "fig02_ipc": Part(folder("fig02"), one_by_one(by_ipc), "fig02", frames=2),
+        "fig02_ipc": Part(folder("fig02"), one_by_one(by_ipc), "fig02", frames=2 if scale == "paper" else 13),
         "fig20_ipc": Part(folder("fig20"), ((ipc,),), "fig20", frames=25),
         "fig17_double": Part(folder("fig17"), one_by_one(double), "fig17", frames=0, last=1),
         # For a figure on the CPU, as its recipe states: its ratios are of the same cores, with nothing running beside.

@@ -34,6 +34,7 @@ SOURCES = ("compare", "reference", "fast", "experiments")
 KEYS = {"title", "illustrations", "scene", "script", "run", "options", "of", "movie", "rows", "backends",
         "missing", "kept", "study"}
 STUDIES = "ablations"  # the studies' folder, and the name for all of them
+QUICK = ("fig17", "fig18", "fig18_solvers", "fig20")  # with illustrations: experiments/reproduce --quick, at small
 
 
 class RecipeError(Exception):
@@ -127,6 +128,8 @@ def choose(names, recipes, backend):
             found = [r for r in recipes.values() if "illustration" in r.body]
         elif name == STUDIES:
             found = [r for r in recipes.values() if "study" in r.body]
+        elif name == "quick":
+            found = [r for r in recipes.values() if r.name in QUICK or "illustration" in r.body]
         there = [r.name for r in recipes.values() if "missing" not in r.body]
         if not found:
             raise RecipeError(f"no figure or scene '{name}'; there are: {', '.join(there)}, illustrations, {STUDIES}, "

@@ -8,9 +8,11 @@ the step at hand and its checkpoint: leave it that.
 
   python3 -m paper_figures.workflow.runner --program bundle/ogc --out runs --time-limit 500 --pack packed twist fig02
   python3 -m paper_figures.workflow.runner --program build/default/ogc --out runs --unpack packed    # where it is drawn
+  python3 -m paper_figures.workflow.runner --program bundle/ogc --scale small --backend cpu --cores 36 --pack packed
 """
 
 import argparse
+import contextlib
 import os
 import shutil
 import signal
@@ -20,10 +22,12 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from paper_figures.workflow import packing, parts
+from paper_figures.workflow import packing, parts, schedule
 from paper_figures.workflow.device_memory import DeviceMemory
 from paper_figures.workflow.jobs import (CALL_AGAIN, FAILED, FINISHED, KEPT, MEMORY, STOPPED, Limit, RunFailure,
-                                         manifest_of)
+                                         here, manifest_of)
+
+PACK_EVERY = 100.0  # seconds, with --cores
 
 
 class Runner:
@@ -41,18 +45,22 @@ class Runner:
             if state and manifest_of(root / state[0]).get("status", "").startswith("failed"):
                 continue
             wanted = job.on_device and not job.done(root)
-            with DeviceMemory(root / f"{job.name}{MEMORY}", wanted):
+            with self.place(job.on_device, limit), DeviceMemory(root / f"{job.name}{MEMORY}", wanted):
                 ends.append(job.make(self.program, root, limit))
             if ends[-1] == STOPPED:
                 return STOPPED
         return FINISHED if FINISHED in ends else KEPT
+
+    def place(self, _on_device, _limit):
+        """Returns a context with a place for a job; here it is the machine."""
+        return contextlib.nullcontext()
 
     def part(self, part):
         """Makes a part and returns how it ended. Throws RunFailure with the messages of its chains, when all have
         ended."""
         limit = Limit(self.part_limit, self.limit)
         with ThreadPoolExecutor(max_workers=self.jobs) as pool:
-            tasks = [pool.submit(self.chain, part, chain, limit) for chain in part.chains]
+            tasks = [pool.submit(here(self.chain, part, chain, limit)) for chain in part.chains]
         problems = [task.exception() for task in tasks if task.exception()]
         unexpected = next((problem for problem in problems if not isinstance(problem, RunFailure)), None)
         if unexpected:
@@ -102,6 +110,12 @@ def arguments():
     add("--time-limit", type=float, metavar="SECONDS", help="of the whole call")
     add("--part-limit", type=float, metavar="SECONDS", help="of each part")
     add("--jobs", type=int, default=1, help="chains of a part that go on side by side (default: 1)")
+    add("--cores", type=int, default=0, metavar="N",
+        help="on the CPU: jobs of all parts side by side on so many cores (default: part after part)")
+    add("--known", type=Path, metavar="FILE", help="with --cores: times.json of an earlier call, which plans this one")
+    add("--last", action="store_true",
+        help="with --cores: no call follows; runs with a limit of their own are complete where --time-limit stops them")
+    add("--plan", action="store_true", help="with --cores: print the jobs, the longest chain first, and run nothing")
     add("--pack", type=Path, metavar="FOLDER", help="after each part, pack what is finished and was not packed before")
     add("--unpack", type=Path, metavar="FOLDER", help="unpack what --pack packed, and run nothing")
     table = parser.add_argument_group("Table 1")
@@ -148,6 +162,51 @@ def made(options, chosen):
     return CALL_AGAIN if STOPPED in ends else 0
 
 
+def planned(tasks, cores):
+    """Prints tasks, the longest chain first."""
+    chain = schedule.longest_chain(tasks)
+    work = sum(task.cores * task.seconds for task in tasks.values())
+    said = ", ".join(f"{task.name} {task.seconds:.0f}" for task in chain)
+    print(f"{len(tasks)} jobs, {work:.0f} s of a core, {work / cores:.0f} s of {cores} cores; the longest chain, "
+          f"{chain[0].follows if chain else 0:.0f} s: {said}")
+    for task in sorted(tasks.values(), key=lambda task: -task.follows):
+        print(f"{task.follows:8.0f} {task.seconds:8.0f} s on {task.cores:2} cores  {task.name}")
+
+
+def made_together(options, chosen):
+    """Makes the jobs of the chosen parts side by side, packs what is finished every PACK_EVERY seconds, and returns the
+    exit status."""
+    limit = Limit(options.time_limit)
+    for stop in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(stop, lambda *_: limit.stop())
+    tasks = schedule.tasks_of(chosen, options.out, schedule.known_in(options.known))
+    if options.plan:
+        planned(tasks, options.cores)
+        return 0
+    runner, packed = Runner(options.program, options.out, limit), [time.monotonic()]
+
+    def pack():
+        packed[0] = time.monotonic()
+        if options.pack:
+            print("\n".join(packing.Archive(options.pack, options.out).write(chosen)[-1:]), flush=True)
+
+    def after(task, _):
+        for name in task.parts:
+            if chosen[name].chains[0][:1] == (task.job,):
+                runner.show(chosen[name])
+        if time.monotonic() - packed[0] >= PACK_EVERY:
+            pack()
+
+    cpus = sorted(os.sched_getaffinity(0))[:options.cores]
+    ends = schedule.Maker(options.program, options.out, limit, options.last).make(tasks, cpus, after)
+    pack()
+    for name in [name for name, end in ends.items() if end in (STOPPED, "left out")]:
+        print(f"{ends[name]}: {name}")
+    if FAILED in [end for name, end in ends.items() if not getattr(tasks[name].job, "may_fail", False)]:
+        return 1
+    return CALL_AGAIN if STOPPED in ends.values() else 0
+
+
 def main():
     parser = arguments()
     options = parser.parse_intermixed_args()
@@ -161,7 +220,9 @@ def main():
         parser.error(f"no part or figure {word}; --help lists them")
     if not shutil.which(options.program):
         parser.error(f"no program at '{options.program}': build it first, or name it with --program")
-    sys.exit(made(options, chosen))
+    if options.cores and options.backend != "cpu":
+        parser.error("--cores is for --backend cpu: runs on a device would measure each other; leave one out")
+    sys.exit((made_together if options.cores else made)(options, chosen))
 
 
 if __name__ == "__main__":

@@ -188,8 +188,8 @@ def _own_ratio(claim, measured):
 
 def _other_choices(claim, varied):
     """Returns sentences about the measure with other choices where the paper leaves one open (`choices` of the claim:
-    `says`, and what differs in the measure), and about choices that no run made. This is no verdict, but a claim that
-    fails as printed may hold with another choice."""
+    `says`, and what differs in the measure, or a `measure` of its own), and about choices that no run made. This is no
+    verdict, but a claim that fails as printed may hold with another choice."""
     missing = [says for says, value in varied if value is None]
     made = [(says, value) for says, value in varied if value is not None and not math.isnan(value)]
     hits = [each for each in made if within(each[1], claim["value"], claim["band"])]
@@ -213,9 +213,11 @@ def _other_choices(claim, varied):
 def _measured_with(choice, claim, evidence, wanted):
     """Returns a number, NaN if a run that made this choice gave none, or None if no run made it."""
     try:
-        otherwise = {key: other for key, other in choice.items() if key != "says"}
-        printed = claim["measure"][0] if isinstance(claim["measure"], list) else claim["measure"]
-        found = evidence.measure({**printed, **otherwise}, wanted)
+        otherwise = {key: other for key, other in choice.items() if key not in ("says", "measure")}
+        specs = choice.get("measure", claim["measure"])
+        specs = specs if isinstance(specs, list) else [specs]
+        every = set(otherwise) <= {"membrane"}  # all that a claim measures has one; other keys are of the first
+        found = evidence.measure([{**spec, **otherwise} for spec in (specs if every else specs[:1])], wanted)
     except EvidenceError:  # a table without the column, because it is older
         return None
     return found.value if found else None

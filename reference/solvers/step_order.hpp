@@ -50,7 +50,7 @@ class StepOrder {
         ++iterations_;
         ++since_detection_;
         found_ = (since_detection_ < settings_.detection_gap ||
-                  (!asks(cut, lag, 1) && !(is_deep && cut > lag.lagging))) &&
+                  (!asks(cut, lag, 1) && !(settings_.detection_deep != 0 && is_deep && cut > lag.lagging))) &&
                  (settings_.detection_every == 0 || since_detection_ < settings_.detection_every);
         is_over_ = settings_.settled_move > 0 && is_still && cut == 0 && found_;
         break;

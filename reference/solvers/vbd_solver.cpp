@@ -78,7 +78,7 @@ void VbdSolver::iterate() {
   ++metrics_.iterations;
   ++iterations_since_;
   const bool is_cut = is_any_cut(cut_), is_due = detection_due(cut_);
-  detect_next_ = is_due || (!waits() && is_cut && is_deep_inside());
+  detect_next_ = is_due || (settings_.detection_deep != 0 && !waits() && is_cut && is_deep_inside());
   is_settled_ = settings_.settled_move > 0 && cut_ == 0 && !detect_next_ && largest_move() <= settings_.settled_move;
 }
 

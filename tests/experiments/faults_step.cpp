@@ -383,6 +383,8 @@ std::vector<Fault> step_faults() {
       about_volumes("a vertex left inside asks nothing", ask_nothing_inside),
       about_free_volumes("vertices of free volumes do not ask", ask_from_surfaces_alone),
       shown_by("volume", asked_wrongly("a volume that truncates", bound_volumes)),
+      shown_by("volume",
+               asked_wrongly("detection_deep ignored", [](Scene& scene) { scene.settings.detection_deep = 1; })),
   };
   return faults;
 }

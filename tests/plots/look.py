@@ -116,6 +116,21 @@ class Pages(unittest.TestCase):
             self.assertLessEqual(low.y1, high.y0 + 2)  # pixels
         self.assertGreater(min(box.x0 for box in boxes), axes.get_window_extent().x1, "off the data")
 
+    def test_names_beside_lines_stay_beside_their_panel(self):
+        style.use()
+        figure, ((axes,),) = style.page([(1.6, [(0.5, "plot")])], "title")
+        for number in range(9):
+            axes.plot([0, 1], [0, 1e-3 * number], label=f"a name of\nline {number}")
+        axes.set_ylim(0, 9)
+        style.label_ends(axes)
+        figure.canvas.draw()
+        inside = axes.get_window_extent()
+        for text in axes.texts:
+            box = text.get_window_extent()
+            self.assertGreater(box.y0, inside.y0 - 0.02 * inside.height, text.get_text())
+            self.assertLess(box.y1, inside.y1 + 0.02 * inside.height, text.get_text())
+        style.plt.close(figure)
+
     def test_a_picture_fills_its_place_and_a_caption_lies_beside_the_file(self):
         style.use()
         figure, (row,) = style.page([style.pictures(2, (300, 200))], "A clause")

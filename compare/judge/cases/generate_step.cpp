@@ -431,6 +431,7 @@ CaseData free_volume(Random& random) {
   }
   builder.jitter(random.between(0.01, 0.09));
   if (random.one_in(2)) builder.scene.settings.detection_every = 1 + random.below(2);
+  if (random.one_in(4)) builder.scene.settings.detection_deep = 0;
   return builder.finish();
 }
 
@@ -447,6 +448,7 @@ CaseData sheets_before_volumes(Random& random) {
   if (random.one_in(3)) builder.volume({random.between(0.3, 1.5), random.between(-0.5, 0.5), 0.1});
   Settings& settings = builder.scene.settings;
   if (random.one_in(2)) settings.detection_every = 1 + random.below(2);
+  if (random.one_in(4)) settings.detection_deep = 0;
   return builder.finish();
 }
 

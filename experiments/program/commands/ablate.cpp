@@ -133,6 +133,7 @@ void check_same_question(const compare::RunReader& run, const RunRequest& reques
   same("--iterations", text_in(theirs, "iteration_rows"), yes(request.iterations));
   same("--residual", text_in(theirs, "residuals"), yes(request.residual));
   same("--ledger", yes(text_in(theirs, "ledger") == "yes"), yes(request.ledger));
+  same("--repeats", text_in(theirs, "time_repeats"), request.repeats > 0 ? std::to_string(request.repeats) : "");
   same("--from-state", text_in(theirs, "from_state"), request.from_state ? request.from_state->string() : "");
   same("--jitter", text_in(theirs, "jitter"), jittered ? compare::shortest(request.jitter.largest) : "");
   same("--seed", text_in(theirs, "jitter_seed"), jittered ? std::to_string(request.jitter.seed) : "");

@@ -36,6 +36,16 @@ struct CommandOptions {
   int threads = 0, processes = 8;
 };
 
+/// Returns why a run of a benchmark gave no time, or nothing if it did. Google Benchmark names it otherwise since 1.8.
+template <typename Run>
+std::optional<std::string> failure_of(const Run& run) {
+  if constexpr (requires { run.error_occurred; }) {
+    return run.error_occurred ? std::optional(run.error_message) : std::nullopt;
+  } else {
+    return run.skipped ? std::optional(run.skip_message) : std::nullopt;
+  }
+}
+
 /// Prints one line (median, spread, counters) after the last repetition of a benchmark.
 class LineReporter : public benchmark::BenchmarkReporter {
  public:
@@ -47,8 +57,10 @@ class LineReporter : public benchmark::BenchmarkReporter {
     const Run* last = nullptr;
     for (const Run& run : runs) {
       if (run.run_type != Run::RT_Iteration) continue;
-      if (run.error_occurred) failed.push_back(run.benchmark_name() + ": " + run.error_message);
-      if (run.error_occurred) continue;
+      if (const auto failure = failure_of(run)) {
+        failed.push_back(run.benchmark_name() + ": " + *failure);
+        continue;
+      }
       times.push_back(run.GetAdjustedRealTime() * 1e9 / benchmark::GetTimeUnitMultiplier(run.time_unit));
       last = &run;
     }

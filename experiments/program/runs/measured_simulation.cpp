@@ -24,25 +24,33 @@ using compare::StepMetrics;
 
 constexpr double not_asked = std::numeric_limits<double>::quiet_NaN();
 
-/// Holds the times of the events of a step.
-struct EventTimes {
-  /// time before the first event; time of each detection; time of each sweep [ms]
-  double begin = 0, detection = 0, sweep = 0;
-};
-
-EventTimes event_times(const StepMetrics& row, const std::vector<std::string>& stages) {
-  EventTimes times;
-  const auto one_of = [&](std::string_view name, std::int64_t count) {
-    const auto stage = std::ranges::find(stages, name);
-    if (stage == stages.end() || count == 0) return 0.0;
-    return row.stage_ms[static_cast<std::size_t>(stage - stages.begin())] / static_cast<double>(count);
-  };
-  times.detection = one_of("detection", row.discrete_detections);
-  times.sweep = one_of("sweep", row.iterations);
-  if (stages.empty() && row.iterations > 0) times.sweep = row.wall_ms / static_cast<double>(row.iterations);
-  times.begin = one_of("begin", 1) + one_of("initial_guess", 1);
-  return times;
+/// Returns the row whose time is the median, the shorter one of two. `rows`: the same step, repeated.
+StepMetrics median_of(std::vector<StepMetrics> rows) {
+  const auto middle = rows.begin() + static_cast<std::ptrdiff_t>((rows.size() - 1) / 2);
+  std::ranges::nth_element(rows, middle, {}, &StepMetrics::wall_ms);
+  return std::move(*middle);
 }
+
+/// Gives the times of the events of a step, in the order of its trace: not-a-number if they were not measured.
+class EventTimes {
+ public:
+  explicit EventTimes(const StepMetrics& row)
+      : detections_(row.detection_ends_ms), iterations_(row.iteration_ends_ms) {}
+
+  double of_next_detection() { return next(detections_, detection_); }
+  /// Returns first the time of the state before all iterations.
+  double of_next_iteration() { return next(iterations_, iteration_); }
+
+ private:
+  static double next(const std::vector<double>& ends, std::size_t& at) {
+    if (ends.empty()) return not_asked;
+    if (at == ends.size()) throw std::logic_error("a trace has more events than the step of which times were measured");
+    return ends[at++];
+  }
+
+  const std::vector<double>&detections_, &iterations_;
+  std::size_t detection_ = 0, iteration_ = 0;
+};
 
 class MeasuredSimulation : public compare::Simulation {
  public:
@@ -56,6 +64,7 @@ class MeasuredSimulation : public compare::Simulation {
         teller_(dynamic_cast<compare::WayTeller*>(inner_.get())),
         contestant_(std::move(contestant)),
         has_rows_(what.iterations),
+        repeats_(what.repeats),
         meetings_(what.meetings) {
     if (what.residual || what.iterations) meter_.emplace(scene);
     if (what.ledger && compare::has_volumes(scene))
@@ -75,6 +84,7 @@ class MeasuredSimulation : public compare::Simulation {
         rows.push_back(std::move(row));
       const Snapshot after = inner_->snapshot();
       if (after.step == before.step) break;
+      if (repeats_ > 0) repeat(before, after, rows.back());
       if (meter_) {
         meter_->begin_step(before.positions, before.velocities, after.step, before.orientations);
         reference::Residual left = meter_->at(after.positions, after.orientations);
@@ -128,6 +138,23 @@ class MeasuredSimulation : public compare::Simulation {
     return scene;
   }
 
+  /// Repeats a step after it was done once, which warmed up the caches, and replaces its times by those of the
+  /// repetition whose time is the median.
+  void repeat(const Snapshot& before, const Snapshot& after, StepMetrics& row) {
+    std::vector<StepMetrics> again;
+    for (std::int64_t i = 0; i < repeats_; ++i) {
+      inner_->restore(before);
+      again.push_back(std::move(inner_->advance(1).at(0)));
+      if (inner_->snapshot().positions != after.positions)
+        throw std::logic_error("step " + std::to_string(row.step) + " ends in another state when it is repeated");
+    }
+    StepMetrics median = median_of(std::move(again));
+    row.wall_ms = median.wall_ms;
+    row.stage_ms = std::move(median.stage_ms);
+    row.detection_ends_ms = std::move(median.detection_ends_ms);
+    row.iteration_ends_ms = std::move(median.iteration_ends_ms);
+  }
+
   void add_from_trace(const Snapshot& before, const Snapshot& after, StepMetrics& step) {
     const compare::Scene scene = scene_at(before);
     const compare::StepOut trace = contestant_.step({&scene, &topology_});
@@ -177,26 +204,25 @@ class MeasuredSimulation : public compare::Simulation {
   }
 
   void add_iterations(const compare::StepOut& trace, StepMetrics& step) {
-    const EventTimes times = event_times(step, inner_->stage_names());
-    double now = times.begin;
+    EventTimes times(step);
     const auto begin = std::ranges::find(trace.events, StepEventKind::sweep, &StepEvent::kind);
     for (auto event = trace.events.begin(); event != trace.events.end(); ++event) {
-      if (event->kind == StepEventKind::detection) {
-        now += times.detection;
+      const bool detects = event->kind == StepEventKind::detection;
+      const double detected = detects ? times.of_next_detection() : not_asked;
+      if (detects) {
         contacts_ = {event->vertex_facet.contacts, event->edge_edge.contacts, event->volumes.contacts};
         previous_ = event->position;
       }
-      if (event + 1 == begin) add_row(*event, now, step);
+      if (event + 1 == begin) add_row(*event, times.of_next_iteration(), step);
       if (event < begin) continue;
-      if (event->kind == StepEventKind::detection) {
+      if (detects) {
         step.iteration_rows.pop_back();
-        add_row(*event, now, step);
+        add_row(*event, detected, step);
         step.iteration_rows.back().detected = 1;
         continue;
       }
-      now += times.sweep;
       step.iteration_rows.back().vertices_cut = event->cut;
-      add_row(*event, now, step);
+      add_row(*event, times.of_next_iteration(), step);
     }
   }
 
@@ -222,6 +248,7 @@ class MeasuredSimulation : public compare::Simulation {
   compare::WayTeller* teller_;  ///< inner_ if it is a WayTeller; otherwise null
   compare::Contestant contestant_;
   bool has_rows_;
+  std::int64_t repeats_;  ///< of each step, after the first time
   std::optional<StepRange> meetings_;
   /// Largest number of meetings that notes name, because a run without bounds may have thousands of meetings.
   static constexpr std::size_t most_named = 10;

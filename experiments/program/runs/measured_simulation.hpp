@@ -27,9 +27,10 @@ struct Measured {
   bool residual = false;                ///< StepMetrics::residual
   bool iterations = false;              ///< StepMetrics::iteration_rows, and the residual
   bool ledger = false;                  ///< StepMetrics::ledger
+  std::int64_t repeats = 0;             ///< repetitions of each step for its times
   std::optional<StepRange> meetings{};  ///< StepMetrics::meetings, for these steps
   /// Returns whether anything is selected.
-  bool any() const { return residual || iterations || ledger || meetings; }
+  bool any() const { return residual || iterations || ledger || meetings || repeats > 0; }
 };
 
 /// What is measured at each vertex in the last step of a simulation; an array is empty if it is not measured.
@@ -50,9 +51,11 @@ const VertexMeasures& vertex_measures(const compare::Simulation& simulation);
 /// bit by bit. The residual of an iteration row uses the contacts of the last detection. Throws std::logic_error if a
 /// trace ends in another state than the step.
 ///
-/// The times of iteration rows begin with the time of the stages before the first event. Each detection then adds an
-/// equal share of the time of all detections, and each iteration an equal share of the time of all iterations. Without
-/// SimulationOptions::profile the iterations share the whole time of the step.
+/// The times of iteration rows are measured: StepMetrics::iteration_ends_ms and detection_ends_ms, which a simulation
+/// has with SimulationOptions::profile. Without them they are not-a-number.
+///
+/// With `repeats` each step is done once to warm up, and then so often again from the same state. Its times are those
+/// of the repetition whose time is the median. Throws std::logic_error if a repetition ends in another state.
 ///
 /// Meetings (compare/meetings.md) are counted from each X_prev to the next, and from the last X_prev to the end of the
 /// step. These states come from the simulation (compare::WayTeller) or from the trace. If a contestant has neither,

@@ -1,6 +1,9 @@
 #include "experiments/program/runs/resume.hpp"
 
+#include <charconv>
+
 #include "compare/problem/error.hpp"
+#include "compare/problem/text.hpp"
 #include "compare/record/steps_csv.hpp"
 #include "experiments/program/version.hpp"
 #include "fast/contestant.hpp"
@@ -17,6 +20,16 @@ namespace {
 using compare::Provenance;
 
 bool says_yes(const Provenance& provenance, const std::string& key) { return text_in(provenance, key) == "yes"; }
+
+std::int64_t repeats_in(const std::string& folder, const Provenance& provenance) {
+  const std::string text = text_in(provenance, "time_repeats");
+  std::int64_t repeats = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), repeats);
+  if (!text.empty() && (error != std::errc{} || end != text.data() + text.size() || repeats < 1))
+    throw compare::InputError(folder + "/run.json: time_repeats is '" + compare::shown(text) +
+                              "', which is no number of repetitions: it was changed by hand or is damaged");
+  return repeats;
+}
 
 void check_end(const std::string& folder, const compare::RunReader& run) {
   if (run.provenance().status != "finished") return;
@@ -92,6 +105,7 @@ ResumedRun resumed_run(const std::filesystem::path& folder) {
   resumed.options.condition = says_yes(provenance, "condition_numbers");
   resumed.options.residual = says_yes(provenance, "residuals");
   resumed.options.ledger = says_yes(provenance, "ledger");
+  resumed.options.repeats = repeats_in(folder.string(), provenance);
   RunRequest& request = resumed.request;
   request.scene = run.scene();
   request.tolerate_start = says_yes(provenance, "tolerate_start");
@@ -105,6 +119,7 @@ ResumedRun resumed_run(const std::filesystem::path& folder) {
   request.condition = resumed.options.condition;
   request.residual = resumed.options.residual;
   request.ledger = resumed.options.ledger;
+  request.repeats = resumed.options.repeats;
   if (const std::string steps = text_in(provenance, "meetings"); !steps.empty())
     resumed.options.audit_meetings = text_of(request.meetings.emplace(step_range(steps)));
   request.folder = folder;

@@ -34,6 +34,7 @@ bool is_scene_file(const std::string& scene) { return scene.ends_with(".json"); 
 constexpr std::string_view data_key = "data=", contact_key = "body_contact=";
 /// One day.
 constexpr double most_checkpoint_seconds = 86400;
+constexpr std::uint64_t most_repeats = 1000;
 
 void check_scene_options(const RunOptions& options, const std::string& data) {
   const bool is_mesh = compare::is_mesh_file(options.scene);
@@ -182,12 +183,18 @@ CLI::Option* add_run_options(CLI::App& command, const std::shared_ptr<RunOptions
                    "The run begins although faces meet. Their pairs of vertices have no contact, no bound and no audit "
                    "until they are apart (experiments/garments.md); start_pairs.csv counts them at each frame");
   command.add_flag("--profile", options->profile,
-                   "steps.csv gets the time of each stage, which slows the run down a little");
+                   "steps.csv gets the time of each stage, which slows the run down a little; with --iterations their "
+                   "rows get measured times");
   command.add_flag("--residual", options->residual,
                    "steps.csv gets the residual of Eq. 29 with the contacts and the friction of the end of the step, "
                    "and frames each vertex's part of it; it is measured beside the run (slow)");
   command.add_flag("--iterations", options->iterations,
                    "iterations.csv gets a row an iteration, which is measured beside the run");
+  command
+      .add_option("--repeats", options->repeats,
+                  "Each step is done once to warm up, and so often again from the same state; its times are those of "
+                  "the repetition whose time is the median")
+      ->check(whole_number(1, most_repeats));
   command.add_flag(
       "--ledger", options->ledger,
       "vbd: steps.csv gets what each part of a step does to energy and momentum, what truncation takes and in which "
@@ -305,6 +312,7 @@ RunRequest request_of(const RunOptions& options, const CommandContext& context) 
   request.audit_beside = options.backend == "cuda";
   request.residual = options.residual;
   request.ledger = options.ledger;
+  request.repeats = options.repeats;
   request.audit = audit_mode(options.audit);
   request.meetings = meetings_of(options, request);
   request.deepest = options.deepest;
@@ -323,6 +331,7 @@ compare::Contestant contestant_of(const RunOptions& options, const std::optional
   const Measured what{.residual = options.residual,
                       .iterations = options.iterations && options_of(solver).has_traced_rows,
                       .ledger = options.ledger,
+                      .repeats = options.repeats,
                       .meetings = meetings};
   const compare::Contestant contestant = contestant_of(solver, options.backend == "cuda", options.devices);
   return what.any() ? measured(contestant, what) : contestant;

@@ -16,6 +16,7 @@ struct RunOptions {
   std::vector<std::string> assignments;  ///< "key=value" of each --set, applied in order
   std::int64_t steps = 0;                ///< 0: as many steps as the scene has
   bool profile = false, iterations = false, condition = false, residual = false, ledger = false;
+  std::int64_t repeats = 0;  ///< repetitions of each step for its times; 0: its first time counts
   bool tolerate_start = false;
   Jitter jitter;
   compare::MeshOptions mesh;                               ///< how a mesh file is read, if it replaces a scene

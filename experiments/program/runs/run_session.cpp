@@ -71,6 +71,7 @@ compare::Provenance provenance(const RunRequest& request, const std::string& dev
   run.extra["condition_numbers"] = request.condition ? "yes" : "no";
   run.extra["residuals"] = request.residual ? "yes" : "no";
   if (request.ledger) run.extra["ledger"] = "yes";
+  if (request.repeats > 0) run.extra["time_repeats"] = std::to_string(request.repeats);
   if (request.meetings) run.extra["meetings"] = text_of(*request.meetings);
   if (request.tolerate_start) run.extra["tolerate_start"] = "yes";
   if (request.from_state) run.extra["from_state"] = request.from_state->string();

@@ -58,6 +58,7 @@ struct RunRequest {
   bool iterations = false, condition = false;  ///< see compare::SimulationOptions
   /// what the wrapped contestant measures (experiments/program/runs/measured_simulation.hpp), for run.json
   bool residual = false, ledger = false;
+  std::int64_t repeats = 0;           ///< repetitions of each step for its times
   std::optional<StepRange> meetings;  ///< steps whose meetings the wrapped contestant counts
   std::filesystem::path folder;
   std::filesystem::path show;  ///< folder for .vtp files of intersections; empty: none

@@ -286,6 +286,7 @@ void check_worlds(const RunRequest& request) {
   if (request.iterations) refuse("--iterations");
   if (request.residual) refuse("--residual");
   if (request.ledger) refuse("--ledger");
+  if (request.repeats > 0) refuse("--repeats " + std::to_string(request.repeats));
   if (request.meetings) refuse("--audit-meetings");
   if (request.tolerate_start) refuse("--tolerate-start");
   if (request.from_state) refuse("--from-state");

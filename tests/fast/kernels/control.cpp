@@ -104,6 +104,24 @@ TEST_CASE("within detection_gap iterations of a detection neither cuts, lags nor
   CHECK(iterate() == 1);
 }
 
+TEST_CASE("a deep vertex makes a single cut ask, unless the setting forbids it", "[unit]") {
+  ControlSettings settings;
+  settings.redetect_vertices = 5;
+  StepControl c = running();
+  const auto asks = [&](int cut) {
+    c.cut = cut;
+    c.deep_inside = 1;
+    EndIteration{&c, settings}(0);
+    CHECK(c.cut + c.deep_inside == 0);
+    return c.detect;
+  };
+  CHECK(asks(0) == 0);
+  CHECK(asks(1) == 1);
+  settings.deep_asks = false;
+  CHECK(asks(1) == 0);
+  CHECK(asks(5) == 1);
+}
+
 TEST_CASE("a prescribed vertex that lags asks alone where it advances, and once a step where it does not", "[unit]") {
   ControlSettings settings;
   settings.redetect_vertices = 5;

@@ -46,3 +46,42 @@ TEST_CASE("a clock that is off calls and measures nothing", "[unit]") {
   CHECK(calls == 1);
   CHECK(clock.take() == std::vector<double>(step_stage_names().size()));
 }
+
+TEST_CASE("the ends of detections and iterations are times since the step began, each noted once", "[unit]") {
+  CpuBackend backend;
+  StageClock<CpuBackend> clock(backend, true, true);
+  wait(30);  // before the step
+  clock.begin_step();
+  const auto begun = std::chrono::steady_clock::now();
+  clock.time(StepStage::initial_guess, [&] { clock.time(StepStage::detection, [] { wait(4); }); });
+  clock.time(StepStage::sweep, [&] {
+    clock.end_iteration(0);
+    wait(2);
+    clock.end_iteration(1);
+    clock.time(StepStage::detection, [] { wait(8); });
+    clock.end_iteration(1);
+    wait(1);
+    clock.end_iteration(2);
+  });
+  const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - begun;
+  const EventEnds ends = clock.take_ends();
+  REQUIRE(ends.detections.size() == 2);
+  REQUIRE(ends.iterations.size() == 3);
+  CHECK(ends.detections[0] >= 4);
+  CHECK(ends.iterations[0] >= ends.detections[0]);
+  CHECK(ends.iterations[1] >= ends.iterations[0] + 2);
+  CHECK(ends.detections[1] >= ends.iterations[1] + 8);
+  CHECK(ends.iterations[2] >= ends.detections[1] + 1);
+  CHECK(ends.iterations[2] <= passed.count());
+  CHECK(clock.take_ends().iterations.empty());
+}
+
+TEST_CASE("a clock of stages alone notes no ends", "[unit]") {
+  CpuBackend backend;
+  StageClock<CpuBackend> clock(backend, true);
+  clock.begin_step();
+  clock.time(StepStage::detection, [] {});
+  clock.end_iteration(0);
+  CHECK(clock.take_ends().detections.empty());
+  CHECK_FALSE(clock.by_iteration());
+}

@@ -113,12 +113,13 @@ class Curves(unittest.TestCase):
     def test_fig_2_says_what_contacts_do_to_the_sheet(self):
         title = lambda **values: fig02.title_of(self.rows_of_fig_2(**values))  # noqa: E731
         self.assertEqual(title(vbd=(0.01, 1.0), ipc=(0.01, 1.0)),
-                         "Fig. 2. IPC's contacts leave the sheet smooth; OGC's leave it smooth")
-        self.assertIn("IPC's contacts bulge the sheet", title(vbd=(0.01, 1.0), ipc=(0.01, 1.0), pairs=(0.3, 1.0)))
-        self.assertIn("stretch the sheet by 26 %", title(vbd=(0.01, 1.0), pairs=(0.3, 1.26)))
-        self.assertIn("OGC's bulge it only where they hold its own neighbours",
+                         "Fig. 2. IPC's contact set leaves the sheet smooth; OGC's leaves it smooth")
+        self.assertIn("IPC's contact set at OGC's stiffness bulges the sheet",
+                      title(vbd=(0.01, 1.0), ipc=(0.01, 1.0), pairs=(0.3, 1.0)))
+        self.assertIn("stretches the sheet by 26 %", title(vbd=(0.01, 1.0), pairs=(0.3, 1.26)))
+        self.assertIn("OGC's bulges it only by its own neighbours",
                       title(vbd=(0.2, 1.0), vbd_rings=(0.05, 1.0), ipc=(0.01, 1.0)))
-        self.assertEqual(title(vbd=(0.2, 1.0), vbd_rings=(0.19, 1.0)), "Fig. 2. OGC's bulge the sheet")
+        self.assertEqual(title(vbd=(0.2, 1.0), vbd_rings=(0.19, 1.0)), "Fig. 2. OGC's bulges the sheet")
 
     def test_angle_defects_see_bulges_and_no_folds(self):
         side = 9

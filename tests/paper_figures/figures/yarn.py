@@ -22,7 +22,7 @@ try:
     import numpy as np
 
     from paper_figures.figures.measured import yarn, yarn_rest, yarn_return
-    from paper_figures.workflow import commands, release
+    from paper_figures.workflow import commands, release, yarn_cases
     from paper_figures.workflow.first_meeting import FirstMeeting, met_at
     from paper_figures.workflow.jobs import FINISHED, KEPT
     from ogc_testbed.runs import Frame, Run, RunError
@@ -290,7 +290,7 @@ class Braked(unittest.TestCase):
         run.frame.side_effect = lambda frame: frame
         run.column.return_value = np.array([1.0])
         with mock.patch.object(yarn_return, "provenance", return_value={}):
-            row = yarn_return.row_of(yarn_return.Case(), run, run)
+            row = yarn_return.row_of(yarn_cases.Case(), run, run)
         self.assertEqual([row[name] for name in ("at rest", "distance, largest [m]")], ["yes", "0"])
         names = [case.name for case in yarn_return.cases("paper")]
         for claim in of:

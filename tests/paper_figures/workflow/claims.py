@@ -246,6 +246,24 @@ class Judging(unittest.TestCase):
                              ("not yet run", "Our number, 4, lies outside of the band (fig99_paper.csv). "
                                              f"{judged([8, 9])[1]} It is not called refuted before this is varied: ε."))
 
+    def test_a_choice_may_have_a_measure_and_a_scale_of_its_own_and_a_membrane_is_one_of_all_places(self):
+        with tempfile.TemporaryDirectory() as name:
+            head = "kind,time,membrane,commit,device\n"
+            (Path(name) / "fig98_small.csv").write_text(f"{head}a,2,x,c1,d\n")
+            (Path(name) / "fig99_paper.csv").write_text(f"{head}a,4,x,c1,d\nb,6,y,c1,d\n")
+            places = [{"table": "fig98", "column": "time", "where": {"kind": "a"}},
+                      {"table": "fig99", "column": "time", "where": {"kind": "a"}}]
+            small = {"table": "fig98", "scale": "small", "column": "time", "where": {"kind": "a"}}
+            other = {"says": "y", "membrane": "y", "measure": [*places, {**places[1], "where": {"kind": "b"}}]}
+
+            def note(choice):
+                return verdicts.judge(claim(measure=places, band=[5, 9], choices=[choice]), Evidence(name)).note
+            self.assertIn("bring it into the band: small (2).", note({"says": "small", "measure": small}))
+            self.assertIn("This other choice brings it into the band: y (6).", note(other))
+            self.assertIn("No run made this choice: y.", note({"says": "y", "membrane": "y"}))
+            self.assertIn("No run made this choice: b.", note({"says": "b", "where": {"kind": "b"}}),
+                          "what is no membrane is a choice of the first place alone")
+
     def test_a_run_is_told_from_others_by_its_activation(self):
         runs = Evidence().runs_as({"scene": "activation_drop", "scale": "small"})
         for name in ("ogc", "ipc_log"):

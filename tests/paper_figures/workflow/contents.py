@@ -19,8 +19,11 @@ from unittest import mock
 SOURCE = Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(SOURCE))
 from paper_figures.workflow import commands, contents  # noqa: E402
-from paper_figures.workflow.evidence import RESULTS, manifest_at  # noqa: E402
+from paper_figures.workflow.evidence import RESULTS, SCENES, manifest_at  # noqa: E402
 
+# Commits of accepted files that no history has; another one is refused, and a release refuses these.
+LOST = {"819c918599316043b68ffe7564c5f48ea034e12b", "a038bacd6236537c071fa50626caf008c0deb831",
+        "b645cd2acbde930863b4a6e7ca1f14883f21340c"}
 ABOUT_ITSELF = {"README.md", contents.PROVENANCE, "durations.csv", "captions.csv"}
 A, B = "a" * 40, "b" * 40
 TREES = {A: ("1", "2", "3", "4"), B: ("1", "2", "3", "5")}
@@ -34,8 +37,10 @@ def kept_tables():
 
 class Accepted(unittest.TestCase):
     def test_every_kept_file_has_its_row_with_a_command(self):
-        for provenance in RESULTS.glob(f"*/{contents.PROVENANCE}"):
-            rows, folder = contents.rows_of(provenance), provenance.parent
+        machines = [path for path in RESULTS.iterdir() if path.is_dir() and path.name != SCENES]
+        self.assertGreater(len(machines), 1)
+        for folder in machines:
+            rows = contents.rows_of(folder / contents.PROVENANCE)
             there = {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
             self.assertEqual(there - ABOUT_ITSELF, {row["file"] for row in rows}, folder.name)
             self.assertEqual([row["file"] for row in rows if not row["redo"]], [], folder.name)
@@ -71,16 +76,17 @@ class Accepted(unittest.TestCase):
         self.assertEqual((RESULTS / contents.KEPT).read_text(), again,
                          "run: python3 -m paper_figures.workflow.contents --write")
 
-    def test_commits_that_the_history_lacks_have_unknown_trees(self):
-        """Among them those of both runs behind Fig. 21."""
+    def test_commits_are_ancestors_of_head_but_those_known_to_be_lost(self):
         if not in_repository():
             self.skipTest("no git repository")
         try:
             known = contents.history()
         except contents.ContentsError as error:
             self.skipTest(str(error))
+        lost = {commit for commit in contents.kept() if not any(name.startswith(commit) for name in known)}
+        self.assertLessEqual(lost, LOST)
         for commit, trees in contents.kept().items():
-            self.assertEqual(trees[0] == contents.UNKNOWN, not any(name.startswith(commit) for name in known), commit)
+            self.assertEqual(trees[0] == contents.UNKNOWN, commit in lost, commit)
 
 
 def in_repository():
@@ -213,16 +219,6 @@ class OfHistory(unittest.TestCase):
             with self.assertRaisesRegex(contents.ContentsError, "without its history"):
                 contents.of_history([self.commits[0]])
             self.assertEqual(len(contents.of_head()), 4)
-
-
-class Release(unittest.TestCase):
-    def test_one_with_an_old_file_is_refused(self):
-        if not in_repository():
-            self.skipTest("no git repository")
-        said = subprocess.run([sys.executable, "-m", "paper_figures.workflow.contents", "--release"], cwd=SOURCE,
-                              capture_output=True, text=True, check=False)
-        self.assertEqual(said.returncode, 1 if contents.old() else 0, said.stderr)
-        self.assertIn(contents.in_words(), said.stdout)
 
 
 if __name__ == "__main__":

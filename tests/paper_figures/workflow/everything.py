@@ -83,7 +83,7 @@ class Calls(Scratch):
         self.assertEqual(status, 0, said)
         self.assertRegex(said, r"laws .* s  finished\njudge .* s  finished")
         made = len(self.calls)
-        self.assertEqual(made, 1 + everything.SEEDS["smoke"])
+        self.assertEqual(made, 1 + 2 * everything.SEEDS["smoke"])
         self.assertRegex(self.call("laws", "judge")[1], r"laws .* s  kept\njudge .* s  kept")
         self.assertEqual(len(self.calls), made)
         self.program(commit="b" * 40)
@@ -118,18 +118,24 @@ class Calls(Scratch):
             self.assertIn(f"jittered-smoke-cpu/starts/{scene}/runs/ablation.csv", names)
         self.call("--pack", packed, "judge", "laws")
         with tarfile.open(packed / "runs_02.tar.gz") as archive:
-            self.assertEqual({name.partition("/")[0] for name in archive.getnames()}, {"laws-smoke-cpu"})
+            self.assertEqual({name.partition("/")[0] for name in archive.getnames()},
+                             {everything.STAMP, everything.TIMES, "laws-smoke-cpu"})
 
     def test_the_judge_s_table_has_a_row_for_each_stage_and_seed(self):
         self.program()
         self.call("judge")
         with (self.out / "judge-smoke-cpu/judge_cpu.csv").open(newline="") as file:
             rows = list(csv.DictReader(file))
-        self.assertEqual([row["seed"] for row in rows], ["1", "2"])
+        self.assertEqual([row["seed"] for row in rows], ["1", "1", "2", "2"])
         self.assertEqual([rows[0][key] for key in ("stage", "cases", "largest errors over tolerances", "device",
                                                    "commit")], ["bound", "100", "force 0.5/2", "3 threads", "a" * 10])
         with (SOURCE / "paper_figures/results/h200/judge_cuda.csv").open(newline="") as file:
             self.assertEqual(list(rows[0]), next(csv.reader(file)), "the columns of the accepted table")
+
+    def test_the_judge_is_asked_every_stage_that_the_program_has(self):
+        listed = subprocess.run([OGC, "compare", "--list", "--json"], capture_output=True, text=True, check=True).stdout
+        ours = {stage["name"] for stage in json.loads(listed)["stages"]} - {"barrier", "ccd"}  # of plug-ins alone
+        self.assertEqual(sorted((*everything.CHEAP, *everything.DEAR)), sorted(ours))
 
     def test_a_dry_run_says_what_there_is_and_how_long_it_took(self):
         self.program()
@@ -155,6 +161,75 @@ class Calls(Scratch):
         with tarfile.open(packed / "runs_01.tar.gz") as archive:
             self.assertIn("table1-smoke-cpu/cloth_on_sphere/whole/run.json", archive.getnames())
         self.assertRegex(self.call("cloth_on_sphere", program=OGC)[1], r"cloth_on_sphere .* s  kept")
+
+
+class Moved(Scratch):
+    """What one machine packed goes on in an empty folder of another one."""
+
+    def move(self):
+        self.out.rename(self.folder / "left_behind")
+
+    def test_a_real_run_and_commands_that_were_packed_are_kept_and_the_rest_is_made(self):
+        packed, names = self.folder / "packed", ("cloth_on_sphere", "fig20")
+        self.assertEqual(self.call("--pack", packed, names[0], program=OGC)[0], 0)
+        self.move()
+        status, said = self.call("--unpack", packed, "--pack", packed, *names, program=OGC)
+        self.assertEqual(status, 0, said)
+        self.assertRegex(said, r"cloth_on_sphere .* s  kept\nfig20 .* s  finished")
+        with tarfile.open(packed / "runs_02.tar.gz") as archive:
+            self.assertEqual({name.partition("/")[0] for name in archive.getnames()},
+                             {everything.STAMP, everything.TIMES, "fig20-smoke-cpu"})
+        self.move_again(packed, names)
+
+    def move_again(self, packed, names):
+        self.out.rename(self.folder / "left_behind_too")
+        status, said = self.call("--unpack", packed, "--pack", packed, *names, program=OGC)
+        self.assertRegex(said, r"cloth_on_sphere .* s  kept\nfig20 .* s  kept")
+        self.assertEqual(len(list(packed.iterdir())), 2, "nothing is packed twice")
+        self.assertRegex(self.call("--dry-run", *names)[1], r"(?m)^fig20 +\d+ s  kept$")
+
+    def test_a_command_that_was_cut_off_is_made_there_and_finished_ones_are_not(self):
+        packed = self.folder / "packed"
+        self.program()
+        self.assertEqual(self.call("--pack", packed, "judge")[0], 0)
+        self.program(slow="yes")
+        self.assertEqual(self.call("--pack", packed, "--time-limit", "1", "judge", "laws")[0], CALL_AGAIN)
+        self.move()
+        self.program()
+        before = len(self.calls)
+        status, said = self.call("--unpack", packed, "judge", "laws")
+        self.assertEqual(status, 0, said)
+        self.assertRegex(said, r"judge .* s  kept\nlaws .* s  finished")
+        self.assertEqual(len(self.calls), before + 1)
+
+    def test_a_run_whose_part_still_needs_its_states_is_made_again(self):
+        part = parts.book(parts.Wanted(scale="smoke", backend="cpu"))["twist"]
+        for end, expected in (("stopped", ["table1-smoke-cpu/twist/whole/"]), (FINISHED, [])):
+            self.assertEqual(list(everything.half_made({"twist": part}, {"twist": {"end": end}})), expected)
+
+    def test_archives_of_another_program_damaged_ones_and_an_empty_folder_are_refused(self):
+        packed = self.folder / "packed"
+        self.program()
+        self.call("--pack", packed, "laws")
+        self.move()
+        self.program(commit="b" * 40)
+        for change, words in ((lambda: None, f"of another program \\(commit {'a' * 40}\\)"),
+                              (lambda: (packed / "runs_01.tar.gz").write_bytes(b"no archive"), "cut or damaged"),
+                              ((packed / "runs_01.tar.gz").unlink, "has no runs_NN.tar.gz")):
+            change()
+            status, said = self.call("--unpack", packed, "laws")
+            self.assertEqual(status, 2)
+            self.assertRegex(said, words)
+
+    def test_another_machine_makes_nothing_due(self):
+        self.program()
+        self.call("laws")
+        stamp = self.out / everything.STAMP
+        stamp.write_text(stamp.read_text().replace("3 threads", "64 threads"))
+        os.utime(stamp, ns=(0, 0))
+        self.assertRegex(self.call("laws")[1], r"laws .* s  kept")
+        self.assertIn("3 threads", stamp.read_text())
+        self.assertEqual(stamp.stat().st_mtime_ns, 0)
 
 
 class Programs(unittest.TestCase):

@@ -254,6 +254,25 @@ class Called(Scratch):
         self.assertEqual(len((link / "steps.csv").read_text().splitlines()), 5)
         self.assertEqual(json.loads((link / "audit.json").read_text())["complete"], True)
 
+    def test_jobs_side_by_side_are_made_kept_and_packed_once(self):
+        there, home, packed = self.folder / "there", self.folder / "home", self.folder / "packed"
+        words = ("--cores", "2", "--steps", "8", "--pack", packed, "mat_twist_planes", "fig19", "fig20")
+        lines = self.say(there, *words)
+        self.assertEqual({line.split()[7].rstrip(";") for line in lines if " s on " in line}, {"finished"}, lines)
+        self.assertTrue((there / "fig19-smoke-cpu/planes/whole").is_symlink())
+        archive, = packed.iterdir()
+        with tarfile.open(archive) as found:
+            names = found.getnames()
+        self.assertTrue([name for name in names if name.startswith("fig19-smoke-cpu/ball/whole/")])
+        self.assertFalse([name for name in names if name.startswith("fig19-smoke-cpu/planes/")], "the row's run is")
+        again = self.say(there, *words)
+        self.assertEqual({line.split()[7].rstrip(";") for line in again if " s on " in line}, {"kept"}, again)
+        self.assertEqual(len(list(packed.iterdir())), 1, "nothing is packed twice")
+        self.say(home, "--unpack", packed)
+        self.assertTrue((home / "fig19-smoke-cpu/planes/whole/run.json").is_file())
+        plan = self.say(there, *words, "--plan", "--known", there / "times.json")
+        self.assertRegex(plan[0], r"\d+ jobs, \d+ s of a core, \d+ s of 2 cores; the longest chain, \d+ s: .*/")
+
     def test_whole_runs_are_as_many_and_as_long_as_asked(self):
         self.say(self.folder, "twist", "--steps", "10", "--runs", "2", "--audit", "every")
         row, = table1.rows_of(self.folder / "table1-smoke-cpu")
@@ -315,7 +334,9 @@ class Called(Scratch):
     def test_wrong_words_exit_2(self):
         for words, said in ((["twisted"], "no part or figure 'twisted'"),
                             (["--figures", "twist"], "no part or figure 'twist'"),
-                            (["--windw", "3"], "--windw"), (["--program", "/nowhere"], "no program at '/nowhere'")):
+                            (["--windw", "3"], "--windw"),
+                            (["--cores", "2", "--backend", "cuda"], "--cores is for --backend cpu"),
+                            (["--program", "/nowhere"], "no program at '/nowhere'")):
             done = self.call(self.folder, *words)
             self.assertEqual((done.returncode, said in done.stderr), (2, True), done.stderr)
 

@@ -67,6 +67,9 @@ class Recipes(unittest.TestCase):
     def test_names_are_figures_scenes_or_all(self):
         book = recipes.load()
         names = lambda *words, backend="cpu": [r.name for r in recipes.choose(words, book, backend)]  # noqa: E731
+        drawn = names("illustrations")
+        self.assertEqual(sorted(names("quick")), sorted((*recipes.QUICK, *drawn)))
+        self.assertGreater(len(drawn), 3)
         self.assertEqual(names(), ["fig18"])
         self.assertEqual(names("twist", "fig07", "fig12"), ["fig12", "fig07"])
         self.assertNotIn("fig18_solvers", names("all", backend="cuda"))

@@ -127,6 +127,23 @@ TEST_CASE("cut vertices cause no detection within detection_gap iterations of th
   CHECK(order(rare, 100, {}) == std::vector{find, guess, sweep, find, sweep, find, sweep, find, sweep, find, sweep});
 }
 
+TEST_CASE("a deep vertex makes a single cut cause a detection, unless the setting forbids it", "[unit]") {
+  compare::Settings deep = settings(4, 0.5);
+  const auto next_after = [&](Index cut, bool is_deep) {
+    reference::StepOrder order(deep, 10);
+    order.took_place(0);
+    order.took_place(0);
+    order.took_place(cut, {}, is_deep);
+    return *order.next();
+  };
+  CHECK(next_after(1, true) == find);
+  CHECK(next_after(1, false) == sweep);
+  CHECK(next_after(0, true) == sweep);
+  deep.detection_deep = 0;
+  CHECK(next_after(1, true) == sweep);
+  CHECK(next_after(5, false) == find);
+}
+
 TEST_CASE("a step ends after an iteration that moves nothing and cuts nothing, unless a detection is due", "[unit]") {
   compare::Settings settles = settings(6, 0.5);
   settles.settled_move = 1;

@@ -100,3 +100,14 @@ TEST_CASE("frames hold no measures of vertices unless they are asked for", "[uni
     CHECK(reader.frame(i).cut.empty());
   }
 }
+
+// Vertices of the folded mat have several contacts with the same volume there, whose forces are added up in the order
+// in which a tree offers them.
+TEST_CASE("the trace of a late step of a solid that lies in itself ends in the step's own state", "[property]") {
+  const TemporaryFolder folder;
+  const std::string mat = "mat_twist --scale smoke --set body_contact=volume --audit off ";
+  make(folder / "run", mat + "--steps 348");
+  make(folder / "traced",
+       mat + "--iterations --steps 349 --from-state " + (folder / "run/frames/frame_000348.h5").string());
+  CHECK(compare::read_steps(folder / "traced").rows.at(0).vertices_inside > 0);
+}

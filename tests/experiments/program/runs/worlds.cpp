@@ -164,8 +164,8 @@ TEST_CASE("more worlds than the memory holds are refused before the first step, 
 
 TEST_CASE("worlds refuse what belongs to one world, by name", "[unit]") {
   const TemporaryFolder folder;
-  for (const std::string option :
-       {"--profile", "--iterations", "--residual", "--ledger", "--tolerate-start", "--solver newton", "--view"}) {
+  for (const std::string option : {"--profile", "--iterations", "--residual", "--ledger", "--repeats 2",
+                                   "--tolerate-start", "--solver newton", "--view"}) {
     const ProgramResult result = run_ogc("run twist --scale smoke --worlds 2 " + option + " --out " +
                                          (folder / "out").string());
     INFO(option << ": " << result.err);

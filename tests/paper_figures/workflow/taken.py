@@ -1,0 +1,141 @@
+"""Evidence that no figure keeps becomes results: what is there is taken with its provenance, what lacks a part is left
+as it was, and what is no evidence is refused.
+
+Usage: taken.py SOURCE_DIR OGC. Exit status 77: skipped, PyYAML is missing.
+"""
+
+import csv
+import hashlib
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from unittest import mock
+
+SOURCE, OGC = Path(sys.argv[1]).resolve(), str(Path(sys.argv[2]).resolve())
+del sys.argv[1:3]
+sys.path.insert(0, str(SOURCE))
+try:
+    from paper_figures.workflow import everything, parts, taken  # noqa: E402
+    from paper_figures.workflow.kept import AcceptError  # noqa: E402
+except ImportError as error:
+    print(f"skipped: {error}")
+    sys.exit(77)
+
+COMMIT = "a" * 40
+LAWS = {"rows": [{"law": "fall", "solver": "vbd", "backend": "cpu", "bounds": "ball", "readings": [
+    {"what": "distance", "unit": "m", "measured": 0.5, "answer": 0, "side": "at most", "tolerance": 1,
+     "verdict": "holds"}]}]}
+DIGESTS = {"stages": [{"stage": "bound", "cases": 7, "digest": 255, "stated": "cpu_to_gpu", "skipped": False}]}
+
+
+def rows_of(path):
+    with path.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+class Taken(unittest.TestCase):
+    """The evidence is that of one row, made once, of a program that says it is of COMMIT."""
+
+    @classmethod
+    def setUpClass(cls):
+        holder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(holder.cleanup)
+        cls.made = Path(holder.name) / "runs"
+        subprocess.run([SOURCE / "experiments/evidence", "cores", "--scale", "smoke", "--out", cls.made, "--changed",
+                        "--program", OGC, "twist", "windows_twist"], check=True, capture_output=True)
+        for path in cls.made.rglob("run.json"):
+            cls.change(path, commit=COMMIT, dirty=False)
+        (cls.made / "program.txt").write_text(f"OGC Testbed\ncommit {COMMIT}\ncompiler X 1\n"
+                                              "  cpu: usable (3 threads)\n")
+        for name, said in (("laws", LAWS), ("determinism", DIGESTS)):
+            folder = cls.made / f"{name}-smoke-cpu/all"
+            folder.mkdir(parents=True)
+            (folder / "said.txt").write_text(json.dumps(said))
+
+    @staticmethod
+    def change(path, **values):
+        path.write_text(json.dumps({**json.loads(path.read_text()), **values}))
+
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.results = Path(holder.name)
+
+    def take(self, kind, partly=False):
+        runs = taken.Runs(self.made, "smoke", "cpu", partly)
+        return taken.keep("machine", runs, list(taken.KINDS[kind](runs)), self.results)
+
+    @property
+    def provenance(self):
+        return {row["file"]: row for row in rows_of(self.results / "machine/provenance.csv")}
+
+    def test_each_file_has_a_row_with_its_digest_command_and_program(self):
+        for kind in ("rows", "laws", "determinism"):
+            for name in self.take(kind):
+                row, data = self.provenance[name], (self.results / "machine" / name).read_bytes()
+                self.assertEqual(row["sha256"], hashlib.sha256(data).hexdigest()[:16])
+                self.assertEqual(row["commit"], COMMIT)
+                self.assertRegex(row["redo"], "^experiments/evidence cores (twist|laws|determinism)$")
+        self.assertLess({"twist_run.json", "twist_audit.json", "laws_cpu.csv"}, set(self.provenance))
+        scene = json.loads((self.results / "machine/twist_run.json").read_text())["scene"]["sha256"]
+        self.assertTrue((self.results / f"scenes/{scene}.json").is_file())
+
+    def test_numbers_are_those_of_the_evidence(self):
+        self.take("laws"), self.take("determinism"), self.take("windows", partly=True)
+        self.assertEqual(rows_of(self.results / "machine/laws_cpu.csv")[0]["measured"], "0.5")
+        self.assertEqual(rows_of(self.results / "machine/determinism_cpu.csv")[0]["digest"], f"{255:016x}")
+        first = rows_of(self.results / "machine/cpu_windows_smoke.csv")[0]
+        took = [float(row["wall [ms]"]) for row in rows_of(self.made / "table1-smoke-cpu/twist/cpu_0/steps.csv")]
+        self.assertAlmostEqual(float(first["mean step [ms]"]), sum(took) / len(took), delta=1e-3 * max(took))
+
+    def test_how_long_parts_took_is_what_a_later_call_expects(self):
+        self.take("seconds")
+        table = {row["part"]: row for row in rows_of(self.results / "machine" / everything.SECONDS)}
+        times = json.loads((self.made / everything.TIMES).read_text())
+        self.assertEqual(set(table), {"twist", "windows_twist"})
+        self.assertEqual(float(table["twist"]["seconds"]), times["twist"]["seconds"])
+        wanted = parts.Wanted(scale="smoke", backend="cpu")
+        with mock.patch.object(everything, "RESULTS", self.results):
+            self.assertEqual(everything.accepted_seconds("twist", wanted, {}), times["twist"]["seconds"])
+            self.assertIsNone(everything.accepted_seconds("knot", wanted, {}))
+
+    def test_a_table_without_one_of_its_parts_is_left_as_it_was(self):
+        with self.assertRaisesRegex(taken.Missing, "windows: .*run.json is missing"):
+            self.take("windows")
+        with self.assertRaisesRegex(taken.Missing, "judge: .*seed_1"):
+            self.take("judge")
+        self.assertFalse((self.results / "machine").exists())
+
+    def test_what_was_taken_before_goes_with_its_row(self):
+        names = self.take("rows")
+        old = self.results / "machine/twist_old.csv"
+        old.write_text("x\n")
+        with (self.results / "machine/provenance.csv").open("a") as file:
+            file.write(f"twist_old.csv,twist,smoke,cpu,x,{COMMIT},,,,0\n")
+        self.assertEqual(self.take("rows"), names)
+        self.assertFalse(old.exists())
+        self.assertNotIn("twist_old.csv", self.provenance)
+
+    def refused(self, name, kind, words, **values):
+        path = self.made / name
+        before = path.read_text()
+        self.change(path, **values)
+        try:
+            with self.assertRaisesRegex(AcceptError, words):
+                self.take(kind, partly=True)
+        finally:
+            path.write_text(before)
+        self.assertFalse((self.results / "machine").exists())
+
+    def test_what_is_no_evidence_is_refused(self):
+        row = "table1-smoke-cpu/twist"
+        self.refused(f"{row}/whole/run.json", "rows", "uncommitted changes", dirty=True)
+        self.refused(f"{row}/whole/audit.json", "rows", "failed its audit", clean=False, intersections=1)
+        self.refused(f"{row}/cpu_25/run.json", "windows", "runs of commits", commit="b" * 40)
+
+
+if __name__ == "__main__":
+    unittest.main()
