@@ -73,7 +73,11 @@ namespace {
 
 /// A query whose searches tell their numbers.
 struct Numbered {
-  Search begin(int i) const { return {.owner = i}; }
+  Search begin(int i) const {
+    Search search;
+    search.owner = i;
+    return search;
+  }
 };
 
 }  // namespace
