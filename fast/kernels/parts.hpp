@@ -117,7 +117,7 @@ struct SendGuess {
   }
 };
 
-/// Sends the new positions of a colour into the fresh buffers of the parts that read them. No part reads fresh positions
+/// Sends new positions of a colour into the fresh buffers of the parts that read them. No part reads fresh positions
 /// of a colour before the meeting that ends it. Runs once for each own slot of the colour.
 struct SendColour {
   PartsView parts;
