@@ -1,8 +1,8 @@
 // Lets the devices that divide a simulation meet inside their graphs, without the host. Each device has a flag for each
 // other one. When all blocks of a launch have sent what they had to send, the last block raises its flag on all other
 // devices, and waits until they have raised theirs. A device that waits makes no progress, so the host launches a graph
-// only when all parts are ready (CudaBackend::launch). Outside a graph the host's threads meet, so that no device waits:
-// tools that run one kernel at a time hold up nobody.
+// only when all parts are ready (CudaBackend::launch). Outside a graph the host's threads meet, and no device waits, so
+// that tools may run one kernel at a time.
 #pragma once
 
 #include <cstdint>
