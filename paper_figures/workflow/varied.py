@@ -35,7 +35,7 @@ EXPECTED = {"steady_cloth_on_sphere": 15, "steady_twist": 60, "steady_knot": 220
             "steady_dress_volumes_st_venant": 45, "steady_dress_volumes_shallow": 35, "steady_robot_shirt_volumes": 40,
             "steady_robot_shirt_volumes_st_venant": 40, "steady_mat_twist_planes": 220,
             "steady_mat_twist_planes_poisson": 220, "steady_mat_twist_planes_thicker": 220, "steady_yarn_stretch": 45,
-            "steady_yarn_twist": 70, "fig17_printed": 180, "fig17_share": 20, "fig17_membrane": 90,
+            "steady_yarn_twist": 70, "fig17_printed": 900, "fig17_share": 30, "fig17_membrane": 350,
             "fig17_membrane_newton": 3600, "fig02_neighbours": 240, "fig02_wide": 600, "yarn_starts": 1500}
 
 
@@ -92,7 +92,7 @@ def repeated(scale, backend):
 @dataclass(frozen=True)
 class Table:
     """Makes a table from finished runs: a row for each of `jobs`. As a job it costs nothing, and is made anew in each
-    call. `row_of`: returns the cells of a run folder."""
+    call, and when its part is packed, as a limit may come before it. `row_of`: returns the cells of a run folder."""
 
     name: str
     jobs: tuple
@@ -109,6 +109,7 @@ class Table:
         return KEPT
 
     def results(self, root, _frames, _last):
+        self.make("", root)
         yield from (path for path in [root / f"{self.name}.csv"] if path.is_file())
 
 
