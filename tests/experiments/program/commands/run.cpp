@@ -64,7 +64,7 @@ TEST_CASE("the smoke runs of all scenes keep the guarantee and leave a readable 
     const compare::RunReader reader(folder / "run");
     CHECK(reader.scene().name == name);
     CHECK(reader.provenance().status == "finished");
-    CHECK(reader.provenance().extra.at("final_hash") == json.at("final_hash"));
+    CHECK(reader.provenance().extra.at("final_hash") == json.at("final_hash").get<std::string>());
     REQUIRE(reader.frame_count() == json.at("audit").at("states").get<std::size_t>() + 1);
     const compare::Frame last = reader.frame(reader.frame_count() - 1);
     CHECK(last.step == json.at("last_step"));
