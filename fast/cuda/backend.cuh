@@ -394,9 +394,15 @@ class CudaBackend {
   const std::uint32_t* meetings() const { return meetings_.data(); }
   /// Lets this device write into the memory of the other parts' devices. Throws compare::ResourceError if it cannot.
   void join(Hall& hall, int own);
-  /// Waits on the device (fast/cuda/meeting.cuh).
+  /// Waits on the device, outside a recording on the host (fast/cuda/meeting.cuh).
   template <class F, class G>
   void meet(int n, const F& send, const G& end) {
+    if (!recording_) {
+      for_each(n, send);
+      synchronize();
+      hall_->meet();
+      return for_each(1, EndMeeting<G>{end, meetings_.data()});
+    }
     const MeetingPlace place{own_part_,        static_cast<int>(flags_.size()),
                              meetings_.data(), done_.data(),
                              flags_.data(),    others_flags_.data()};

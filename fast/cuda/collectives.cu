@@ -50,6 +50,7 @@ __global__ void __launch_bounds__(scan_threads)
       before += (four.x + four.y) + (four.z + four.w);
     }
   }
+  __syncwarp();  // threads of a warp may leave the loops above at different times
   Sums upto = 0, total = 0;
   Scan(memory).ExclusiveSum(static_cast<Sums>(static_cast<unsigned>(before)) << 32 | static_cast<unsigned>(own), upto,
                             total);

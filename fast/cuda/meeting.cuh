@@ -1,7 +1,8 @@
 // Lets the devices that divide a simulation meet inside their graphs, without the host. Each device has a flag for each
 // other one. When all blocks of a launch have sent what they had to send, the last block raises its flag on all other
 // devices, and waits until they have raised theirs. A device that waits makes no progress, so the host launches a graph
-// only when all parts are ready (CudaBackend::launch).
+// when all parts are ready (CudaBackend::launch). Outside a graph the host's threads meet, so that no device waits:
+// tools that run one kernel at a time hold up nobody.
 #pragma once
 
 #include <cstdint>
@@ -32,6 +33,18 @@ __device__ inline std::uint32_t read_flag(const std::uint32_t* flag) {
   asm volatile("ld.acquire.sys.global.u32 %0, [%1];" : "=r"(number) : "l"(flag) : "memory");
   return number;
 }
+
+/// Ends a meeting after the host's threads have met: runs end(0) and counts the meeting. Runs once.
+template <class G>
+struct EndMeeting {
+  G end;
+  std::uint32_t* meetings;  ///< as in MeetingPlace
+
+  __device__ void operator()(int) const {
+    end(0);
+    ++*meetings;
+  }
+};
 
 /// Runs send(i) for i < n, waits for the other parts, then runs end(0) and counts the meeting.
 template <class F, class G>

@@ -104,8 +104,8 @@ struct ContactFaces {
   }
 };
 
-/// Notes, for each vertex of a part of a simulation, which other parts read its position (fast/kernels/parts.hpp):
-/// those with a free vertex in the same contact or element.
+/// Notes, for each vertex of a part of a simulation, which others read its position (fast/kernels/parts.hpp): those
+/// with a free vertex in the same contact or element.
 struct Readers {
   std::uint64_t* readers = nullptr;  ///< by slot: bit p is set if part p reads the vertex; null: there are no parts
   const int* begin = nullptr;        ///< as in PartsView

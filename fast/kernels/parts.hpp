@@ -117,8 +117,8 @@ struct SendGuess {
   }
 };
 
-/// Sends the new positions of a colour into the fresh buffers of the parts that read them. No part reads fresh
-/// positions of a colour before the meeting that ends it. Runs once for each own slot of the colour.
+/// Sends new positions of a colour into the fresh buffers of the parts that read them. No part reads fresh positions
+/// of a colour before the meeting that ends it. Runs once for each own slot of the colour.
 struct SendColour {
   PartsView parts;
   const std::uint64_t* readers;  ///< as in Readers

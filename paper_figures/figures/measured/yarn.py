@@ -276,11 +276,11 @@ def draw_rows(axes, scene, rows):
     axes.axis("off")
     short = lambda text: f"{float(text):.3g}" if text not in ("", None) else "–"  # noqa: E731
     if scene == commands.STRETCH:
-        head = ["", "k_c [N/m]", "pull-throughs", "steps checked", "tension / k_c r at the first"]
+        head = ["", "k_c [N/m]", "pull-throughs", "in steps", "tension / k_c r at the first"]
         body = [[KINDS[row["kind"]], row["k_c [N/m]"], met_in_words(row), row["steps asked [1]"],
                  short(row["tension over k_c r [1]"])] for row in rows]
     else:
-        head = ["", "pull-throughs", "steps checked", "from the hanging cloth, median [m]"]
+        head = ["", "pull-throughs", "in steps", "from the hanging cloth [m]"]
         apart = ("distance, median [m]", "distance while it moves, median [m]")
         body = [[KINDS[row["kind"]] + (", let go" if "released" in row["run"] else ""), met_in_words(row),
                  str(row["steps asked [1]"]),

@@ -62,6 +62,20 @@ TEST_CASE("no device ends a frame because a list is nearly full", "[gpu]") {
   }
 }
 
+// Stages that are timed are not recorded: the host launches each kernel.
+TEST_CASE("devices compute the same bits launch by launch", "[gpu]") {
+  const compare::Scene scene = falling_sheets();
+  const compare::SimulationOptions options{.profile = true, .energies = true};
+  const auto whole = start_cuda(scene, options);
+  const Outcome expected = run(*whole, 10);
+  REQUIRE(expected.rows.back().vertex_facet_contacts > 0);
+  for (const int devices : numbers_of_devices()) {
+    CAPTURE(devices);
+    const auto divided = start_cuda_parts(scene, options, devices);
+    require_equal(run(*divided, 10), expected);
+  }
+}
+
 TEST_CASE("more devices than the machine has are refused by number", "[gpu]") {
   CHECK_THROWS_WITH(start_cuda_parts(falling_sheets(), {}, 65), ContainsSubstring("65 devices are asked for"));
 }
