@@ -23,6 +23,8 @@ inline compare::Scene falling_sheets() {
   add_sheet(scene, 12, 0.10, 0.012, false);
   add_sheet(scene, 11, 0.10, 0.020, false);
   add_sheet(scene, 9, 0.12, 0, true);
+  // With friction a vertex reads in the guess loop what contacts took from the moves of other parts' vertices.
+  for (compare::Body& body : scene.bodies) body.material.friction = 0.4;
   compare::PrescribedMotion carried;
   for (compare::Index v = 0; v < 12; ++v) carried.vertices.push_back(v);
   carried.velocity = {0.2, -0.4, 0.1};
@@ -72,8 +74,11 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
-/// Returns a row as text; equal rows have equal text.
-inline std::string lines(const compare::StepMetrics& row) { return compare::step_lines(std::span(&row, 1), 0); }
+/// Returns a row as text, without the times of stages; equal rows have equal text.
+inline std::string lines(compare::StepMetrics row) {
+  row.stage_ms.clear();
+  return compare::step_lines(std::span(&row, 1), 0);
+}
 
 /// Requires the same states, bounds and rows.
 inline void require_equal(const Outcome& parts, const Outcome& whole) {
