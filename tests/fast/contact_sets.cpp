@@ -211,7 +211,7 @@ TEST_CASE("contact_sets: without CUDA the backend says so and what to do", "[uni
   CHECK_THROWS_AS(fast::contestant(fast::Backend::cuda), compare::ResourceError);
   // The command line and Python spell the choice differently, so the library's messages spell neither.
   CHECK_THROWS_WITH(fast::contestant(fast::Backend::cuda),
-                    Catch::Contains("the backend cpu") && !Catch::Contains("--backend"));
+                    ContainsSubstring("the backend cpu") && !ContainsSubstring("--backend"));
   CHECK_THROWS_AS(fast::ContactFinder(fast::Mesh(0, {}), fast::Backend::cuda), compare::ResourceError);
   CHECK(fast::backend_info(fast::Backend::cpu).usable);
 }

@@ -9,7 +9,6 @@
 #include "tests/catch.hpp"
 
 using namespace ogc::compare;
-using Catch::Matchers::Contains;
 
 namespace {
 
@@ -67,8 +66,8 @@ TEST_CASE("a declared setting that is set to its default leaves the settings as 
 TEST_CASE("messages about declared settings name the range, and the nearest name for an unknown one", "[unit]") {
   Settings settings;
   CHECK_THROWS_WITH(set_setting(settings, "tests_count", "10"),
-                    Contains("'tests_count' can't be '10'; give a whole number from 1 to 9"));
-  CHECK_THROWS_WITH(set_setting(settings, "tests_way", "fourth"), Contains("one of first, second, third"));
-  CHECK_THROWS_WITH(set_setting(settings, "tests_shares", 1.0), Contains("did you mean 'tests_share'?"));
+                    ContainsSubstring("'tests_count' can't be '10'; give a whole number from 1 to 9"));
+  CHECK_THROWS_WITH(set_setting(settings, "tests_way", "fourth"), ContainsSubstring("one of first, second, third"));
+  CHECK_THROWS_WITH(set_setting(settings, "tests_shares", 1.0), ContainsSubstring("did you mean 'tests_share'?"));
   CHECK(settings == Settings{});
 }

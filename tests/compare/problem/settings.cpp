@@ -14,7 +14,6 @@
 #include "tests/compare/problem/renamed.hpp"
 
 using namespace ogc::compare;
-using Catch::Matchers::Contains;
 using Catch::Matchers::Equals;
 
 TEST_CASE("every setting has a name of its own and a default within its range", "[unit]") {
@@ -106,11 +105,12 @@ TEST_CASE("values out of range, of the wrong type or not numbers are refused and
 TEST_CASE("messages name the setting, its unit, its range and the nearest name", "[unit]") {
   Settings settings;
   CHECK_THROWS_WITH(set_setting(settings, "contact_radius", "-1"),
-                    Contains("contact_radius") && Contains(" m ") && Contains("1048576") && Contains("-1"));
+                    ContainsSubstring("contact_radius") && ContainsSubstring(" m ") && ContainsSubstring("1048576") &&
+                        ContainsSubstring("-1"));
   CHECK_THROWS_WITH(set_setting(settings, "contactradius", "1"),
-                    Contains("'contactradius'") && Contains("'contact_radius'"));
-  CHECK_THROWS_WITH(set_setting(settings, "iteration", "1"), Contains("did you mean 'iterations'?"));
-  CHECK_THROWS_WITH(get_setting(settings, "gamma"), Contains("unknown setting 'gamma'"));
+                    ContainsSubstring("'contactradius'") && ContainsSubstring("'contact_radius'"));
+  CHECK_THROWS_WITH(set_setting(settings, "iteration", "1"), ContainsSubstring("did you mean 'iterations'?"));
+  CHECK_THROWS_WITH(get_setting(settings, "gamma"), ContainsSubstring("unknown setting 'gamma'"));
 }
 
 TEST_CASE("a name that a setting had before is refused with the one that it has now", "[unit]") {
@@ -148,7 +148,7 @@ TEST_CASE("lanes is 0, 2, 4, 8 or 16", "[unit]") {
     if (good) {
       CHECK_NOTHROW(set_setting(settings, "lanes", std::to_string(lanes)));
     } else {
-      CHECK_THROWS_WITH(set_setting(settings, "lanes", std::to_string(lanes)), Contains("0, 2, 4, 8 or 16"));
+      CHECK_THROWS_WITH(set_setting(settings, "lanes", std::to_string(lanes)), ContainsSubstring("0, 2, 4, 8 or 16"));
     }
   }
 }
@@ -167,7 +167,7 @@ TEST_CASE("a choice is set and printed by its name; any other name is refused wi
     CHECK(info.maximum == static_cast<double>(info.choices.size() - 1));
     Settings settings;
     for (const char* name : {"", "0", "ogcc"})
-      CHECK_THROWS_WITH(set_setting(settings, info.name, name), Contains(std::string(info.choices.back())));
+      CHECK_THROWS_WITH(set_setting(settings, info.name, name), ContainsSubstring(std::string(info.choices.back())));
     CHECK(settings == Settings{});
   }
 }

@@ -10,7 +10,6 @@
 #include "tests/compare/problem/solid_scene.hpp"
 
 using namespace ogc::compare;
-using Catch::Matchers::Contains;
 using ogc::tests::block_mesh;
 
 namespace {
@@ -85,7 +84,8 @@ TEST_CASE("closed surfaces, rims, overlapping parts and solids are volumes, wher
     const Vec3 corner{shift, 2 * shift, -shift};
     for (const Mesh& mesh : {cube(corner), open_box(corner), joined(cube(corner), open_box(corner))}) {
       CHECK(said(scene_of(mesh)) == "");
-      CHECK_THAT(said(scene_of(reversed(mesh))), Contains("begins a part of a volume that is turned inside out"));
+      CHECK_THAT(said(scene_of(reversed(mesh))),
+                 ContainsSubstring("begins a part of a volume that is turned inside out"));
     }
     CHECK(said(scene_of(block_mesh(2, 1, corner), false)) == "");
   }
@@ -144,18 +144,19 @@ TEST_CASE("an island in a void is a part of its own, and a cavity belongs to the
 
 TEST_CASE("a sheet that faces inward in nothing, across a part, in a void or in an open part is inside out", "[unit]") {
   CHECK_THAT(said(scene_of(joined(cube_of(2), void_of(4)))),
-             Contains("triangle 12 of body 'body'") && Contains(inside_out) &&
-                 Contains("lies within a closed part of the same body"));
-  CHECK_THAT(said(scene_of(joined(cube_of(4), shifted(void_of(2), 1.5)))), Contains(inside_out));
-  CHECK_THAT(said(scene_of(joined(cube_of(4), shifted(void_of(2), 9)))), Contains(inside_out));
+             ContainsSubstring("triangle 12 of body 'body'") && ContainsSubstring(inside_out) &&
+                 ContainsSubstring("lies within a closed part of the same body"));
+  CHECK_THAT(said(scene_of(joined(cube_of(4), shifted(void_of(2), 1.5)))), ContainsSubstring(inside_out));
+  CHECK_THAT(said(scene_of(joined(cube_of(4), shifted(void_of(2), 9)))), ContainsSubstring(inside_out));
   CHECK_THAT(said(scene_of(joined(joined(cube_of(8), void_of(4)), void_of(2)))),
-             Contains("triangle 24 of body 'body'") && Contains(inside_out) && !Contains("triangle 12 of"));
+             ContainsSubstring("triangle 24 of body 'body'") && ContainsSubstring(inside_out) &&
+                 !ContainsSubstring("triangle 12 of"));
   Mesh open = cube_of(4);
   open.triangles.resize(open.triangles.size() - 2);
-  CHECK_THAT(said(scene_of(joined(open, void_of(2)))), Contains(inside_out));
+  CHECK_THAT(said(scene_of(joined(open, void_of(2)))), ContainsSubstring(inside_out));
   Scene two = scene_of(cube_of(4));
   append_body(two, {.name = "void", .fixed = true, .material = {}, .contact = BodyContact::volume}, void_of(2));
-  CHECK_THAT(said(two), Contains("triangle 0 of body 'void'") && Contains(inside_out));
+  CHECK_THAT(said(two), ContainsSubstring("triangle 0 of body 'void'") && ContainsSubstring(inside_out));
 }
 
 TEST_CASE("the boundary of hollow tetrahedra is one part, and inside out where they are at the start", "[unit]") {
@@ -172,19 +173,19 @@ TEST_CASE("the boundary of hollow tetrahedra is one part, and inside out where t
   CHECK(volume_parts(scene)[0].triangles.size() == 6 * 18 + 12);
   CHECK(volume_cavities(scene).empty());
   for (std::size_t v = 3; v < scene.mesh.positions.size(); ++v) scene.mesh.positions[v].x *= -1;
-  CHECK_THAT(said(scene), Contains(inside_out));
+  CHECK_THAT(said(scene), ContainsSubstring(inside_out));
 }
 
 TEST_CASE("a volume of triangles is driven: all of its vertices are fixed or prescribed", "[unit]") {
   Scene scene = scene_of(cube(), false);
   CHECK_THAT(said(scene),
-             Contains("body 'body': is a volume of triangles, and 8 of its 8 vertices move freely; fix it, "
-                      "prescribe all of its vertices, or give it tetrahedra"));
+             ContainsSubstring("body 'body': is a volume of triangles, and 8 of its 8 vertices move freely; fix it, "
+                               "prescribe all of its vertices, or give it tetrahedra"));
   PrescribedMotion motion;
   motion.name = "path";
   for (Index v = 3; v < 10; ++v) motion.vertices.push_back(v);
   scene.motions = {motion};
-  CHECK_THAT(said(scene), Contains("and 1 of its 8 vertices move freely"));
+  CHECK_THAT(said(scene), ContainsSubstring("and 1 of its 8 vertices move freely"));
   scene.motions[0].vertices.push_back(10);
   CHECK(said(scene) == "");
 }
@@ -194,38 +195,41 @@ TEST_CASE("each bad volume is named with its place and a remedy", "[unit]") {
   SECTION("a triangle turned round") {
     std::swap(mesh.triangles[0][0], mesh.triangles[0][1]);
     CHECK_THAT(said(scene_of(mesh)),
-               Contains("edge from vertex 0 of body 'body' (3 in the scene) to vertex 1 of body 'body' (4 in the "
-                        "scene): of a volume is run through in one sense by both of its triangles: triangle 0 of body "
-                        "'body'") &&
-                   Contains("turn one of them round") && !Contains("inside out"));
+               ContainsSubstring(
+                   "edge from vertex 0 of body 'body' (3 in the scene) to vertex 1 of body 'body' (4 in the "
+                   "scene): of a volume is run through in one sense by both of its triangles: triangle 0 of body "
+                   "'body'") &&
+                   ContainsSubstring("turn one of them round") && !ContainsSubstring("inside out"));
   }
   SECTION("a third triangle at an edge") {
     mesh.positions.push_back({0.5, 0.5, 2});
     mesh.triangles.push_back({1, 5, 8});
-    CHECK_THAT(said(scene_of(mesh)), Contains("of a volume has more than two triangles: 3, among them triangle") &&
-                                         Contains("leave the body a surface"));
+    CHECK_THAT(said(scene_of(mesh)),
+               ContainsSubstring("of a volume has more than two triangles: 3, among them triangle") &&
+                   ContainsSubstring("leave the body a surface"));
   }
   SECTION("one part of two inside out, and which") {
     CHECK_THAT(said(scene_of(joined(cube(), reversed(cube({5, 0, 0}))))),
-               Contains("triangle 12 of body 'body'") && Contains("inside out: 12 triangles, 0 edges at rims"));
+               ContainsSubstring("triangle 12 of body 'body'") &&
+                   ContainsSubstring("inside out: 12 triangles, 0 edges at rims"));
   }
   SECTION("a flat sheet") {
     CHECK_THAT(said(scene_of({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}})),
-               Contains("begins a part of a volume that encloses nothing: 1 triangles, 3 edges at rims"));
+               ContainsSubstring("begins a part of a volume that encloses nothing: 1 triangles, 3 edges at rims"));
   }
   SECTION("a loose edge") {
     mesh.positions.push_back({5, 5, 5});
     mesh.loose_edges = {{7, 8}};
-    CHECK_THAT(said(scene_of(mesh)), Contains("of a volume belongs to no triangle, and has no inner side"));
+    CHECK_THAT(said(scene_of(mesh)), ContainsSubstring("of a volume belongs to no triangle, and has no inner side"));
   }
   SECTION("edges alone") {
     CHECK_THAT(said(scene_of({{{0, 0, 0}, {1, 0, 0}}, {}, {{0, 1}}})),
-               Contains("body 'body': is a volume without triangles; leave it a surface"));
+               ContainsSubstring("body 'body': is a volume without triangles; leave it a surface"));
   }
   SECTION("coordinates that are no numbers, beside what is wrong with its edges") {
     mesh.positions[7].x = std::numeric_limits<double>::quiet_NaN();
     std::swap(mesh.triangles[0][0], mesh.triangles[0][1]);
-    CHECK_THAT(said(scene_of(mesh)), Contains("position is not finite") && Contains("in one sense"));
+    CHECK_THAT(said(scene_of(mesh)), ContainsSubstring("position is not finite") && ContainsSubstring("in one sense"));
   }
 }
 

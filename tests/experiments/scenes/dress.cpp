@@ -18,7 +18,6 @@
 using namespace ogc::compare;
 using namespace ogc::experiments;
 using namespace ogc::tests;
-using Catch::Matchers::Contains;
 
 namespace {
 
@@ -208,55 +207,56 @@ TEST_CASE("bad data are refused by file", "[unit]") {
   };
   SECTION("stage.obj cut off") {
     files.stage.resize(files.stage.find("stitch 4"));
-    CHECK_THAT(error(), Contains("stage.obj: has 1 stitches instead of 2"));
+    CHECK_THAT(error(), ContainsSubstring("stage.obj: has 1 stitches instead of 2"));
   }
   SECTION("stage.obj cut off within a line") {
     files.stage.resize(files.stage.find("e+000"));
     files.stage.resize(files.stage.rfind(' '));
-    CHECK_THAT(error(), Contains("stage.obj: line 18: '' is no number"));
+    CHECK_THAT(error(), ContainsSubstring("stage.obj: line 18: '' is no number"));
   }
   SECTION("a stitch to a vertex that does not exist") {
     files.stage = replaced(files.stage, "stitch 4 0 1 1", "stitch 4 0 6 1");
-    CHECK_THAT(error(),
-               Contains("stage.obj: stitch 4 0 6 names a vertex that does not exist; they are numbered from 0 to 5"));
+    CHECK_THAT(
+        error(),
+        ContainsSubstring("stage.obj: stitch 4 0 6 names a vertex that does not exist; they are numbered from 0 to 5"));
   }
   SECTION("a stitch to itself") {
     files.stage = replaced(files.stage, "stitch 4 0 1 1", "stitch 4 4 1 1");
-    CHECK_THAT(error(), Contains("stitch 4 4 1 does not join"));
+    CHECK_THAT(error(), ContainsSubstring("stitch 4 4 1 does not join"));
   }
   SECTION("a face beyond the vertices") {
     files.stage = replaced(files.stage, "f 4/4 6/6 5/5", "f 4/4 7/7 5/5");
-    CHECK_THAT(error(), Contains("stage.obj: a face names vertex 7 of 6"));
+    CHECK_THAT(error(), ContainsSubstring("stage.obj: a face names vertex 7 of 6"));
   }
   SECTION("a pattern numbered otherwise") {
     files.stage = replaced(files.stage, "f 4/4 6/6 5/5", "f 4/4 6/5 5/6");
-    CHECK_THAT(error(), Contains("stage.obj: vertices and points of the pattern are numbered differently"));
+    CHECK_THAT(error(), ContainsSubstring("stage.obj: vertices and points of the pattern are numbered differently"));
   }
   SECTION("a vertex of two panels") {
     files.stage = replaced(files.stage, "f 4/4 6/6 5/5", "f 1/1 6/6 5/5");
     files.drape = replaced(files.drape, "f 4 6 5", "f 1 6 5");
-    CHECK_THAT(error(), Contains("vertex 1 is of two panels"));
+    CHECK_THAT(error(), ContainsSubstring("vertex 1 is of two panels"));
   }
   SECTION("drape.obj of another garment") {
     files.drape = replaced(files.drape, "f 1 2 3", "f 1 3 2");
-    CHECK_THAT(error(), Contains("drape.obj: does not begin with the faces of stage.obj"));
+    CHECK_THAT(error(), ContainsSubstring("drape.obj: does not begin with the faces of stage.obj"));
   }
   SECTION("drape.obj without the body") {
     files.drape = replaced(files.drape, "f 7 8 9\n", "");
-    CHECK_THAT(error(), Contains("drape.obj: has 2 faces instead of 3"));
+    CHECK_THAT(error(), ContainsSubstring("drape.obj: has 2 faces instead of 3"));
   }
   SECTION("a missing frame") {
     files.shells[1] = "";
-    CHECK_THAT(error(), Contains("shell1.obj: does not exist"));
+    CHECK_THAT(error(), ContainsSubstring("shell1.obj: does not exist"));
   }
   SECTION("a frame of another body") {
     files.shells[2] = "v 0 0 0\n";
-    CHECK_THAT(error(), Contains("shell2.obj: has 1 vertices instead of 3"));
+    CHECK_THAT(error(), ContainsSubstring("shell2.obj: has 1 vertices instead of 3"));
   }
   SECTION("a motion that begins elsewhere") {
     files.shells[0] = replaced(files.shells[0], "v 1 -0.25 0", "v 1 -0.25 0.001");
-    CHECK_THAT(error(), Contains("shell0.obj: vertex 2 is not where the body of drape.obj has it") ||
-                            Contains("shell0.obj: vertex 1 is not where"));
+    CHECK_THAT(error(), ContainsSubstring("shell0.obj: vertex 2 is not where the body of drape.obj has it") ||
+                            ContainsSubstring("shell0.obj: vertex 1 is not where"));
   }
 }
 

@@ -163,7 +163,7 @@ TEST_CASE("detection: more pairs than a list may have are an error that says so,
   view.note({1, 2}, false);
   CHECK(*view.noted_count == ListRoom::most_counted);
   *view.overflow = 1;
-  CHECK_THROWS_WITH(lists.grow(), Catch::Contains("1073741824 pairs") && Catch::Contains("contact_radius"));
+  CHECK_THROWS_WITH(lists.grow(), ContainsSubstring("1073741824 pairs") && ContainsSubstring("contact_radius"));
 }
 
 TEST_CASE("detection: after an overflow nothing runs until the lists have grown, and one growth is enough", "[unit]") {

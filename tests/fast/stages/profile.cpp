@@ -51,8 +51,8 @@ TEST_CASE("the ends of detections and iterations are times since the step began,
   CpuBackend backend;
   StageClock<CpuBackend> clock(backend, true, true);
   wait(30);  // before the step
-  clock.begin_step();
   const auto begun = std::chrono::steady_clock::now();
+  clock.begin_step();
   clock.time(StepStage::initial_guess, [&] { clock.time(StepStage::detection, [] { wait(4); }); });
   clock.time(StepStage::sweep, [&] {
     clock.end_iteration(0);

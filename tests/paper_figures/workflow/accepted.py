@@ -145,13 +145,16 @@ class Checking(Scratch):
 
     def test_that_nothing_happens_is_held_at_each_scale(self):
         claim = {"id": "s.c", "scene": "cloth_on_sphere", "value": 0, "band": [0, 0],
-                 "measure": {"guarantee": "penetration-free"}, "run": {"scale": "paper", "solver": "vbd"}}
+                 "measure": {"guarantee": "penetration-free"},
+                 "run": {"scale": "paper", "solver": "vbd", "audited": True}}
         self.assertTrue(check.movable(claim))
+        self.make_run("fig18-small-cuda/window", scale="small", guarantee_kept="not checked",
+                      ended="2999-01-01T00:00:00Z")
         for status, good in (({}, [True]), ({"guarantee_kept": False, "status": "failed: intersection"}, [False])):
             self.make_run("fig18-small-cuda/run", scale="small", **status)
             found = list(check.compare_smaller(claim, Evidence(self.runs), Evidence(RESULTS)))
             self.assertEqual([met for _, met in found], good, found)
-            shutil.rmtree(self.runs)
+            shutil.rmtree(self.runs / "fig18-small-cuda/run")
 
     def test_a_band_that_says_nothing_at_another_scale_is_not_moved(self):
         claim = {"value": 5, "band": [4, 6], "measure": {"table": "fig99", "column": "n"}}

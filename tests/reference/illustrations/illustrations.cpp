@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "compare/oracle/audit.hpp"
 #include "compare/problem/error.hpp"
@@ -16,7 +17,7 @@ using reference::Slice;
 
 namespace {
 
-const DrawingLayer& layer(const DrawingPanel& panel, const std::string& name) {
+const DrawingLayer& layer(const DrawingPanel& panel, std::string_view name) {
   const auto it = std::find_if(panel.layers.begin(), panel.layers.end(),
                                [&](const DrawingLayer& l) { return l.name == name; });
   REQUIRE(it != panel.layers.end());

@@ -15,7 +15,6 @@
 #include "tests/compare/files/scratch.hpp"
 
 using namespace ogc::compare;
-using Catch::Matchers::Contains;
 using ogc::tests::Scratch;
 
 namespace {
@@ -134,20 +133,20 @@ TEST_CASE("faces may stand before their vertices in OBJ, and the last line needs
 
 TEST_CASE("broken OBJ files are refused with the line and the reason", "[unit]") {
   const auto parse = [](const std::string& text) { return parse_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\n" + text, "bad.obj"); };
-  CHECK_THROWS_WITH(parse("f 1 2 4"), Contains("bad.obj: line 4: vertex 4 does not exist; the file has 3"));
-  CHECK_THROWS_WITH(parse("f 1 2 -4"), Contains("line 4: vertex -4 does not exist"));
-  CHECK_THROWS_WITH(parse("f 1 2 0"), Contains("line 4: '0' is no vertex; count from 1"));
-  CHECK_THROWS_WITH(parse("f 1 2 x"), Contains("'x' is no vertex"));
-  CHECK_THROWS_WITH(parse("f 1 2 99999999999"), Contains("vertex 99999999999 does not exist"));
-  CHECK_THROWS_WITH(parse("f 1 2"), Contains("a face has three corners or more"));
-  CHECK_THROWS_WITH(parse("l 1"), Contains("a line has at least two vertices"));
-  CHECK_THROWS_WITH(parse("\nl 1 7"), Contains("line 5: vertex 7 does not exist"));
-  CHECK_THROWS_WITH(parse("v 0 0"), Contains("'' is no finite coordinate"));
-  CHECK_THROWS_WITH(parse("v 0 nan 0"), Contains("'nan' is no finite coordinate"));
-  CHECK_THROWS_WITH(parse("v 0 0 inf"), Contains("'inf' is no finite coordinate"));
-  CHECK_THROWS_WITH(parse("v 0 0 1e999"), Contains("'1e999' is no finite coordinate"));
-  CHECK_THROWS_WITH(parse("v 0,5 0 1"), Contains("'0,5' is no finite coordinate"));
-  CHECK_THROWS_WITH(parse("curv 0 1 1 2"), Contains("'curv' is not supported"));
+  CHECK_THROWS_WITH(parse("f 1 2 4"), ContainsSubstring("bad.obj: line 4: vertex 4 does not exist; the file has 3"));
+  CHECK_THROWS_WITH(parse("f 1 2 -4"), ContainsSubstring("line 4: vertex -4 does not exist"));
+  CHECK_THROWS_WITH(parse("f 1 2 0"), ContainsSubstring("line 4: '0' is no vertex; count from 1"));
+  CHECK_THROWS_WITH(parse("f 1 2 x"), ContainsSubstring("'x' is no vertex"));
+  CHECK_THROWS_WITH(parse("f 1 2 99999999999"), ContainsSubstring("vertex 99999999999 does not exist"));
+  CHECK_THROWS_WITH(parse("f 1 2"), ContainsSubstring("a face has three corners or more"));
+  CHECK_THROWS_WITH(parse("l 1"), ContainsSubstring("a line has at least two vertices"));
+  CHECK_THROWS_WITH(parse("\nl 1 7"), ContainsSubstring("line 5: vertex 7 does not exist"));
+  CHECK_THROWS_WITH(parse("v 0 0"), ContainsSubstring("'' is no finite coordinate"));
+  CHECK_THROWS_WITH(parse("v 0 nan 0"), ContainsSubstring("'nan' is no finite coordinate"));
+  CHECK_THROWS_WITH(parse("v 0 0 inf"), ContainsSubstring("'inf' is no finite coordinate"));
+  CHECK_THROWS_WITH(parse("v 0 0 1e999"), ContainsSubstring("'1e999' is no finite coordinate"));
+  CHECK_THROWS_WITH(parse("v 0,5 0 1"), ContainsSubstring("'0,5' is no finite coordinate"));
+  CHECK_THROWS_WITH(parse("curv 0 1 1 2"), ContainsSubstring("'curv' is not supported"));
 }
 
 TEST_CASE("PLY as other programs write it: single precision, either byte order, unknown properties, lists and elements",
@@ -181,56 +180,62 @@ TEST_CASE("a PLY file cut anywhere is refused, in every encoding", "[unit]") {
   }
   const std::string binary = print_ply(mesh, PlyEncoding::binary);
   CHECK_THROWS_WITH(parse_ply(binary.substr(0, binary.size() - 1), "cut.ply"),
-                    Contains("cut.ply: face 1: the file ends here, with 2 entries announced"));
-  CHECK_THROWS_WITH(parse_ply(binary + "abc", "long.ply"), Contains("long.ply: 3 bytes follow the last element"));
+                    ContainsSubstring("cut.ply: face 1: the file ends here, with 2 entries announced"));
+  CHECK_THROWS_WITH(parse_ply(binary + "abc", "long.ply"),
+                    ContainsSubstring("long.ply: 3 bytes follow the last element"));
 }
 
 TEST_CASE("broken PLY files are refused with the element and the reason", "[unit]") {
   const auto parse = [](const std::string& text) { return parse_ply(text, "bad.ply"); };
-  CHECK_THROWS_WITH(parse("obj\n"), Contains("bad.ply: header line 1: does not begin with 'ply'"));
-  CHECK_THROWS_WITH(parse("ply\nformat ascii 2.0\n"), Contains("unknown version '2.0'"));
-  CHECK_THROWS_WITH(parse("ply\nformat text 1.0\n"), Contains("unknown format 'text'"));
-  CHECK_THROWS_WITH(parse("ply\nend_header\n"), Contains("has no 'format' line"));
-  CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nelement vertex many\n"), Contains("element 'vertex' has no count"));
-  CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nelement vertex 99999999999\n"), Contains("too many entries"));
+  CHECK_THROWS_WITH(parse("obj\n"), ContainsSubstring("bad.ply: header line 1: does not begin with 'ply'"));
+  CHECK_THROWS_WITH(parse("ply\nformat ascii 2.0\n"), ContainsSubstring("unknown version '2.0'"));
+  CHECK_THROWS_WITH(parse("ply\nformat text 1.0\n"), ContainsSubstring("unknown format 'text'"));
+  CHECK_THROWS_WITH(parse("ply\nend_header\n"), ContainsSubstring("has no 'format' line"));
+  CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nelement vertex many\n"),
+                    ContainsSubstring("element 'vertex' has no count"));
+  CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nelement vertex 99999999999\n"),
+                    ContainsSubstring("too many entries"));
   CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nproperty float x\n"),
-                    Contains("a property before the first element"));
+                    ContainsSubstring("a property before the first element"));
   CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\n"),
-                    Contains("header line 4: unknown type 'real'"));
-  CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nthing\n"), Contains("'thing' does not belong there"));
+                    ContainsSubstring("header line 4: unknown type 'real'"));
+  CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nthing\n"), ContainsSubstring("'thing' does not belong there"));
   CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nelement tristrips 1\n"),
-                    Contains("triangle strips are not supported"));
+                    ContainsSubstring("triangle strips are not supported"));
   CHECK_THROWS_WITH(
       parse("ply\nformat ascii 1.0\nelement face 0\nproperty list uchar int vertex_indices\nend_header\n"),
-      Contains("has no element 'vertex'"));
+      ContainsSubstring("has no element 'vertex'"));
   CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nend_header\n"),
-                    Contains("has no property 'z'"));
+                    ContainsSubstring("has no property 'z'"));
   CHECK_THROWS_WITH(parse("ply\nformat ascii 1.0\nelement face 0\nproperty int vertex_indices\nend_header\n"),
-                    Contains("no list property 'vertex_indices'"));
+                    ContainsSubstring("no list property 'vertex_indices'"));
   CHECK_THROWS_WITH(parse(ascii_ply(square_text, "3 0 1 2\n3 0 2 4\n")),
-                    Contains("bad.ply: face 1: vertex 4 does not exist; the file has 4, numbered from 0"));
+                    ContainsSubstring("bad.ply: face 1: vertex 4 does not exist; the file has 4, numbered from 0"));
   CHECK_THROWS_WITH(parse(ascii_ply(square_text, "3 0 1 2\n3 0 -2 3\n")),
-                    Contains("face 1: a vertex index is negative"));
-  CHECK_THROWS_WITH(parse(ascii_ply(square_text, "3 0 1 2\n3 0 1.5 3\n")), Contains("no whole number"));
+                    ContainsSubstring("face 1: a vertex index is negative"));
+  CHECK_THROWS_WITH(parse(ascii_ply(square_text, "3 0 1 2\n3 0 1.5 3\n")), ContainsSubstring("no whole number"));
   CHECK_THROWS_WITH(parse(ascii_ply(square_text, "2 0 1\n3 0 2 3\n")),
-                    Contains("face 0: has 2 corners; a face has three or more"));
-  CHECK_THROWS_WITH(parse(ascii_ply(square_text, "-1\n3 0 2 3\n")), Contains("face 0: a list of negative length"));
+                    ContainsSubstring("face 0: has 2 corners; a face has three or more"));
+  CHECK_THROWS_WITH(parse(ascii_ply(square_text, "-1\n3 0 2 3\n")),
+                    ContainsSubstring("face 0: a list of negative length"));
   CHECK_THROWS_WITH(parse(ascii_ply("0 0 0\n1 nan 0\n1 1 0\n0 1 0\n", "3 0 1 2\n3 0 2 3\n")),
-                    Contains("vertex 1: a coordinate is not finite"));
+                    ContainsSubstring("vertex 1: a coordinate is not finite"));
   CHECK_THROWS_WITH(parse(ascii_ply("0 0 0\n1 ? 0\n1 1 0\n0 1 0\n", "3 0 1 2\n3 0 2 3\n")),
-                    Contains("vertex 1: what stands there is no number: '?' is no finite"));
-  CHECK_THROWS_WITH(parse(ascii_ply("0 0 0\n1 -1.#IND 0\n1 1 0\n0 1 0\n", "3 0 1 2\n3 0 2 3\n")),
-                    Contains("vertex 1: what stands there is no number: '-1.#IND' is no finite coordinate but what "
-                             "programs for Windows print"));
+                    ContainsSubstring("vertex 1: what stands there is no number: '?' is no finite"));
+  CHECK_THROWS_WITH(
+      parse(ascii_ply("0 0 0\n1 -1.#IND 0\n1 1 0\n0 1 0\n", "3 0 1 2\n3 0 2 3\n")),
+      ContainsSubstring("vertex 1: what stands there is no number: '-1.#IND' is no finite coordinate but what "
+                        "programs for Windows print"));
 }
 
 TEST_CASE("numbers of Windows that are none are refused as such, and are no comments", "[unit]") {
   const auto parse = [](const std::string& x) { return parse_obj("v 0 0 " + x + "\n", "bad.obj"); };
   for (const std::string word :
        {"-1.#IND", "1.#INF", "1.#QNAN", "1.#QNAN0", "-1.#IND00", "1.#R", "-1.#J", "-1.#ind", "1.#INF000e+000"})
-    CHECK_THROWS_WITH(parse(word), Contains("bad.obj: line 1: '" + word +
-                                            "' is no finite coordinate but what programs for Windows print for "
-                                            "infinity or for no number"));
+    CHECK_THROWS_WITH(parse(word),
+                      ContainsSubstring("bad.obj: line 1: '" + word +
+                                        "' is no finite coordinate but what programs for Windows print for "
+                                        "infinity or for no number"));
   for (const char* comment : {"1#corner", "1.# corner", "1. #IND", "1 # 1.#IND", "1.#"})
     CHECK(parse(comment).positions == std::vector<Vec3>{{0, 0, 1}});
 }
@@ -243,8 +248,8 @@ TEST_CASE("lines of OBJ that go on behind a backslash are one, and errors name t
   CHECK(mesh.positions == square);
   CHECK(make_mesh(mesh).mesh.triangles == two_triangles);
   CHECK(mesh.source.face_lines == std::vector<std::size_t>{11, 14});
-  CHECK_THROWS_WITH(parse_obj("v 0 \\\n zero 0\n", "m.obj"), Contains("m.obj: line 2: 'zero' is no finite"));
-  CHECK_THROWS_WITH(parse_obj("v 0 0 \\", "m.obj"), Contains("m.obj: line 1: '' is no finite"));
+  CHECK_THROWS_WITH(parse_obj("v 0 \\\n zero 0\n", "m.obj"), ContainsSubstring("m.obj: line 2: 'zero' is no finite"));
+  CHECK_THROWS_WITH(parse_obj("v 0 0 \\", "m.obj"), ContainsSubstring("m.obj: line 1: '' is no finite"));
 }
 
 TEST_CASE("lines end with a line feed, a carriage return or both, and a byte order mark is none of a file's words",
@@ -270,7 +275,7 @@ TEST_CASE("lines end with a line feed, a carriage return or both, and a byte ord
     }
   }
   CHECK_THROWS_WITH(parse_polygon_mesh(std::string("\xff\xfev\0 \0", 6), "m.obj"),
-                    Contains("m.obj: begins as text in UTF-16"));
+                    ContainsSubstring("m.obj: begins as text in UTF-16"));
   std::string binary = print_ply(mesh, PlyEncoding::binary);  // the line feed that begins its data must stay
   const std::size_t end = binary.find("end_header\n") + 11;
   binary = with_ends(binary.substr(0, end), "\r") + "\n" + binary.substr(end + 1);
@@ -279,21 +284,22 @@ TEST_CASE("lines end with a line feed, a carriage return or both, and a byte ord
 
 TEST_CASE("a header that announces more than the file holds takes no memory for it", "[unit]") {
   CHECK_THROWS_WITH(parse_ply(ascii_ply(square_text, "", 2000000000), "huge.ply"),
-                    Contains("huge.ply: vertex 4: the file ends here"));
+                    ContainsSubstring("huge.ply: vertex 4: the file ends here"));
 }
 
 TEST_CASE("missing files, folders, unknown formats and full disks are named", "[unit]") {
   const Scratch scratch;
   CHECK_THROWS_AS(read_mesh(scratch / "none.ply"), InputError);
-  CHECK_THROWS_WITH(read_mesh(scratch / "none.ply"), Contains("none.ply: no such file"));
-  CHECK_THROWS_WITH(read_mesh(scratch / "mesh.max"), Contains("'.max' is no mesh format; use .obj, .ply, .vtp, .stl"));
+  CHECK_THROWS_WITH(read_mesh(scratch / "none.ply"), ContainsSubstring("none.ply: no such file"));
+  CHECK_THROWS_WITH(read_mesh(scratch / "mesh.max"),
+                    ContainsSubstring("'.max' is no mesh format; use .obj, .ply, .vtp, .stl"));
   CHECK_THROWS_WITH(write_mesh(scratch / "mesh.stl", awkward_mesh()),
-                    Contains("'.stl' is no mesh format that is written; use .obj or .ply"));
+                    ContainsSubstring("'.stl' is no mesh format that is written; use .obj or .ply"));
   std::filesystem::create_directories(scratch / "folder.obj");
-  CHECK_THROWS_WITH(read_mesh(scratch / "folder.obj"), Contains("is a folder"));
+  CHECK_THROWS_WITH(read_mesh(scratch / "folder.obj"), ContainsSubstring("is a folder"));
   CHECK_THROWS_AS(write_mesh(scratch / "folder.obj", awkward_mesh()), InputError);
   if (std::filesystem::exists("/dev/full")) {
     CHECK_THROWS_WITH(write_bytes("/dev/full", std::string(100000, 'x')),
-                      Contains("/dev/full: can't be written; check free space"));
+                      ContainsSubstring("/dev/full: can't be written; check free space"));
   }
 }

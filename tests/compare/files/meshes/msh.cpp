@@ -11,7 +11,6 @@
 #include "tests/compare/problem/solid_scene.hpp"
 
 using namespace ogc::compare;
-using Catch::Matchers::Contains;
 using ogc::tests::Scratch;
 using ogc::tests::solid_scene;
 
@@ -118,27 +117,32 @@ TEST_CASE("a written MSH comes back bit for bit, and so does a scene with a soli
 }
 
 TEST_CASE("each thing that is wrong with an MSH is named with its line", "[unit]") {
-  CHECK_THAT(error_of(""), Contains("m.msh: has no $MeshFormat"));
+  CHECK_THAT(error_of(""), ContainsSubstring("m.msh: has no $MeshFormat"));
   CHECK_THAT(error_of(replaced(old_format, "2.2 0", "3.0 0")),
-             Contains("line 2: format 3.0 is not read, only 2.2 and 4.1"));
+             ContainsSubstring("line 2: format 3.0 is not read, only 2.2 and 4.1"));
   CHECK_THAT(error_of(replaced(new_format, "4.1 0", "4.1 1")),
-             Contains("byte 24: the number 1, which tells the order"));
-  CHECK_THAT(error_of(replaced(new_format, "4.1 0", "4.1 2")), Contains("line 2: 2 stands where 0 for text or 1"));
-  CHECK_THAT(error_of("$NOD\n1\n1 0 0 0\n$ENDNOD\n"), Contains("line 1: '$NOD' stands in format 1 of Gmsh"));
+             ContainsSubstring("byte 24: the number 1, which tells the order"));
+  CHECK_THAT(error_of(replaced(new_format, "4.1 0", "4.1 2")),
+             ContainsSubstring("line 2: 2 stands where 0 for text or 1"));
+  CHECK_THAT(error_of("$NOD\n1\n1 0 0 0\n$ENDNOD\n"), ContainsSubstring("line 1: '$NOD' stands in format 1 of Gmsh"));
   CHECK_THAT(error_of(old_format.substr(0, old_format.find("7 4 2"))),
-             Contains("ends after line 17, where an element should stand: the file is truncated"));
-  CHECK_THAT(error_of(new_format.substr(0, new_format.find("$EndElements"))), Contains("where $EndElements should"));
+             ContainsSubstring("ends after line 17, where an element should stand: the file is truncated"));
+  CHECK_THAT(error_of(new_format.substr(0, new_format.find("$EndElements"))),
+             ContainsSubstring("where $EndElements should"));
   CHECK_THAT(error_of(replaced(old_format, "$Elements\n2", "$Elements\n9000")),
-             Contains("line 16: 9000 is no possible number of elements"));
+             ContainsSubstring("line 16: 9000 is no possible number of elements"));
   CHECK_THAT(error_of(replaced(old_format, "7 4 2 1 1 1 2 3 4\n", "")),
-             Contains("line 18: '$EndElements' is no whole"));
+             ContainsSubstring("line 18: '$EndElements' is no whole"));
   CHECK_THAT(error_of(replaced(replaced(old_format, "7 4 2 1 1 1 2 3 4\n", ""), "$Elements\n2", "$Elements\n1")),
-             Contains("m.msh: has 1 triangles and no tetrahedron: mesh the volume"));
-  CHECK_THAT(error_of(replaced(old_format, "7 4 2", "7 5 2")), Contains("line 18: hexahedra are not read"));
-  CHECK_THAT(error_of(replaced(old_format, "7 4 2", "7 99 2")), Contains("line 18: elements of type 99 are not read"));
-  CHECK_THAT(error_of(replaced(old_format, "1 1 1 2 3 4", "1 1 1 2 3 5")), Contains("line 18: node 5 does not exist"));
-  CHECK_THAT(error_of(replaced(old_format, "2 1.5", "1 1.5")), Contains("node 1 stands in line 11 already"));
-  CHECK_THAT(error_of(replaced(new_format, "1e-1", "nan")), Contains("line 19: 'nan' is no finite coordinate"));
+             ContainsSubstring("m.msh: has 1 triangles and no tetrahedron: mesh the volume"));
+  CHECK_THAT(error_of(replaced(old_format, "7 4 2", "7 5 2")), ContainsSubstring("line 18: hexahedra are not read"));
+  CHECK_THAT(error_of(replaced(old_format, "7 4 2", "7 99 2")),
+             ContainsSubstring("line 18: elements of type 99 are not read"));
+  CHECK_THAT(error_of(replaced(old_format, "1 1 1 2 3 4", "1 1 1 2 3 5")),
+             ContainsSubstring("line 18: node 5 does not exist"));
+  CHECK_THAT(error_of(replaced(old_format, "2 1.5", "1 1.5")), ContainsSubstring("node 1 stands in line 11 already"));
+  CHECK_THAT(error_of(replaced(new_format, "1e-1", "nan")),
+             ContainsSubstring("line 19: 'nan' is no finite coordinate"));
 }
 
 TEST_CASE("E and nu stand in place of the constants of Lame, and what format 2 reserves is refused by name", "[unit]") {
@@ -159,14 +163,14 @@ TEST_CASE("E and nu stand in place of the constants of Lame, and what format 2 r
   const std::string lame = "\"solid_mu\": 10000.0,\n        \"solid_lambda\": 10000.0,";
   CHECK(with(lame, R"("solid_young": 2e4, "solid_poisson": 0.4,)").empty());
   CHECK_THAT(with(lame, R"("solid_young": 2e4, "solid_poisson": 0.5,)"),
-             Contains("/bodies/0/material/solid_poisson: is 0.5; give a number from 0 to 0.4999"));
-  CHECK_THAT(with(lame, R"("solid_young": -1, "solid_poisson": 0.4,)"), Contains("solid_young: is -1"));
-  CHECK_THAT(with(lame, R"("solid_young": 2e4,)"), Contains("stands without 'solid_poisson'"));
+             ContainsSubstring("/bodies/0/material/solid_poisson: is 0.5; give a number from 0 to 0.4999"));
+  CHECK_THAT(with(lame, R"("solid_young": -1, "solid_poisson": 0.4,)"), ContainsSubstring("solid_young: is -1"));
+  CHECK_THAT(with(lame, R"("solid_young": 2e4,)"), ContainsSubstring("stands without 'solid_poisson'"));
   CHECK_THAT(with("\"solid_mu\"", R"("solid_young": 2e4, "solid_poisson": 0.4, "solid_mu")"),
-             Contains("stands beside 'solid_mu'"));
+             ContainsSubstring("stands beside 'solid_mu'"));
   CHECK_THAT(with("\"surface\"", "\"solid\""),
-             Contains("/bodies/0/body_contact: unknown body contact 'solid'; there are: surface, volume"));
-  CHECK_THAT(with("\"fixed\"", R"("orientations": "q.h5", "fixed")"), Contains("/bodies/0/orientations: "));
+             ContainsSubstring("/bodies/0/body_contact: unknown body contact 'solid'; there are: surface, volume"));
+  CHECK_THAT(with("\"fixed\"", R"("orientations": "q.h5", "fixed")"), ContainsSubstring("/bodies/0/orientations: "));
   CHECK_THAT(with("\"motions\"", R"("body_pairs": [{}], "motions")"),
-             Contains("/body_pairs/0: asks for materials of pairs of bodies"));
+             ContainsSubstring("/body_pairs/0: asks for materials of pairs of bodies"));
 }

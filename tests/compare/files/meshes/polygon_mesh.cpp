@@ -16,7 +16,6 @@
 #include "tests/catch.hpp"
 
 using namespace ogc::compare;
-using Catch::Matchers::Contains;
 
 namespace {
 
@@ -129,16 +128,18 @@ TEST_CASE("a mesh says what was cut and left out, and where its elements stand i
 TEST_CASE("what options do not take is refused with the first of them and the option's name", "[unit]") {
   CHECK_THROWS_WITH(
       of_obj(square + "f 1 2 3 4\n", {.triangulate = false}),
-      Contains("m.obj: has 1 face of more than three corners, the first: face 1 (line 5) of 4; take --triangulate"));
-  CHECK_THROWS_WITH(of_obj(square + "f 1 2 3\n", {.drop_unused = false}),
-                    Contains("m.obj: has 1 vertex position that no face and no edge uses, the first: vertex 4 (line "
-                             "4); take --drop-unused"));
-  CHECK_THROWS_WITH(of_obj(square), Contains("m.obj: has 4 vertex positions and no face"));
+      ContainsSubstring(
+          "m.obj: has 1 face of more than three corners, the first: face 1 (line 5) of 4; take --triangulate"));
+  CHECK_THROWS_WITH(
+      of_obj(square + "f 1 2 3\n", {.drop_unused = false}),
+      ContainsSubstring("m.obj: has 1 vertex position that no face and no edge uses, the first: vertex 4 (line "
+                        "4); take --drop-unused"));
+  CHECK_THROWS_WITH(of_obj(square), ContainsSubstring("m.obj: has 4 vertex positions and no face"));
   CHECK_THROWS_WITH(of_obj(square + "f 1 2 3\nf 1 3 2 4\n"),
-                    Contains("m.obj: face 2 (line 6): its 4 corners make no simple polygon"));
+                    ContainsSubstring("m.obj: face 2 (line 6): its 4 corners make no simple polygon"));
   CHECK_THROWS_WITH(of_obj(square + "f 1 2 1 2\n"),
-                    Contains("m.obj: has 4 vertex positions and no face that has an area; the first that has "
-                             "none: face 1 (line 5)"));
+                    ContainsSubstring("m.obj: has 4 vertex positions and no face that has an area; the first that has "
+                                      "none: face 1 (line 5)"));
 }
 
 TEST_CASE("a polygon that names a vertex twice in a row has it once", "[unit]") {
@@ -153,14 +154,17 @@ TEST_CASE("faces that collapse, have no area or are there twice are left out, wi
   CHECK(loaded.mesh.triangles == std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
   CHECK(loaded.mesh.positions.size() == 4);
   CHECK_THAT(loaded.notes.at(0),
-             Contains("m.obj: 7 faces were left out: 2 name less than three different vertices, 3 have no area, 2 have "
-                      "the same vertices as others; the first: face 3 (line 10)"));
+             ContainsSubstring(
+                 "m.obj: 7 faces were left out: 2 name less than three different vertices, 3 have no area, 2 have "
+                 "the same vertices as others; the first: face 3 (line 10)"));
   CHECK(of_obj(broken + "f 1 2 4\n").source.faces == std::vector<Index>{0, 1, 9});
   CHECK(of_obj(whole, {.strict = true}).mesh.triangles.size() == 2);
-  CHECK_THROWS_WITH(of_obj(whole + "f 2 1 3\n", {.strict = true}),
-                    Contains("m.obj: has 1 face that is none: 1 has the same vertices as another; the first: face 3 "
-                             "(line 10); leave --strict out"));
-  CHECK_THROWS_WITH(of_obj(square + "f 1 1 2\n"), Contains("has 4 vertex positions and no face that has an area"));
+  CHECK_THROWS_WITH(
+      of_obj(whole + "f 2 1 3\n", {.strict = true}),
+      ContainsSubstring("m.obj: has 1 face that is none: 1 has the same vertices as another; the first: face 3 "
+                        "(line 10); leave --strict out"));
+  CHECK_THROWS_WITH(of_obj(square + "f 1 1 2\n"),
+                    ContainsSubstring("has 4 vertex positions and no face that has an area"));
   // With keep_unused, positions come from another file, so areas are unknown.
   CHECK(of_obj("v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\nf 1 1 2\nf 3 2 1\n", {.keep_unused = true}).mesh.triangles ==
         std::vector<Triangle>{{0, 1, 2}});

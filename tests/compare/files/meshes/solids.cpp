@@ -11,7 +11,6 @@
 
 using namespace ogc::compare;
 using namespace ogc::tests;
-using Catch::Matchers::Contains;
 
 namespace {
 
@@ -64,35 +63,41 @@ TEST_CASE("a cube whose file is cut anywhere is refused with a reason, whatever 
 TEST_CASE("counts beyond a file's size, vertices that are not there and other cells are refused by name", "[unit]") {
   const std::string medit = cube_medit(), old_vtk = cube_vtk(false, false), new_vtk = cube_vtk(false, true);
   CHECK_THAT(error_of(replaced(medit, "Vertices\n8", "Vertices\n800000000000"), "m.mesh"),
-             Contains("m.mesh: line 6: 800000000000 is no possible number of vertices"));
+             ContainsSubstring("m.mesh: line 6: 800000000000 is no possible number of vertices"));
   CHECK_THAT(error_of(replaced(medit, "Tetrahedra\n6", "Tetrahedra\n4000000000"), "m.mesh"),
-             Contains("is no possible number of Tetrahedra"));
+             ContainsSubstring("is no possible number of Tetrahedra"));
   CHECK_THAT(error_of(replaced(medit, "Tetrahedra\n6", "Tetrahedra\n5"), "m.mesh"),
-             Contains("line 28: '1' stands where a keyword should: the count of the section before is wrong"));
+             ContainsSubstring("line 28: '1' stands where a keyword should: the count of the section before is wrong"));
   CHECK_THAT(error_of(replaced(medit, "1 2 4 8 0", "1 2 4 9 0"), "m.mesh"),
-             Contains("m.mesh: line 23: vertex 9 does not exist; the file has 8, numbered from 1"));
-  CHECK_THAT(error_of(replaced(medit, "Dimension\n3", "Dimension\n2"), "m.mesh"), Contains("dimension 2 is not read"));
-  CHECK_THAT(error_of("GIF89a", "m.mesh"), Contains("it is no Medit file in text"));
+             ContainsSubstring("m.mesh: line 23: vertex 9 does not exist; the file has 8, numbered from 1"));
+  CHECK_THAT(error_of(replaced(medit, "Dimension\n3", "Dimension\n2"), "m.mesh"),
+             ContainsSubstring("dimension 2 is not read"));
+  CHECK_THAT(error_of("GIF89a", "m.mesh"), ContainsSubstring("it is no Medit file in text"));
   CHECK_THAT(error_of(replaced(medit, "Triangles\n1\n1 2 4 5", "Hexahedra 1 1 2 3 4 5 6 7 8 0"), "m.mesh"),
-             Contains("Hexahedra are not read"));
+             ContainsSubstring("Hexahedra are not read"));
   CHECK_THAT(error_of(replaced(old_vtk, "POINTS 8", "POINTS 800000000000"), "m.vtk"),
-             Contains("line 8: 800000000000 points can't stand in the "));
-  CHECK_THAT(error_of(replaced(old_vtk, "CELLS 6 30", "CELLS 6 3000000000"), "m.vtk"), Contains("can't stand in the"));
-  CHECK_THAT(error_of(replaced(old_vtk, "CELLS 6 30", "CELLS 6000000000 30"), "m.vtk"),
-             Contains("cell 6 of 6000000000 has -1 corners, with 0 numbers left: the counts of CELLS are wrong"));
+             ContainsSubstring("line 8: 800000000000 points can't stand in the "));
+  CHECK_THAT(error_of(replaced(old_vtk, "CELLS 6 30", "CELLS 6 3000000000"), "m.vtk"),
+             ContainsSubstring("can't stand in the"));
+  CHECK_THAT(
+      error_of(replaced(old_vtk, "CELLS 6 30", "CELLS 6000000000 30"), "m.vtk"),
+      ContainsSubstring("cell 6 of 6000000000 has -1 corners, with 0 numbers left: the counts of CELLS are wrong"));
   CHECK_THAT(error_of(replaced(old_vtk, "4 0 1 3 7", "4 0 1 3 8"), "m.vtk"),
-             Contains("m.vtk: CELLS 0: vertex 8 does not exist; its piece has 8, numbered from 0"));
+             ContainsSubstring("m.vtk: CELLS 0: vertex 8 does not exist; its piece has 8, numbered from 0"));
   CHECK_THAT(error_of(replaced(old_vtk, "10 10", "12 10"), "m.vtk"),
-             Contains("cell 0 is a hexahedron, which is not read"));
-  CHECK_THAT(error_of(replaced(new_vtk, "0 4 8", "0 4 80"), "m.vtk"), Contains("CELLS 1: its offset is out of order"));
+             ContainsSubstring("cell 0 is a hexahedron, which is not read"));
+  CHECK_THAT(error_of(replaced(new_vtk, "0 4 8", "0 4 80"), "m.vtk"),
+             ContainsSubstring("CELLS 1: its offset is out of order"));
   CHECK_THAT(error_of(replaced(new_vtk, "UNSTRUCTURED_GRID", "STRUCTURED_GRID"), "m.vtk"),
-             Contains("m.vtk: line 4: a data set of kind 'STRUCTURED_GRID' is not read"));
-  CHECK_THAT(error_of(replaced(new_vtk, "0.000000 ", "-1.#IND "), "m.vtk"), Contains("'-1.#IND' is no finite"));
-  CHECK_THAT(error_of(replaced(cube_vtu(), "10 10", "14 10"), "m.vtu"), Contains("cell 0 is a pyramid"));
-  CHECK_THAT(error_of(replaced(cube_vtu(), "10 10", "10"), "m.vtu"), Contains("has 6 cells and 5 types of cells"));
+             ContainsSubstring("m.vtk: line 4: a data set of kind 'STRUCTURED_GRID' is not read"));
+  CHECK_THAT(error_of(replaced(new_vtk, "0.000000 ", "-1.#IND "), "m.vtk"),
+             ContainsSubstring("'-1.#IND' is no finite"));
+  CHECK_THAT(error_of(replaced(cube_vtu(), "10 10", "14 10"), "m.vtu"), ContainsSubstring("cell 0 is a pyramid"));
+  CHECK_THAT(error_of(replaced(cube_vtu(), "10 10", "10"), "m.vtu"),
+             ContainsSubstring("has 6 cells and 5 types of cells"));
   const std::string msh = binary_msh(true), begin = msh.substr(0, msh.find("$Nodes\n") + 7);
   CHECK_THAT(error_of(begin + std::string(6, '\0') + "\1" + msh.substr(begin.size() + 7), "m.msh"),
-             Contains(" blocks of nodes can't stand in the "));
+             ContainsSubstring(" blocks of nodes can't stand in the "));
 }
 
 TEST_CASE("tetrahedra that are inverted, all of them, are turned with a word; strictly they are refused", "[unit]") {
@@ -106,7 +111,7 @@ TEST_CASE("tetrahedra that are inverted, all of them, are turned with a word; st
     CHECK(orientation(at(0), at(1), at(2), at(3)) == 1);
   }
   CHECK_THROWS_WITH(make_mesh(turned, {.strict = true}),
-                    Contains("m.mesh: all 6 tetrahedra are inverted; leave --strict"));
+                    ContainsSubstring("m.mesh: all 6 tetrahedra are inverted; leave --strict"));
   // Only five of six tetrahedra are inverted, so none is reoriented.
   std::swap(turned.tetrahedra[2][0], turned.tetrahedra[2][1]);
   CHECK(make_mesh(turned).mesh.tetrahedra == turned.tetrahedra);
@@ -128,8 +133,9 @@ TEST_CASE("of tetrahedra with the same vertices the first stays, and so does the
   CHECK(loaded.source.tetrahedron_lines == std::vector<std::size_t>{10, 11, 13, 14, 15, 16});
   REQUIRE(loaded.notes.size() == cube.notes.size() + 1);
   CHECK_THAT(loaded.notes.back(),
-             Contains("2 tetrahedra with the vertices of another were left out: the first, tetrahedron "
-                      "3 (") &&
-                 Contains("line 12), has those of tetrahedron 2 (") && Contains("line 11)"));
-  CHECK_THROWS_WITH(make_mesh(doubled, {.strict = true}), Contains("2 tetrahedra") && Contains("line 12"));
+             ContainsSubstring("2 tetrahedra with the vertices of another were left out: the first, tetrahedron "
+                               "3 (") &&
+                 ContainsSubstring("line 12), has those of tetrahedron 2 (") && ContainsSubstring("line 11)"));
+  CHECK_THROWS_WITH(make_mesh(doubled, {.strict = true}),
+                    ContainsSubstring("2 tetrahedra") && ContainsSubstring("line 12"));
 }

@@ -61,24 +61,23 @@ TEST_CASE("a parameter is put into the case after it is made, and nothing else c
 }
 
 TEST_CASE("parameters that a stage lacks, out of range, twice, or that leave no legal question are refused", "[unit]") {
-  using Catch::Matchers::Contains;
-  REQUIRE_THROWS_WITH(parse_problem("stage=block gen=few r=1"), Contains("no parameter 'r'") && Contains("none"));
-  REQUIRE_THROWS_WITH(parse_problem("stage=bound gen=few gamma=0.4"), Contains("gamma_p"));
-  REQUIRE_THROWS_WITH(parse_problem("stage=bound gen=few gamma_p=0.5"), Contains("Eq. 21"));
-  REQUIRE_THROWS_WITH(parse_problem("stage=truncate gen=bits b=1 b=2"), Contains("twice"));
-  REQUIRE_THROWS_WITH(parse_problem("stage=truncate gen=bits b=1x"), Contains("b=1x"));
-  REQUIRE_THROWS_WITH(parse_problem("stage=truncate gen=bits b"), Contains("no key=value"));
+  REQUIRE_THROWS_WITH(parse_problem("stage=block gen=few r=1"),
+                      ContainsSubstring("no parameter 'r'") && ContainsSubstring("none"));
+  REQUIRE_THROWS_WITH(parse_problem("stage=bound gen=few gamma=0.4"), ContainsSubstring("gamma_p"));
+  REQUIRE_THROWS_WITH(parse_problem("stage=bound gen=few gamma_p=0.5"), ContainsSubstring("Eq. 21"));
+  REQUIRE_THROWS_WITH(parse_problem("stage=truncate gen=bits b=1 b=2"), ContainsSubstring("twice"));
+  REQUIRE_THROWS_WITH(parse_problem("stage=truncate gen=bits b=1x"), ContainsSubstring("b=1x"));
+  REQUIRE_THROWS_WITH(parse_problem("stage=truncate gen=bits b"), ContainsSubstring("no key=value"));
   REQUIRE_THROWS_WITH(generate(parse_problem("stage=detect_edge_edge gen=soup seed=1 index=1 r=1000 r_q=1")),
-                      Contains("r_q"));
+                      ContainsSubstring("r_q"));
 }
 
 TEST_CASE("a wrong problem string is refused by name", "[unit]") {
-  using Catch::Matchers::Contains;
   REQUIRE_THROWS_WITH(parse_problem("stage=closest_fece gen=uniform"),
-                      Contains("closest_fece") && Contains("closest_face"));
-  REQUIRE_THROWS_WITH(parse_problem("stage=bound gen=few colour=red"), Contains("colour"));
-  REQUIRE_THROWS_WITH(parse_problem("stage=bound gen=few seed=-1"), Contains("seed=-1"));
-  REQUIRE_THROWS_WITH(parse_problem("stage=bound gen=few index=1x"), Contains("index=1x"));
+                      ContainsSubstring("closest_fece") && ContainsSubstring("closest_face"));
+  REQUIRE_THROWS_WITH(parse_problem("stage=bound gen=few colour=red"), ContainsSubstring("colour"));
+  REQUIRE_THROWS_WITH(parse_problem("stage=bound gen=few seed=-1"), ContainsSubstring("seed=-1"));
+  REQUIRE_THROWS_WITH(parse_problem("stage=bound gen=few index=1x"), ContainsSubstring("index=1x"));
   REQUIRE_THROWS_AS(parse_problem("gen=uniform"), InputError);
   REQUIRE_THROWS_AS(parse_problem("stage=bound"), InputError);
   REQUIRE_THROWS_AS(parse_problem(""), InputError);

@@ -127,7 +127,7 @@ TEST_CASE("a frame that can't be read is named, and what was audited before it i
   const nlohmann::json verdict = nlohmann::json::parse(result.out);
   CHECK(verdict.at("states").size() == 4);
   CHECK(verdict.at("complete") == false);
-  CHECK_THAT(verdict.at("stopped").get<std::string>(), Catch::Matchers::Contains("frame_4.obj: line 3"));
+  CHECK_THAT(verdict.at("stopped").get<std::string>(), ContainsSubstring("frame_4.obj: line 3"));
   CHECK(contains(result.err, {"frame_4.obj: line 3"}));
 }
 
@@ -189,7 +189,7 @@ TEST_CASE("the option --show writes what intersects as a mesh that can be audite
   CHECK(part.loose_edges == std::vector<compare::Edge>{{3, 4}, {3, 5}});
   CHECK(run_ogc("audit " + (folder / "show/frame_11.vtp").string()).status == 1);
   CHECK_THAT(verdict.at("shown").at(0).get<std::string>(),
-             Catch::Matchers::Contains("between (") && Catch::Matchers::Contains("frame_10.vtp"));
+             ContainsSubstring("between (") && ContainsSubstring("frame_10.vtp"));
 }
 
 TEST_CASE("a run of an intersecting start says where, and --show writes it", "[unit]") {

@@ -11,7 +11,6 @@
 
 using namespace ogc;
 using namespace ogc::experiments;
-using Catch::Matchers::Contains;
 
 namespace {
 
@@ -57,8 +56,9 @@ compare::Scene scene_of(double degrees, compare::BendingModel model = compare::B
 TEST_CASE("a rest shape that isometric bending does not know is named with its largest angle and the model to take",
           "[unit]") {
   const std::string text = curved_rest_warning(scene_of(15));
-  CHECK_THAT(text, Contains("body 'second' has bending=isometric_quadratic") && Contains("6 hinges bent at rest") &&
-                       Contains("15 degrees") && Contains("take bending=discrete_hinge"));
+  CHECK_THAT(text, ContainsSubstring("body 'second' has bending=isometric_quadratic") &&
+                       ContainsSubstring("6 hinges bent at rest") && ContainsSubstring("15 degrees") &&
+                       ContainsSubstring("take bending=discrete_hinge"));
 }
 
 TEST_CASE("flat rest shapes, other models, no stiffness and fixed bodies are no reason for a word", "[unit]") {

@@ -16,7 +16,6 @@
 using namespace ogc;
 using namespace ogc::experiments;
 using namespace ogc::tests;
-using Catch::Matchers::Contains;
 
 namespace {
 
@@ -54,7 +53,7 @@ std::vector<std::string> warnings_of(compare::Scene scene) {
   CHECK(nlohmann::json::parse(std::ifstream(folder / "run/run.json")).at("warnings").get<std::vector<std::string>>() ==
         warnings);
   const std::string last = words.out.substr(words.out.rfind('\n', words.out.size() - 2) + 1);
-  for (const std::string& warning : warnings) CHECK_THAT(last, Contains(warning));
+  for (const std::string& warning : warnings) CHECK_THAT(last, ContainsSubstring(warning));
   // Each kind of warning must be printed once during the run.
   std::size_t said = 0;
   for (std::size_t at = words.err.find("warning: "); at != std::string::npos; at = words.err.find("warning: ", at + 1))
@@ -74,7 +73,7 @@ TEST_CASE("a step that loses more than half of its momentum to truncation is war
   CHECK(warnings.look_at(numbered(8), 0.9).empty());
   CHECK(warnings.look_at(numbered(9), 0.7).empty());
   REQUIRE(warnings.list().size() == 1);
-  CHECK_THAT(warnings.list()[0], Contains("step 8 lost 90 %") && Contains("time_step"));
+  CHECK_THAT(warnings.list()[0], ContainsSubstring("step 8 lost 90 %") && ContainsSubstring("time_step"));
 }
 
 TEST_CASE("ten steps in a row in which bounds cut every free vertex are warned of, and the longest row is told",
@@ -100,7 +99,8 @@ TEST_CASE("ten steps in a row in which bounds cut every free vertex are warned o
   look_at(1, 0);
   CHECK(look_at(11, 8) == 0);
   REQUIRE(warnings.list().size() == 1);
-  CHECK_THAT(warnings.list()[0], Contains("13 steps in a row") && Contains("8 free vertices") && Contains("ogc audit"));
+  CHECK_THAT(warnings.list()[0], ContainsSubstring("13 steps in a row") && ContainsSubstring("8 free vertices") &&
+                                     ContainsSubstring("ogc audit"));
 }
 
 TEST_CASE("steps that leave a tenth of the free vertices' force are warned of at the end, by their median", "[unit]") {
@@ -120,7 +120,8 @@ TEST_CASE("steps that leave a tenth of the free vertices' force are warned of at
   CHECK(warnings.forces_left().median_held() == 7);
   REQUIRE(warnings.list().size() == 1);
   CHECK(warnings.list() == warnings.look_back());
-  CHECK_THAT(warnings.list()[0], Contains("30 %") && Contains("3 steps") && Contains("iterations"));
+  CHECK_THAT(warnings.list()[0],
+             ContainsSubstring("30 %") && ContainsSubstring("3 steps") && ContainsSubstring("iterations"));
   for (int k = 0; k < 3; ++k) look_at(0.9, 1, 0);  // steps of free fall
   CHECK(warnings.forces_left().steps() == 3);
   for (int k = 0; k < 2; ++k) look_at(0.01, 0.001, 0);
@@ -139,9 +140,9 @@ TEST_CASE("where settled_move may have ended steps, a warning of forces left nam
     warnings.look_at(row, std::nullopt);
     return warnings.list().at(0);
   };
-  CHECK_THAT(text(), Contains("take a smaller settled_move than 0.5 m, more iterations than"));
+  CHECK_THAT(text(), ContainsSubstring("take a smaller settled_move than 0.5 m, more iterations than"));
   scene.settings.settled_move = 0;
-  CHECK_THAT(text(), Contains("take more iterations than"));
+  CHECK_THAT(text(), ContainsSubstring("take more iterations than"));
 }
 
 TEST_CASE("a tolerance of IPC above what gravity changes in a step is warned of, by its number and another one",
@@ -153,14 +154,15 @@ TEST_CASE("a tolerance of IPC above what gravity changes in a step is warned of,
   CHECK(of(Solver::ipc).empty());
   set_setting(scene.settings, "ipc_tolerance", 0.07);
   REQUIRE(of(Solver::ipc).size() == 1);
-  CHECK_THAT(of(Solver::ipc)[0], Contains("ipc_tolerance ends a step of IPC") && Contains("0.099 m/s") &&
-                                     Contains("0.0981 m/s") && Contains("take ipc_tolerance=0.007"));
+  CHECK_THAT(of(Solver::ipc)[0], ContainsSubstring("ipc_tolerance ends a step of IPC") &&
+                                     ContainsSubstring("0.099 m/s") && ContainsSubstring("0.0981 m/s") &&
+                                     ContainsSubstring("take ipc_tolerance=0.007"));
   CHECK(of(Solver::newton).empty());
   set_setting(scene.settings, "ipc_stopping", "velocity");
   CHECK(of(Solver::ipc).empty());
   set_setting(scene.settings, "ipc_velocity_tolerance", 0.2);
   REQUIRE(of(Solver::ipc).size() == 1);
-  CHECK_THAT(of(Solver::ipc)[0], Contains("take ipc_velocity_tolerance=0.01"));
+  CHECK_THAT(of(Solver::ipc)[0], ContainsSubstring("take ipc_velocity_tolerance=0.01"));
   scene.gravity = {};
   CHECK(of(Solver::ipc).empty());
 }
@@ -170,7 +172,7 @@ TEST_CASE("a run without bounds says at its first and last line that nothing is 
   scene.settings.bounds = compare::Bounds::off;
   const std::vector<std::string> warnings = warnings_of(scene);
   REQUIRE(warnings.size() == 1);
-  CHECK_THAT(warnings[0], Contains("bounds=off") && Contains("guarantees nothing"));
+  CHECK_THAT(warnings[0], ContainsSubstring("bounds=off") && ContainsSubstring("guarantees nothing"));
 }
 
 // In each of 16 rounds bounds let a vertex move by γ_p r_q = 0.45 · 40 mm, so by at most 0.29 m in a step. This is 29
@@ -181,7 +183,7 @@ TEST_CASE("a run of a sheet thrown faster than its bounds allow warns; half as f
   throw_down(scene, 100);
   const std::vector<std::string> warnings = warnings_of(scene);
   REQUIRE(warnings.size() == 1);
-  CHECK_THAT(warnings[0], Contains("step 1 lost ") && Contains("guess_rounds"));
+  CHECK_THAT(warnings[0], ContainsSubstring("step 1 lost ") && ContainsSubstring("guess_rounds"));
   throw_down(scene, 14);
   CHECK(warnings_of(scene).empty());
 }
@@ -196,7 +198,7 @@ TEST_CASE("a run whose handles fall behind by more than r warns with the lag", "
   scene.motions = {motion};
   const std::vector<std::string> warnings = warnings_of(scene);
   REQUIRE(warnings.size() == 1);
-  CHECK_THAT(warnings[0], Contains("lag ") && Contains("move them slower"));
+  CHECK_THAT(warnings[0], ContainsSubstring("lag ") && ContainsSubstring("move them slower"));
   scene.motions[0].velocity = {0, 0.5, 0};
   CHECK(warnings_of(scene).empty());
 }
@@ -210,13 +212,14 @@ TEST_CASE("a run with r above two median edges warns, and names the body with th
   scene.settings.contact_radius = 0.0121;
   const std::vector<std::string> warnings = warnings_of(scene);
   REQUIRE(warnings.size() == 1);
-  CHECK_THAT(warnings[0], Contains("0.0121 m, 2.02 median edges (0.006 m) of body 'fine'") && Contains("ogc suggest"));
+  CHECK_THAT(warnings[0], ContainsSubstring("0.0121 m, 2.02 median edges (0.006 m) of body 'fine'") &&
+                              ContainsSubstring("ogc suggest"));
 }
 
 TEST_CASE("a run of a scene whose box has a diagonal above 20 m warns, and says how to scale millimetres", "[unit]") {
   const std::vector<std::string> warnings = warnings_of(sheet(1000));
   REQUIRE(warnings.size() == 1);
-  CHECK_THAT(warnings[0], Contains("diagonal of 1.41e+03 m") && Contains("0.001"));
+  CHECK_THAT(warnings[0], ContainsSubstring("diagonal of 1.41e+03 m") && ContainsSubstring("0.001"));
   CHECK(Warnings(sheet(14.1)).list().empty());
   CHECK(Warnings(sheet(14.2)).list().size() == 1);
 }
@@ -237,9 +240,9 @@ TEST_CASE("a solid that is thinner than r at rest is reported with its pairs and
   scene.settings.contact_radius = 0.01;
   const std::vector<std::string> texts = Warnings(scene).list();
   REQUIRE(texts.size() == 1);
-  CHECK_THAT(texts[0], Contains("body 'slab' is thinner than contact_radius (0.01 m) at rest") &&
-                           Contains("pairs of a vertex and a face of its own") &&
-                           Contains("the thinnest place is 0.008 m"));
+  CHECK_THAT(texts[0], ContainsSubstring("body 'slab' is thinner than contact_radius (0.01 m) at rest") &&
+                           ContainsSubstring("pairs of a vertex and a face of its own") &&
+                           ContainsSubstring("the thinnest place is 0.008 m"));
   scene.settings.contact_radius = 0.005;
   CHECK(Warnings(scene).list().empty());
 }

@@ -121,8 +121,7 @@ TEST_CASE("Newton: a stiff sheet that one close vertex holds back leaves as fast
   CHECK(result.rows[0].iterations <= 19 + 8);
 }
 
-TEST_CASE("Newton: sheets that are nearly closed and travel far together converge faster than linearly",
-          "[property]") {
+TEST_CASE("Newton: sheets that are nearly closed and travel far together converge faster than linearly", "[property]") {
   // Two sheets 10 µm apart fall. A small patch stops their middle, and their rims move on by 3 mm. Truncation alone
   // scales the motion of each of two facing vertices to a thousandth, and so also their relative motion. Springs on cut
   // vertices (method.md §7.6) preserve the relative motion.
@@ -427,7 +426,7 @@ TEST_CASE("Newton takes every model, and refuses damping by vertex with what to 
   CHECK(result.end.positions != plain.end.positions);
   scene.settings.damping = compare::DampingForm::per_vertex;
   CHECK_THROWS_WITH(reference::start_newton(scene, {}),
-                    Catch::Matchers::Contains("per_vertex") && Catch::Matchers::Contains("--solver vbd"));
+                    ContainsSubstring("per_vertex") && ContainsSubstring("--solver vbd"));
 }
 
 TEST_CASE("a cloth that hangs on springs comes to rest where they carry its weight", "[property]") {
