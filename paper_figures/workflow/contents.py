@@ -1,9 +1,10 @@
-"""Names what programs are made of: the trees of the rooms whose content a result depends on, at each commit that an
-accepted file names (`git rev-parse COMMIT:fast`). Two commits with the same trees made the same programs.
+"""Names what programs are made of: the content of the rooms that a result depends on, at each commit that an accepted
+file names. It is a digest of a room's files without its documents (.md), which are written after the results: `git
+ls-tree -r COMMIT -- fast | grep -v "[.]md$" | sha256sum`. Two commits of the same content made the same programs.
 
 `results/contents.csv` holds them, so that a checkout without its history knows them; the program writes it from the
-history and never by hand. A commit that the history of HEAD does not have has UNKNOWN trees. An accepted file is *old*
-if a commit that it names has other trees than HEAD's, or unknown ones, or if it names none.
+history and never by hand. A commit that the history of HEAD does not have has UNKNOWN contents. An accepted file is
+*old* if a commit that it names has other contents than HEAD's, or unknown ones, or if it names none.
 
 Usage: python3 -m paper_figures.workflow.contents: prints how many files are old; `--list` names them; `--write` keeps
 results/contents.csv. `--keep MACHINE/FILE --redo COMMAND` keeps the row of provenance.csv about a table that no figure
@@ -27,7 +28,8 @@ from paper_figures.workflow.evidence import RESULTS
 ROOMS = ("fast", "reference", "compare", "experiments")
 KEPT, PROVENANCE = "contents.csv", "provenance.csv"
 UNKNOWN = "unknown"
-DIGITS = 16  # of a tree's name
+DIGITS = 16  # of a digest
+DOCUMENT = ".md\n"  # ends the line about a document
 SHORT = 8  # digits by which tables name a commit, at least
 HEX = re.compile(rf"[0-9a-f]{{{SHORT},40}}")
 NO_COMMIT = ("", "-")  # of a row about a run that was not made, or of another program
@@ -57,25 +59,28 @@ def history():
     return frozenset(git("rev-list", "HEAD").split())
 
 
-def trees_at(commits):
-    """Returns commit -> its trees, in the order of ROOMS; UNKNOWN for a room that the commit does not have."""
-    asked = "\n".join(f"{commit}:{room}" for commit in commits for room in ROOMS)
-    lines = iter(git("cat-file", "--batch-check=%(objecttype) %(objectname)", text=asked).splitlines())
-    found = lambda line: line.split()[1][:DIGITS] if line.startswith("tree ") else UNKNOWN  # noqa: E731
-    return {commit: tuple(found(next(lines)) for _ in ROOMS) for commit in commits}
+def contents_at(commits):
+    """Returns commit -> the contents of its rooms, in the order of ROOMS; UNKNOWN for a room that it does not have."""
+    return {commit: tuple(content_of(commit, room) for room in ROOMS) for commit in commits}
+
+
+def content_of(commit, room):
+    listed = git("ls-tree", "-r", "--full-tree", commit, "--", room).splitlines(keepends=True)
+    text = "".join(line for line in listed if not line.endswith(DOCUMENT))
+    return hashlib.sha256(text.encode()).hexdigest()[:DIGITS] if text else UNKNOWN
 
 
 def of_history(commits):
-    """Returns commit, as it is named -> its trees, rebuilt from the history of HEAD; UNKNOWN where that lacks it."""
+    """Returns commit, as it is named -> its contents, rebuilt from the history of HEAD; UNKNOWN where that lacks it."""
     whole = {commit: next((name for name in sorted(history()) if name.startswith(commit)), None) for commit in commits}
-    there = trees_at([name for name in whole.values() if name])
+    there = contents_at([name for name in whole.values() if name])
     return {commit: there[name] if name else (UNKNOWN,) * len(ROOMS) for commit, name in whole.items()}
 
 
 @lru_cache(maxsize=1)
 def of_head():
-    """Returns the trees of HEAD."""
-    return trees_at(["HEAD"])["HEAD"]
+    """Returns the contents of HEAD."""
+    return contents_at(["HEAD"])["HEAD"]
 
 
 def rows_of(path):
@@ -129,16 +134,16 @@ def abbreviated(commits):
 
 
 def kept(results=RESULTS):
-    """Returns commit -> its trees, as kept."""
+    """Returns commit -> its contents, as kept."""
     return {row["commit"]: tuple(row[room] for room in ROOMS) for row in rows_of(results / KEPT)}
 
 
-def as_table(trees):
+def as_table(by_commit):
     """Returns the text of contents.csv."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(["commit", *ROOMS])
-    writer.writerows([commit, *trees[commit]] for commit in sorted(trees))
+    writer.writerows([commit, *by_commit[commit]] for commit in sorted(by_commit))
     return out.getvalue()
 
 
@@ -147,15 +152,15 @@ def rebuilt(results=RESULTS):
     return as_table(of_history(abbreviated(commit for commits in named(results).values() for commit in commits)))
 
 
-def trees_of(commit, known):
-    """Returns the trees of a commit by any of its names; UNKNOWN if nothing is known of it."""
-    return next((trees for name, trees in known.items() if name.startswith(commit)), (UNKNOWN,) * len(ROOMS))
+def contents_of(commit, known):
+    """Returns the contents of a commit by any of its names; UNKNOWN if nothing is known of it."""
+    return next((each for name, each in known.items() if name.startswith(commit)), (UNKNOWN,) * len(ROOMS))
 
 
 def old(results=RESULTS, head=None):
-    """Returns the files that are old, sorted. `head`: the trees of HEAD."""
+    """Returns the files that are old, sorted. `head`: the contents of HEAD."""
     known, head = kept(results), head or of_head()
-    is_new = lambda commits: commits and all(trees_of(commit, known) == head for commit in commits)  # noqa: E731
+    is_new = lambda commits: commits and all(contents_of(commit, known) == head for commit in commits)  # noqa: E731
     return sorted(name for name, commits in named(results).items() if not is_new(commits))
 
 
@@ -163,7 +168,7 @@ def mixed(results=RESULTS):
     """Returns the files of programs of different content, sorted."""
     known = kept(results)
     return sorted(name for name, commits in named(results).items()
-                  if len({trees_of(commit, known) if UNKNOWN not in trees_of(commit, known) else commit
+                  if len({contents_of(commit, known) if UNKNOWN not in contents_of(commit, known) else commit
                           for commit in commits}) > 1)
 
 

@@ -1,11 +1,12 @@
 """What accepted results were made of: each kept table has its provenance, none is of a changed program, there is one
-Table 1, the trees of each commit are those of the history, and a file of other sources than HEAD's is old by
+Table 1, the contents of each commit are those of the history, and a file of other sources than HEAD's is old by
 computation.
 
 Usage: contents.py SOURCE_DIR. The standard library is enough.
 """
 
 import csv
+import hashlib
 import json
 import os
 import shutil
@@ -68,7 +69,7 @@ class Accepted(unittest.TestCase):
                 found.append(path.relative_to(RESULTS).as_posix())
         self.assertEqual(found, ["h200/whole_runs.csv"])
 
-    def test_the_trees_of_each_commit_are_those_of_the_history(self):
+    def test_the_contents_of_each_commit_are_those_of_the_history(self):
         try:
             again = contents.rebuilt()
         except contents.ContentsError as error:
@@ -85,8 +86,8 @@ class Accepted(unittest.TestCase):
             self.skipTest(str(error))
         lost = {commit for commit in contents.kept() if not any(name.startswith(commit) for name in known)}
         self.assertLessEqual(lost, LOST)
-        for commit, trees in contents.kept().items():
-            self.assertEqual(trees[0] == contents.UNKNOWN, commit in lost, commit)
+        for commit, each in contents.kept().items():
+            self.assertEqual(each[0] == contents.UNKNOWN, commit in lost, commit)
 
 
 def in_repository():
@@ -114,7 +115,7 @@ class Scratch(unittest.TestCase):
 
 
 class Old(Scratch):
-    def test_other_trees_unknown_ones_and_none_make_a_file_old(self):
+    def test_other_contents_unknown_ones_and_none_make_a_file_old(self):
         self.provide(new=A, other=B, lost="c" * 40, none="", both=f"{A} {B}")
         self.assertEqual(contents.old(self.results, HEAD),
                          ["m/both.csv", "m/lost.csv", "m/none.csv", "m/other.csv"])
@@ -197,15 +198,24 @@ class OfHistory(unittest.TestCase):
         self.git("commit", "-q", "-m", words)
         return self.git("rev-parse", "HEAD")
 
-    def test_trees_are_those_of_rev_parse_and_a_lost_commit_has_none(self):
+    def test_contents_are_digests_of_what_git_lists_and_a_lost_commit_has_none(self):
         one, two = self.commits
         found = contents.of_history([one[:10], two, "c" * 40])
         for commit, name in ((one, one[:10]), (two, two)):
-            expected = tuple(self.git("rev-parse", f"{commit}:{room}")[:contents.DIGITS] for room in contents.ROOMS)
-            self.assertEqual(found[name], expected)
+            for room, digest in zip(contents.ROOMS, found[name]):
+                listed = self.git("ls-tree", "-r", commit, "--", room) + "\n"
+                self.assertEqual(digest, hashlib.sha256(listed.encode()).hexdigest()[:contents.DIGITS])
         self.assertEqual([a == b for a, b in zip(found[one[:10]], found[two])], [False, True, True, True])
         self.assertEqual(found["c" * 40], (contents.UNKNOWN,) * 4)
         self.assertEqual(contents.of_head(), found[two])
+
+    def test_a_document_changes_no_content_and_a_file_that_is_named_like_one_does(self):
+        for name, same in ((f"notes{contents.DOCUMENT.strip()}", True), ("md", False)):
+            (self.folder / "fast" / name).write_text("text\n")
+            after = self.commit(name)
+            before = self.git("rev-parse", f"{after}~")
+            found = contents.of_history([before, after])
+            self.assertEqual(found[before] == found[after], same)
 
     def test_a_commit_that_no_history_reaches_is_unknown_though_its_object_is_there(self):
         self.git("reset", "-q", "--hard", self.commits[0])
