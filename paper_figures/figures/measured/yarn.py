@@ -243,16 +243,18 @@ def drawn_over_time(runs):
 
 
 def first_pull(name, run, runs, rows):
-    """Returns (time [s], tension [N]) at the first meeting of a run, from itself and its windows or else from its row;
-    None if threads never met."""
+    """Returns (time [s], tension [N]) at the first meeting of a run, from itself and its windows or else from its row,
+    if this is of the same program: another one's threads meet elsewhere. None if threads never met."""
     part, first = first_among([run, *windows_of(name, runs)])
     if first is not None:
         return seconds(part)[first], tension(part)[first]
-    row = next((row for row in rows if row["run"] == name and row["first meeting at step"]), None)
+    row = next((row for row in rows if row["run"] == name and row["first meeting at step"]
+                and run.manifest["commit"].startswith(row["commit"])), None)
     return row and (run.setting("time_step") * int(row["first meeting at step"]), float(row["mean tension there [N]"]))
 
 
 def draw_tension(axes, runs, rows):
+    marked = False
     for name, run in drawn_over_time(runs).items():
         weaker = commands.YARN_STIFFNESS.index(round(material(run)[1]))
         colour = (style.OURS if kind_of(run) == "ogc" else style.BASELINE)
@@ -261,8 +263,9 @@ def draw_tension(axes, runs, rows):
         first = first_pull(name, run, runs, rows)
         if first:
             axes.plot(*first, "x", color=colour, markersize=8, markeredgewidth=2)
-    axes.set(xlabel="time [s]", ylabel="k_s · mean stretch [N]",
-             title="Mean tension of the yarn; ×: threads pass through one another", ylim=(0, None))
+            marked = True
+    axes.set(xlabel="time [s]", ylabel="k_s · mean stretch [N]", ylim=(0, None),
+             title="Mean tension of the yarn" + ("; ×: threads pass through one another" if marked else ""))
     style.label_ends(axes)
 
 

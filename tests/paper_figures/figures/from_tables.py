@@ -163,11 +163,14 @@ class Curves(unittest.TestCase):
                          [40, 20, 40])
 
     def test_fig_15_marks_the_first_meeting_of_the_kept_row_where_no_window_is(self):
-        run = SimpleNamespace(steps={}, column=lambda name: np.arange(1, 4), setting=lambda name: 0.5)
-        rows = [{"run": "a", "first meeting at step": "", "mean tension there [N]": ""},
-                {"run": "b", "first meeting at step": "6", "mean tension there [N]": "0.25"}]
+        run = SimpleNamespace(steps={}, column=lambda name: np.arange(1, 4), setting=lambda name: 0.5,
+                              manifest={"commit": "055befcaf0c39a"})
+        rows = [{"run": "a", "first meeting at step": "", "mean tension there [N]": "", "commit": "055befcaf0"},
+                {"run": "b", "first meeting at step": "6", "mean tension there [N]": "0.25", "commit": "055befcaf0"}]
         self.assertEqual(yarn.first_pull("b", run, {}, rows), (3.0, 0.25))
         self.assertIsNone(yarn.first_pull("a", run, {}, rows))
+        other = [{**row, "commit": "2112a0acd6"} for row in rows]
+        self.assertIsNone(yarn.first_pull("b", run, {}, other), "another program's threads meet elsewhere")
 
     def test_a_movie_of_fig_11_has_the_camera_of_its_figure(self):
         run = object()
