@@ -1,7 +1,7 @@
 """Evidence that no figure keeps becomes results: what is there is taken with its provenance, what lacks a part is left
 as it was, and what is no evidence is refused.
 
-Usage: taken.py SOURCE_DIR OGC. Exit status 77: skipped, PyYAML is missing.
+Usage: taken.py SOURCE_DIR OGC. Exit status 77: skipped, PyYAML or numpy is missing.
 """
 
 import csv
@@ -18,6 +18,7 @@ SOURCE, OGC = Path(sys.argv[1]).resolve(), str(Path(sys.argv[2]).resolve())
 del sys.argv[1:3]
 sys.path.insert(0, str(SOURCE))
 try:
+    import numpy  # noqa: F401
     from paper_figures.workflow import everything, parts, taken  # noqa: E402
     from paper_figures.workflow.kept import AcceptError  # noqa: E402
 except ImportError as error:
