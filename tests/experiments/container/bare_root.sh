@@ -29,7 +29,7 @@ trap 'rm -rf --one-file-system "$tree"' EXIT
 mmdebstrap --quiet --variant=apt --skip=check/empty "$suite" "$tree" "${sources[@]}" ||
   skip "the packages of $1 can't be reached"
 cp --remove-destination /etc/resolv.conf "$tree/etc/resolv.conf"
-cp /etc/ssl/certs/ca-certificates.crt "$tree/certificates.crt"  # of whoever stands between us and the package index
+cp /etc/ssl/certs/ca-certificates.crt "$tree/certificates.crt"  # a proxy may have its own
 git clone -q "$root" "$tree/ogc"
 
 # Mounts end with the namespace.
