@@ -1,6 +1,6 @@
 // Measures the time of each stage by synchronising where it begins and ends. Without `profile` it only calls the stage.
-// Stages may be nested; the time of an inner stage does not count for the outer stage. If the ends of iterations are
-// wanted, too, it also synchronises there.
+// Stages may be nested; the time of an inner stage does not count for the outer stage. Where the ends of iterations are
+// measured, it synchronises there, too.
 #pragma once
 
 #include <array>

@@ -83,8 +83,6 @@ VolumeParts volume_parts(const compare::Scene& scene, const compare::Topology& t
   for (const compare::Body& body : scene.bodies) {
     for (int k = 0; body.is_volume() && k < body.triangle_count; ++k) triangles.push_back(body.first_triangle + k);
   }
-  // The trees' order decides between facets at one distance. Positions at rest are those of every state of a scene, so
-  // that a step traced from its own state (experiments/program/runs/measured_simulation.cpp) decides as the run does.
   return parts_of(topology, triangles, volume_tetrahedra(scene), compare::volume_cavities(scene),
                   compare::to_single(scene.rest_positions));
 }

@@ -30,7 +30,6 @@ Examples:
   experiments/evidence gpu --cards 4 --time-limit 500 --pack packed --frames 0  # four cards side by side, tables alone
   experiments/evidence gpu --cards 4 --unpack packed --pack packed        # goes on, on another machine
   taskset -c 0-15 experiments/evidence gpu fig18_solvers windows_twist    # times of 16 processors of a larger machine
-  CUDA_VISIBLE_DEVICES=1 experiments/evidence gpu --share 2/4 --out runs_2  # the second of four calls
   experiments/evidence gpu judge twist fig20                              # these parts alone
 """
 
@@ -310,7 +309,7 @@ def measured_before(out):
 
 
 def groups(chosen):
-    """Returns lists of names of parts, those that share a run together, so that no two calls make it at once."""
+    """Returns lists of names of parts, those that share a run together, so that no two cards make it at once."""
     found = []
     for name, part in chosen.items():
         runs = {f"{part.folder}/{job.name}" for job in part.jobs}
@@ -318,20 +317,6 @@ def groups(chosen):
         found = [group for group in found if group not in mine]
         found.append(([other for group in mine for other in group[0]] + [name], runs.union(*(g[1] for g in mine))))
     return [names for names, _ in found]
-
-
-def share(chosen, number, of, seconds):
-    """Returns the parts of the `number`-th of `of` calls that go on side by side: the longest group first, to whoever
-    has least. A part that nobody measured counts as the mean of the others."""
-    known = [value for value in seconds.values() if value is not None]
-    usual = sum(known) / len(known) if known else 1
-    length = lambda names: sum(usual if seconds[name] is None else seconds[name] for name in names)  # noqa: E731
-    loads, mine = [0.0] * of, set()
-    for names in sorted(groups(chosen), key=length, reverse=True):
-        least = loads.index(min(loads))
-        loads[least] += length(names)
-        mine |= set(names) if least == number - 1 else set()
-    return {name: part for name, part in chosen.items() if name in mine}
 
 
 def said_by(program):
@@ -454,7 +439,6 @@ def arguments():
     add("--unpack", type=Path, metavar="FOLDER", help="first unpack what --pack packed, which then is not made again")
     add("--frames", type=int, metavar="N", help="pack at most N frames of a run (default: as its picture needs)")
     add("--cards", type=int, default=0, metavar="N", help="make parts side by side on N devices of this machine")
-    add("--share", default="1/1", metavar="K/N", help="the K-th of N calls side by side, each with its own --out")
     add("--studies", type=Path, metavar="FILE", help="the ablations' commands, where PyYAML is missing")
     add("--no-studies", action="store_true", help="leave the ablations out")
     add("--write-studies", type=Path, metavar="FILE", help="write that file, and run nothing")
@@ -481,10 +465,7 @@ def prepared(options):
     before, times = measured_before(options.out), measured_times()
     seconds = {name: before[name]["seconds"] if before.get(name, {}).get("end") in (FINISHED, KEPT)
                else accepted_seconds(name, wanted, times) for name in chosen}
-    number, _, of = options.share.partition("/")
-    if not (number.isdigit() and of.isdigit() and 1 <= int(number) <= int(of)):
-        raise PlanError(f"--share {options.share}: K/N with 1 ≤ K ≤ N, such as 2/4")
-    return share(chosen, int(number), int(of), seconds), seconds
+    return chosen, seconds
 
 
 def main():

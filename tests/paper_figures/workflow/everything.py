@@ -1,5 +1,5 @@
 """The command that makes all evidence: what there is on a device and without one, what is kept, what goes on after a
-limit, what is packed, who makes which share, and which programs are refused.
+limit, what is packed, which parts stay together, and which programs are refused.
 
 Usage: everything.py SOURCE_DIR OGC. The standard library is enough.
 """
@@ -148,7 +148,7 @@ class Calls(Scratch):
 
     def test_wrong_words_are_refused(self):
         self.program()
-        for words, message in ((("nothing",), "no part 'nothing'"), (("--share", "3/2", "laws"), "K/N with 1"),
+        for words, message in ((("nothing",), "no part 'nothing'"),
                                (("--program", "nowhere", "laws"), "no program at 'nowhere'")):
             status, said = self.call("--no-studies", *words)
             self.assertEqual(status, 2)
@@ -288,17 +288,14 @@ class Plans(unittest.TestCase):
             self.assertEqual("mat_volumes" in chosen, there)
             self.assertEqual("left out, as NumPy is missing: mat_volumes, yarn_return" in said.getvalue(), not there)
 
-    def test_shares_are_everything_once_alike_long_and_keep_together_what_shares_a_run(self):
+    def test_groups_are_everything_once_and_keep_together_what_shares_a_run(self):
         chosen = self.plan("gpu", "paper", "cuda")
-        seconds = {name: None if place % 3 else float(place) for place, name in enumerate(chosen)}
-        shares = [everything.share(chosen, number, 4, seconds) for number in (1, 2, 3, 4)]
-        self.assertEqual(sorted(name for mine in shares for name in mine), sorted(chosen))
-        for mine in shares:
-            runs = {f"{part.folder}/{job.name}" for part in mine.values() for job in part.jobs}
-            others = {f"{part.folder}/{job.name}" for other in shares if other is not mine
-                      for part in other.values() for job in part.jobs}
-            self.assertEqual(runs & others, set())
-        self.assertEqual(everything.share(chosen, 1, 1, seconds), chosen)
+        groups = everything.groups(chosen)
+        self.assertEqual(sorted(name for group in groups for name in group), sorted(chosen))
+        runs = [{f"{chosen[name].folder}/{job.name}" for name in group for job in chosen[name].jobs}
+                for group in groups]
+        self.assertEqual(sum(map(len, runs)), len(set().union(*runs)))
+        self.assertGreater(len(groups), 1)
 
 
 class Commands(Scratch):
