@@ -50,7 +50,7 @@ from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from pathlib import Path
 
-from paper_figures.workflow import contents, packing, parts, varied
+from paper_figures.workflow import commands, contents, packing, parts, varied
 from paper_figures.workflow.durations import RESULTS, in_words, measured_times, seconds_between
 from paper_figures.workflow.jobs import (AUDIT, CALL_AGAIN, FAILED, FINISHED, KEPT, STOPPED, Limit, RunFailure,
                                          command_in, last_lines)
@@ -220,10 +220,13 @@ def ablated(name, scene, words, backend):
 
 
 def jittered(wanted):
-    """Returns jittered starts of scenes in which a perturbation grows, with both bounds."""
-    made = [ablated("starts", scene, ("ablate", scene, "--scale", wanted.scale, "--backend", wanted.backend, "--audit",
-                                      "end", "--point", "bounds=ball", "--point", "bounds=planes", "--repeat",
-                                      str(STARTS), "--jitter", "1e-6"), wanted.backend) for scene in JITTERED]
+    """Returns jittered starts of scenes in which a perturbation grows, with both bounds; with balls twisted cloth has
+    the query radius of its row."""
+    near = lambda row: commands.NEAR if row in commands.NEAR_ROWS else ()  # noqa: E731
+    made = [ablated(f"starts/{bounds}", scene, ("ablate", scene, "--scale", wanted.scale, "--backend", wanted.backend,
+                                                "--audit", "end", *near(row), "--point", f"bounds={bounds}",
+                                                "--repeat", str(STARTS), "--jitter", "1e-6"), wanted.backend)
+            for scene in JITTERED for bounds, row in (("ball", scene), ("planes", f"{scene}{commands.WITH_PLANES}"))]
     return commands_of("jittered", made, wanted)
 
 

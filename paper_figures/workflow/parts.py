@@ -18,7 +18,7 @@ DRAWN_WITH_PLANES = {"twist_planes": ("fig12", 37), "knot_planes": ("fig11", 31)
 ROWS = {**OF_SCENES, **{row: ("", 2) for row in commands.ROWS if row not in OF_SCENES}, **DRAWN_WITH_PLANES}
 # The folder in which the figure of several runs looks for the row's run; a figure of one run looks for `run`.
 SHOWN = {row: f"{bounds}/whole" for bounds, (row, _) in commands.MAT_BOUNDS.items()}
-WINDOW = {"smoke": 20, "small": 20, "paper": 200}  # steps on the CPU
+WINDOW = {"smoke": 20, "small": 20, "paper": 10}  # steps on the CPU
 
 
 @dataclass(frozen=True)

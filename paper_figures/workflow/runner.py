@@ -121,7 +121,7 @@ def arguments():
     table = parser.add_argument_group("Table 1")
     add = table.add_argument
     add("--window", type=int, default=0, metavar="N",
-        help="steps of a window on the CPU (default: 200; 20 below scale paper)")
+        help="steps of a window on the CPU (default: 10; 20 below scale paper)")
     add("--runs", type=int, default=1, metavar="N", help="whole runs, of which the table takes the median (default: 1)")
     add("--steps", type=int, default=0, metavar="N", help="end whole runs at this step (default: the scene's end)")
     add("--audit", default="afterwards", choices=("afterwards", "every", "frame", "end", "off"),

@@ -1,13 +1,13 @@
 """Makes parts side by side on a machine with several devices. A job on a device has one of them for itself; all of
 these jobs together have a quarter of the processors, and as many jobs that need processors alone, as audits do, divide
-the rest. Parts that time processors come last, one after the other, with the machine for themselves. Python's own
-library is enough.
+the rest. Of jobs that wait for a place, the one whose part was named first gets it. Parts that time processors come
+last, one after the other, with the machine for themselves. Python's own library is enough.
 """
 
 import contextlib
 import contextvars
+import itertools
 import os
-import queue
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -35,25 +35,46 @@ def places(names, cores):
             [Place("", tuple(cores[begin:begin + each])) for begin in begins])
 
 
+class Places:
+    """Hands out places of one kind, to the job of lowest rank first, of equal ranks to the one that came first."""
+
+    def __init__(self, free):
+        self.free, self.waiting, self.numbers = list(free), [], itertools.count()
+        self.changed = threading.Condition()
+
+    def take(self, rank, limit):
+        """Returns a place, or None if the limit came first."""
+        with self.changed:
+            ticket = (rank, next(self.numbers))
+            self.waiting.append(ticket)
+            while not (self.free and min(self.waiting) == ticket) and limit.left() > 0:
+                self.changed.wait(LOOK)
+            self.waiting.remove(ticket)
+            self.changed.notify_all()
+            return self.free.pop(0) if self.free and limit.left() > 0 else None
+
+    def give(self, place):
+        with self.changed:
+            self.free.append(place)
+            self.changed.notify_all()
+
+
 class SideBySide(Runner):
     """Makes parts of a book as Runner does, several at once."""
 
     def __init__(self, *arguments, cards, **more):
         super().__init__(*arguments, **more)
-        self.free = {True: queue.Queue(), False: queue.Queue()}  # whether on a device -> places
-        for on_device, found in zip((True, False), places(devices(cards), sorted(os.sched_getaffinity(0)))):
-            for place in found:
-                self.free[on_device].put(place)
-        self.workers, self.alone, self.held = 2 * cards, False, []  # held: (part, seconds) of each job's place
-        self.jobs = max(self.jobs, self.workers)
+        found = places(devices(cards), sorted(os.sched_getaffinity(0)))
+        self.free = dict(zip((True, False), map(Places, found)))  # whether on a device -> places
+        # More than places: a part whose audit waits for processors does not keep a device waiting.
+        self.workers, self.alone, self.held = 4 * cards, False, []  # held: (part, seconds) of each job's place
+        self.jobs, self.ranks = max(self.jobs, self.workers), {}
 
     @contextlib.contextmanager
     def place(self, on_device, limit):
         """Waits for a place, at most until the limit, and sets it for the commands of this thread."""
-        place, anywhere = None, on_device is None or self.alone and not on_device
-        while not (anywhere or place) and limit.left() > 0:
-            with contextlib.suppress(queue.Empty):
-                place = self.free[on_device].get(timeout=LOOK)
+        anywhere = on_device is None or self.alone and not on_device
+        place = None if anywhere else self.free[on_device].take(self.ranks.get(PART.get(), 0), limit)
         before, begun = PLACE.set(place or Place()), time.monotonic()
         try:
             yield
@@ -61,12 +82,12 @@ class SideBySide(Runner):
             PLACE.reset(before)
             self.held.append((PART.get(), time.monotonic() - begun))
             if place:
-                self.free[on_device].put(place)
+                self.free[on_device].give(place)
 
     def make_all(self, chosen, groups, ended):
         """Makes parts in their order, those of one of the `groups` (lists of names) never at once; calls
         `ended(name, end, seconds)` after each, with the time for which its jobs had their places."""
-        timed = [name for name in chosen if name.startswith(TIMED)]
+        timed, self.ranks = [name for name in chosen if name.startswith(TIMED)], dict(zip(chosen, itertools.count()))
         turn = Turn([name for name in chosen if name not in timed], groups)
 
         def work():

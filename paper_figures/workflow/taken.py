@@ -187,10 +187,11 @@ def laws(runs):
 
 def jittered(runs):
     """Yields a row for each jittered start."""
-    paths = {scene: runs.of("jittered") / "starts" / scene / "runs" / "ablation.csv" for scene in everything.JITTERED}
+    paths = {(scene, bounds): runs.of("jittered") / "starts" / bounds / scene / "runs" / "ablation.csv"
+             for scene in everything.JITTERED for bounds in ("ball", "planes")}
     runs.there(list(paths.values()), "jittered")
     table, manifests = [], []
-    for scene, path in paths.items():
+    for (scene, _), path in paths.items():
         if not path.is_file():
             continue
         made = [manifest_of(run) for run in sorted(path.parent.glob("*/run.json"))]

@@ -115,7 +115,8 @@ class Calls(Scratch):
             names = archive.getnames()
         self.assertIn("judge-smoke-cpu/judge_cpu.csv", names)
         for scene in everything.JITTERED:
-            self.assertIn(f"jittered-smoke-cpu/starts/{scene}/runs/ablation.csv", names)
+            for bounds in ("ball", "planes"):
+                self.assertIn(f"jittered-smoke-cpu/starts/{bounds}/{scene}/runs/ablation.csv", names)
         self.call("--pack", packed, "judge", "laws")
         with tarfile.open(packed / "runs_02.tar.gz") as archive:
             self.assertEqual({name.partition("/")[0] for name in archive.getnames()},

@@ -104,6 +104,25 @@ class Made(unittest.TestCase):
         for _, place, now in log.seen[2:]:
             self.assertEqual((place, len(now)), (Place(), 1))
 
+    def test_a_free_place_goes_to_the_part_that_was_named_first(self):
+        places, got = side_by_side.Places(["place"]), []
+        held = places.take(0, Limit())
+
+        def wait(rank):
+            place = places.take(rank, Limit())
+            got.append(rank)
+            places.give(place)
+
+        threads = [threading.Thread(target=wait, args=(rank,)) for rank in (2, 0, 1)]
+        for thread in threads:
+            thread.start()
+        while len(places.waiting) < 3:
+            time.sleep(0.01)
+        places.give(held)
+        for thread in threads:
+            thread.join()
+        self.assertEqual(got, [0, 1, 2])
+
     def test_a_limit_ends_the_waiting_for_a_place(self):
         log = Log()
         limit = Limit(1.5 * SECONDS)
