@@ -52,8 +52,8 @@ from pathlib import Path
 
 from paper_figures.workflow import commands, contents, packing, parts, varied
 from paper_figures.workflow.durations import RESULTS, in_words, measured_times, seconds_between
-from paper_figures.workflow.jobs import (AUDIT, CALL_AGAIN, FAILED, FINISHED, KEPT, STOPPED, Limit, RunFailure,
-                                         command_in, last_lines)
+from paper_figures.workflow.jobs import (AUDIT, CALL_AGAIN, CORES, DEVICE, FAILED, FINISHED, KEPT, STOPPED, Limit,
+                                         RunFailure, command_in, last_lines)
 from paper_figures.workflow.runner import Runner
 from paper_figures.workflow.side_by_side import SideBySide
 
@@ -95,15 +95,20 @@ class Command:
     """Runs a command as a job (jobs.py) in a folder of its own, with its standard output in said.txt there.
 
     `words` begin with PROGRAM or PYTHON; FOLDER stands for the job's folder. `kept`: patterns of the files there that
-    are packed. A command of another program, or with other words, is run again; one that was cut off is called again
-    and goes on by itself."""
+    are packed. `judged`: nearly all of its time is the reference's, whose cores it needs. A command of
+    another program, or with other words, is run again; one that was cut off is called again and goes on by itself."""
 
     name: str
     words: tuple
     kept: tuple = ()
     on_device: bool = False
+    judged: bool = False
 
     PROGRAM, PYTHON, FOLDER = "{ogc}", "{python}", "{folder}"
+
+    @property
+    def needs(self):
+        return DEVICE if self.on_device and not self.judged else CORES
 
     def digest(self):
         said = program_in(Path(os.environ["OGC_STAMP"]).read_text())
@@ -200,10 +205,10 @@ def judged(wanted):
     begin, on_device = (Command.PROGRAM, "compare", "--backend", wanted.backend), wanted.backend == "cuda"
     cases = CASES[wanted.scale]
     made = tuple(Command(f"seed_{seed}_{kind}", (*begin, *stages, "--cases", str(number), "--seed", str(seed), "--json",
-                                                 "--report", Command.FOLDER), ("report.txt",), on_device)
+                                                 "--report", Command.FOLDER), ("report.txt",), on_device, True)
                  for seed in range(1, 1 + SEEDS[wanted.scale])
                  for kind, stages, number in (("cheap", CHEAP, cases), ("dear", DEAR, cases // 10)))
-    same = Command("all", (*begin, "--determinism", "--json"), (), on_device)
+    same = Command("all", (*begin, "--determinism", "--json"), (), on_device, True)
     return {"judge": parts.Part(wanted.folder("judge"), (*((each,) for each in made), (Counts(wanted.backend, made),)),
                                 frames=0),
             "determinism": commands_of("determinism", [same], wanted)}
@@ -211,7 +216,7 @@ def judged(wanted):
 
 def laws(wanted):
     words = (Command.PROGRAM, "laws", "--backend", wanted.backend, "--json", *(["--quick"] * (wanted.scale == "smoke")))
-    return commands_of("laws", [Command("all", words, (), wanted.backend == "cuda")], wanted)
+    return commands_of("laws", [Command("all", words, (), wanted.backend == "cuda", True)], wanted)
 
 
 def ablated(name, scene, words, backend):

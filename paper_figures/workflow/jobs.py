@@ -46,6 +46,8 @@ class Place:
         return {**os.environ, "CUDA_VISIBLE_DEVICES": self.device} if self.device else None
 
 
+# What a job has for itself where several run side by side: a device, the cores of a place, or one core.
+DEVICE, CORES, CORE = "device", "cores", "core"
 PLACE = contextvars.ContextVar("place", default=Place())  # of the commands of a thread; side_by_side.py sets it
 
 
@@ -178,6 +180,13 @@ class Job:
     @property
     def on_device(self):
         return ("--backend", "cuda") in zip(self.arguments, self.arguments[1:])
+
+    @property
+    def needs(self):
+        """Returns what it has for itself. If the reference measures its residuals, which takes nearly all of its time,
+        that is one core, unless the step is repeated for its time."""
+        measured = {"--residual", "--iterations"} & set(self.arguments) and "--repeats" not in self.arguments
+        return CORES if not self.on_device else CORE if measured else DEVICE
 
     def done(self, root):
         """Returns whether the folder holds the run of this command by this program, at its end. The state with which it

@@ -3,8 +3,8 @@ and chosen rows and columns of accepted files. A document marks the place of eac
 `<!-- end -->`.
 
 results/tables.json lists the last kind by document and name: `files`; `where`, what cells of a row must be; `label`,
-the columns whose cells name a row; `rows`, the names in their order, or all; `columns`, the titles with their columns.
-Where several rows have one name, a cell prints their range.
+the columns whose cells name a row; `rows`, the names in their order, or all; `columns`, the titles with their columns;
+`given`, a column of numbers that no file has, as floors. Where several rows have one name, a cell prints their range.
 
 Usage: python3 -m paper_figures.workflow.page_tables [--write]: checks whether the tables of all documents are those of
 the files, with exit status 1 if they are not, or writes them. The standard library is enough.
@@ -21,7 +21,8 @@ from paper_figures.workflow.evidence import RESULTS, ROOM, opened
 
 LISTED = json.loads((RESULTS / "tables.json").read_text())
 README = ROOM.parent / "README.md"
-DOCUMENTS = [README, ROOM / "ablations.md", *(RESULTS / name for name in LISTED)]
+OF_RESULTS = {(RESULTS / name).resolve(): tables for name, tables in LISTED.items()}
+DOCUMENTS = [README, ROOM / "ablations.md", *OF_RESULTS]
 PLACE = re.compile(r"<!-- table (\w+) -->\n.*?<!-- end -->", re.S)
 NOTHING = ("", "nan", "inf")
 
@@ -56,15 +57,16 @@ def chosen(listed, folder):
 
 def table(listed, folder):
     """Returns the lines in Markdown of a table that tables.json lists."""
-    columns = listed["columns"]
-    lines = [f"| {listed['title']} | {' | '.join(columns)} |", "|---" * (1 + len(columns)) + "|"]
-    return lines + [f"| {name} | " + " | ".join(cell([row[column] for row in rows]) for column in columns.values())
-                    + " |" for name, rows in chosen(listed, folder).items()]
+    columns, given = listed["columns"], listed.get("given", {})
+    lines = [f"| {' | '.join([listed['title'], *given, *columns])} |", "|---" * (1 + len(given) + len(columns)) + "|"]
+    return lines + [f"| {' | '.join([name, *(numbers[name] for numbers in given.values()), *of_files])} |"
+                    for name, rows in chosen(listed, folder).items()
+                    for of_files in [[cell([row[column] for row in rows]) for column in columns.values()]]]
 
 
 def rewritten(path, text):
     """Returns the text of a document with its tables rebuilt."""
-    listed = LISTED.get(path.relative_to(RESULTS).as_posix(), {}) if path.is_relative_to(RESULTS) else {}
+    listed = OF_RESULTS.get(path.resolve(), {})
 
     def made(place):
         name = place[1]

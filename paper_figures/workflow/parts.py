@@ -12,10 +12,11 @@ from paper_figures.workflow import commands, half_turn
 # Rows of Table 1, the most wanted first: the figure drawn from the row, and the frames that are packed of it, so many
 # that the moments of the figure are among them.
 OF_SCENES = {"twist": ("", 2), "fifty_layers_1m": ("", 0), "cloth_on_sphere": ("fig18", 21),
-             "fifty_layers": ("fig10", 21), "knot": ("", 2), "dress": ("fig13", 19), "robot_shirt": ("fig14", 19),
+             "fifty_layers": ("fig10", 21), "knot": ("", 2), "dress": ("", 2), "robot_shirt": ("", 2),
              commands.MAT: ("fig19", 17)}
-DRAWN_WITH_PLANES = {"twist_planes": ("fig12", 37), "knot_planes": ("fig11", 31), commands.MAT_PLANES: ("fig19", 17)}
-ROWS = {**OF_SCENES, **{row: ("", 2) for row in commands.ROWS if row not in OF_SCENES}, **DRAWN_WITH_PLANES}
+DRAWN_OTHERWISE = {"twist_planes": ("fig12", 37), "knot_planes": ("fig11", 31), commands.MAT_PLANES: ("fig19", 17),
+                   "dress_volumes": ("fig13", 19), "robot_shirt_volumes": ("fig14", 19)}
+ROWS = {**OF_SCENES, **{row: ("", 2) for row in commands.ROWS if row not in OF_SCENES}, **DRAWN_OTHERWISE}
 # The folder in which the figure of several runs looks for the row's run; a figure of one run looks for `run`.
 SHOWN = {row: f"{bounds}/whole" for bounds, (row, _) in commands.MAT_BOUNDS.items()}
 WINDOW = {"smoke": 20, "small": 20, "paper": 10}  # steps on the CPU

@@ -45,13 +45,13 @@ class Runner:
             if state and manifest_of(root / state[0]).get("status", "").startswith("failed"):
                 continue
             wanted = job.on_device and not job.done(root)
-            with self.place(job.on_device, limit), DeviceMemory(root / f"{job.name}{MEMORY}", wanted):
+            with self.place(job, limit), DeviceMemory(root / f"{job.name}{MEMORY}", wanted):
                 ends.append(job.make(self.program, root, limit))
             if ends[-1] == STOPPED:
                 return STOPPED
         return FINISHED if FINISHED in ends else KEPT
 
-    def place(self, _on_device, _limit):
+    def place(self, _job, _limit):
         """Returns a context with a place for a job; here it is the machine."""
         return contextlib.nullcontext()
 

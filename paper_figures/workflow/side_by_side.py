@@ -1,7 +1,8 @@
 """Makes parts side by side on a machine with several devices. A job on a device has one of them for itself; all of
-these jobs together have a quarter of the processors, and as many jobs that need processors alone, as audits do, divide
-the rest. Of jobs that wait for a place, the one whose part was named first gets it. Parts that time processors come
-last, one after the other, with the machine for themselves. Python's own library is enough.
+these jobs together have a quarter of the processors, with jobs of which the reference takes nearly all of the time, a
+core each; as many jobs that need processors alone, as audits do, divide the rest. Of jobs that wait for a place, the
+one whose part was named first gets it. Parts that time processors come last, one after the other, with the machine for
+themselves. Python's own library is enough.
 """
 
 import contextlib
@@ -12,7 +13,7 @@ import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 
-from paper_figures.workflow.jobs import PLACE, Place, here
+from paper_figures.workflow.jobs import CORE, CORES, DEVICE, PLACE, Place, here
 from paper_figures.workflow.runner import Runner
 
 TIMED = ("windows_", "fig17_cpu", "fig18_solvers", "fig19_windows", "fig19_one_step", "growth_cpu", "threads")
@@ -27,12 +28,15 @@ def devices(number):
 
 
 def places(names, cores):
-    """Returns places on the devices, and places beside them. Without four processors a device nothing is pinned."""
+    """Returns what is needed -> places. Without four processors a device nothing is pinned."""
     quarter = len(cores) // 4 if len(cores) >= 4 * len(names) else 0
     each = (len(cores) - quarter) // len(names) if quarter else 0
     begins = range(quarter, quarter + each * len(names), each) if each else [0] * len(names)
-    return ([Place(name, tuple(cores[:quarter])) for name in names],
-            [Place("", tuple(cores[begin:begin + each])) for begin in begins])
+    # A job on a device keeps two processors busy: itself, and the writer of its frames.
+    beside = max(len(names), quarter - 2 * len(names))
+    return {DEVICE: [Place(name, tuple(cores[:quarter])) for name in names],
+            CORES: [Place(name, tuple(cores[begin:begin + each])) for name, begin in zip(names, begins)],
+            CORE: [Place(name, tuple(cores[:quarter])) for name in itertools.islice(itertools.cycle(names), beside)]}
 
 
 class Places:
@@ -65,16 +69,17 @@ class SideBySide(Runner):
     def __init__(self, *arguments, cards, **more):
         super().__init__(*arguments, **more)
         found = places(devices(cards), sorted(os.sched_getaffinity(0)))
-        self.free = dict(zip((True, False), map(Places, found)))  # whether on a device -> places
+        self.free = {needed: Places(free) for needed, free in found.items()}
         # More than places: a part whose audit waits for processors does not keep a device waiting.
         self.workers, self.alone, self.held = 4 * cards, False, []  # held: (part, seconds) of each job's place
         self.jobs, self.ranks = max(self.jobs, self.workers), {}
 
     @contextlib.contextmanager
-    def place(self, on_device, limit):
+    def place(self, job, limit):
         """Waits for a place, at most until the limit, and sets it for the commands of this thread."""
-        anywhere = on_device is None or self.alone and not on_device
-        place = None if anywhere else self.free[on_device].take(self.ranks.get(PART.get(), 0), limit)
+        needed = getattr(job, "needs", DEVICE if job.on_device else CORES)
+        anywhere = job.on_device is None or self.alone and needed != DEVICE
+        place = None if anywhere else self.free[needed].take(self.ranks.get(PART.get(), 0), limit)
         before, begun = PLACE.set(place or Place()), time.monotonic()
         try:
             yield
@@ -82,7 +87,7 @@ class SideBySide(Runner):
             PLACE.reset(before)
             self.held.append((PART.get(), time.monotonic() - begun))
             if place:
-                self.free[on_device].give(place)
+                self.free[needed].give(place)
 
     def make_all(self, chosen, groups, ended):
         """Makes parts in their order, those of one of the `groups` (lists of names) never at once; calls

@@ -20,7 +20,7 @@ from pathlib import Path
 
 from paper_figures.workflow import commands
 from paper_figures.workflow.evidence import contact_of, membranes_of
-from paper_figures.workflow.jobs import KEPT, Job, Limit, RunFailure, manifest_of
+from paper_figures.workflow.jobs import DEVICE, KEPT, Job, Limit, RunFailure, manifest_of
 
 TIME, STEP = "wall [ms]", "step [1]"
 ROW, STEPS = "steady.csv", "step_medians.csv.gz"  # beside the repetitions
@@ -34,7 +34,7 @@ COLUMNS = ("variant", "row", "choice", "scene", "scale", "bounds", "body_contact
 class Timed(Job):
     """Runs as a Job, but packs its manifest alone, and nothing looks at the device while it runs."""
 
-    on_device = False
+    on_device, needs = False, DEVICE
 
     def results(self, root, frames, last):
         yield from (path for path in [root / self.name / "run.json"] if self.done(root))

@@ -24,6 +24,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from paper_figures.figures.table1 import paper
 from paper_figures.workflow import accept, captions, commands, contents, everything, parts, varied
 from paper_figures.workflow import steady as repetitions
 from paper_figures.workflow.contents import COLUMNS, PROVENANCE, merge, rows_of
@@ -125,6 +126,7 @@ def windows(runs):
                       "mean step [ms]": f"{statistics.fmean(took):.4g}", "worst step [ms]": f"{max(took):.4g}",
                       "detections a step": f"{mean('discrete_detections [1]'):.4g}",
                       "contacts": f"{mean('vertex_facet_contacts [1]', 'edge_edge_contacts [1]'):.6g}",
+                      "paper, mean of a whole run [ms]": paper(commands.scene_of(row), "cpu", "average")[0],
                       "device": manifests[row, share]["device"], "commit": manifests[row, share]["commit"][:SHORT]})
     yield (f"cpu_windows_{runs.wanted.scale}.csv", as_csv(table),
            {"figure": "cpu_windows", "backend": "cpu", "redo": f"{runs.redo} windows_ROW, of each row",

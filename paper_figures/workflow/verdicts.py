@@ -11,7 +11,7 @@ Of both:
   not comparable  the claim is about another machine or another program; ours is given, and the claim that is comparable
     is named. A claim `against` another program is comparable only by the rule of ratios.py
   not yet run     no accepted run is of the kind that the claim needs; or the number lies outside of the band, and a
-    choice of ours is not varied yet (`not_varied` of the claim)
+    choice of ours is not varied yet (`not_varied` of the claim), or it is a time of one run where repeats count
 
 `python3 -m paper_figures.workflow.verdicts` prints all, `--write` keeps them in results/verdicts.csv, `--runs FOLDER`
 judges run folders instead.
@@ -40,6 +40,7 @@ UNDECIDED = ("not comparable", "not yet run")
 VERDICTS = ("reproduced", "refuted", *UNDECIDED)
 AS_SET = ("as printed", "not as printed", *UNDECIDED)
 STATES = ("smoke", "small")
+REPEATS = "It waits for quiet repeats of its run, as the longest step of one run may be the machine's."
 STUDY = "ablation_"  # begins the names of the files of our own studies' claims
 # Relative rounding of a number stored in single precision.
 SINGLE = 2.0**-24
@@ -162,7 +163,17 @@ def judge(claim, evidence):
         words = f"Our number, {measured.value:.3g}, lies outside of the band ({measured.source})."
         wait = f"It is not called refuted before this is varied: {claim['not_varied']}."
         return Judgement(claim, "not yet run", None, _said(words, *otherwise, wait))
+    if _of_one_run(claim, evidence, wanted):
+        words = f"In one run it is {measured.value:.3g}, outside of the band ({measured.source})."
+        return Judgement(claim, "not yet run", None, _said(REPEATS, words, *otherwise))
     return Judgement(claim, no, measured, _said(*note, *otherwise), bool(known))
+
+
+def _of_one_run(claim, evidence, wanted):
+    """Returns whether a claim about steadiness was measured in one run: what the machine does beside it can only make
+    the longest step longer, so that one run can show that a claim holds, and not that it does not."""
+    specs = claim["measure"]
+    return isinstance(specs, list) and specs[0].get("table") == "steady" and not evidence.measure(specs[:1], wanted)
 
 
 def sentence(text):
@@ -298,7 +309,7 @@ def unjudged(judgements):
     is not varied; and claims that name it although they are judged."""
     judged = {j.claim["scene"] for j in judgements if j.measured or "is not judged" in j.note}
     silent = [j.claim["id"] for j in judgements if j.verdict == "not yet run" and j.claim["scene"] in judged
-              and not {"waits_for", "not_varied"} & set(j.claim)]
+              and not {"waits_for", "not_varied"} & set(j.claim) and REPEATS not in j.note]
     stale = [j.claim["id"] for j in judgements if j.verdict != "not yet run"
              and {"waits_for", "not_varied"} & set(j.claim)]
     return silent, stale

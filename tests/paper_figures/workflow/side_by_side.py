@@ -17,8 +17,8 @@ from unittest import mock
 
 SOURCE = Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(SOURCE))
-from paper_figures.workflow import jobs, packing, parts, side_by_side  # noqa: E402
-from paper_figures.workflow.jobs import FINISHED, PLACE, STOPPED, Limit, Place  # noqa: E402
+from paper_figures.workflow import jobs, packing, parts, side_by_side, steady  # noqa: E402
+from paper_figures.workflow.jobs import CORE, CORES, DEVICE, FINISHED, PLACE, STOPPED, Limit, Place  # noqa: E402
 
 SECONDS = 0.05  # of a job
 
@@ -123,6 +123,13 @@ class Made(unittest.TestCase):
             thread.join()
         self.assertEqual(got, [0, 1, 2])
 
+    def test_what_the_reference_measures_holds_no_device(self):
+        run = lambda *words: jobs.Job("x", ("twist", "--backend", "cuda", *words))  # noqa: E731
+        self.assertEqual([run().needs, run("--residual").needs, run("--iterations", "--repeats", 5).needs],
+                         [DEVICE, CORE, DEVICE])
+        self.assertEqual(jobs.Job("x", ("twist", "--residual")).needs, CORES)
+        self.assertEqual(steady.Timed("x", ("twist", "--backend", "cuda")).needs, DEVICE)
+
     def test_a_limit_ends_the_waiting_for_a_place(self):
         log = Log()
         limit = Limit(1.5 * SECONDS)
@@ -132,10 +139,13 @@ class Made(unittest.TestCase):
         self.assertLess(len(log.seen), 36)
 
     def test_processors_are_shared_without_overlap_and_not_at_all_where_there_are_few(self):
-        on_device, beside = side_by_side.places(["0", "1"], list(range(9)))
-        self.assertEqual([place.cores for place in (*on_device, *beside)],
+        found = side_by_side.places(["0", "1"], list(range(9)))
+        self.assertEqual([place.cores for place in (*found[DEVICE], *found[CORES])],
                          [(0, 1), (0, 1), (2, 3, 4), (5, 6, 7)])
-        self.assertEqual([place.cores for place in sum(side_by_side.places(["0", "1"], [0, 1]), [])], [()] * 4)
+        self.assertEqual([place.device for place in found[CORE]], ["0", "1"])
+        self.assertEqual([place.cores for place in sum(side_by_side.places(["0", "1"], [0, 1]).values(), [])],
+                         [()] * 6)
+        self.assertEqual(len(side_by_side.places(["0", "1"], list(range(32)))[CORE]), 4)
         with mock.patch.dict(os.environ, {"CUDA_VISIBLE_DEVICES": "3,5,6"}):
             self.assertEqual(side_by_side.devices(2), ["3", "5"])
 
