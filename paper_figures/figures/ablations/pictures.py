@@ -121,7 +121,7 @@ def draw(study, out):
         top -= height
     title = TITLES[study]
     figure.text(0.1 / wide, 1 - 0.08 / high, title, va="top", fontsize=12, fontweight="bold")
-    figure.text(0.1 / wide, 1 - 0.36 / high, "dot: median of ten jittered starts; bar: their range; blue and shaded: "
+    figure.text(0.1 / wide, 1 - 0.36 / high, "dot: median of jittered starts; bar: their range; blue and shaded: "
                 "the first point, with which the others are compared; size: the largest at which the scene was run",
                 va="top", fontsize=8.5, color="0.25")
     scenes = ", ".join(f"{scene}, {size}" for scene, size, *_ in rows)

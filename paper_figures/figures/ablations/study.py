@@ -1,7 +1,7 @@
 """Runs one study of the method's parts (points x scenes x seeds), tabulates and draws it. Usage: python3 -m
 paper_figures.figures.ablations.study FOLDER --study NAME --ogc OGC --scale SCALE --backend BACKEND.
 
-NAME.yaml beside this file defines the study. Keys of `study`: `jitter` [m], `repeat`, `audit`, `solver` (optional; it
+NAME.yaml beside this file defines the study. Keys of `study`: `jitter` [m], `repeat` by scale, `audit`, `solver` (optional; it
 runs on the CPU) and `scenes`. Keys of a scene: `points` (as for --point of `ogc ablate`; all others are compared with
 the first; one list for each scale if they differ), `scales` (optional: the scales at which the scene is run), and by
 scale `set` (settings of all points) and `options` (further options of `ogc ablate`).
@@ -78,7 +78,7 @@ def command(study, scene, scale, backend, data=""):
     settings = [word for setting in chosen for word in ("--set", setting)]
     who = ["--solver", study["solver"]] if "solver" in study else ["--backend", backend]
     return ["ablate", scene, "--scale", scale, *who, *settings, "--audit", study["audit"], *points,
-            "--repeat", str(study["repeat"]), "--jitter", str(study["jitter"]),
+            "--repeat", str(study["repeat"][scale]), "--jitter", str(study["jitter"]),
             *map(str, body.get("options", {}).get(scale, []))]
 
 
@@ -222,7 +222,7 @@ def main():
     write_table(asked.folder / TABLE, table)
     out.with_suffix(".txt").write_text("".join(findings))
     title = yaml.safe_load((HERE / f"{asked.study}.yaml").read_text())["title"]
-    draw(metrics, study.get("panels", PANELS), f"{title} ({asked.scale}, {study['repeat']} seeds)",
+    draw(metrics, study.get("panels", PANELS), f"{title} ({asked.scale}, {study['repeat'][asked.scale]} seeds)",
          out.with_suffix(".png"))
 
 
