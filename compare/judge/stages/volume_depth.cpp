@@ -30,14 +30,50 @@ std::string print(const VolumeContact& c, const Topology& topology) {
 /// Returns the key by which contacts are sorted.
 auto key_of(const VolumeContact& c) { return std::tuple(c.point, c.inside, c.triangle, c.face); }
 
+/// Returns whether triangles around a vertex certainly pass through one another. Then the vertex has no outer side. Two
+/// triangles that share no spoke do so if their arcs on the sphere about the vertex cross: with a, b and c, d from the
+/// vertex to the ends of the arcs, (a × b) × (c × d) = c det(a, b, d) − d det(a, b, c) = b det(c, d, a) − a det(c, d, b)
+/// is, up to its sign, a positive combination of both pairs.
+bool is_folded_around(Index v, const Topology& topology, std::span<const Vec3f> positions) {
+  const auto away = [&](Index w) {
+    const Vec3f &p = positions[at(w)], &q = positions[at(v)];
+    return Vec3{double{p.x} - q.x, double{p.y} - q.y, double{p.z} - q.z};
+  };
+  const auto norm = [](const Vec3& a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); };
+  // Six products of three and five sums, each rounded to 2⁻⁵³ of at most ‖a‖₁ ‖b‖₁ ‖c‖₁.
+  const auto sign = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double value = a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
+    return std::abs(value) <= 0x1p-50 * norm(a) * norm(b) * norm(c) ? 0 : value > 0 ? 1 : -1;
+  };
+  std::vector<std::array<Index, 2>> arcs;
+  for (const Index t : topology.vertex_triangles[at(v)]) {
+    const Triangle& corner = topology.triangles[at(t)];
+    const std::size_t k = corner[0] == v ? 0 : corner[1] == v ? 1 : 2;
+    arcs.push_back({corner[(k + 1) % 3], corner[(k + 2) % 3]});
+  }
+  for (std::size_t i = 0; i < arcs.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      if (std::ranges::find_first_of(arcs[i], arcs[j]) != arcs[i].end()) continue;
+      const Vec3 a = away(arcs[i][0]), b = away(arcs[i][1]), c = away(arcs[j][0]), d = away(arcs[j][1]);
+      const int abc = sign(a, b, c), abd = sign(a, b, d), cda = sign(c, d, a), cdb = sign(c, d, b);
+      if (abc != 0 && abd == -abc && cdb == abc && cda == -abc) return true;
+    }
+  return false;
+}
+
 std::string point_name(std::size_t i) { return "point " + std::to_string(i) + ": "; }
 
 /// Compares the contacts between one point and one part with the accepted ones.
 class PartVerdict {
  public:
   PartVerdict(std::size_t point, const VolumePartTruth& truth, std::vector<VolumeContact> mine,
-              const Topology& topology, Tally& tally)
-      : point_(point), truth_(truth), mine_(std::move(mine)), topology_(topology), tally_(tally) {}
+              const Topology& topology, std::span<const Vec3f> positions, Tally& tally)
+      : point_(point),
+        truth_(truth),
+        mine_(std::move(mine)),
+        topology_(topology),
+        positions_(positions),
+        tally_(tally) {}
 
   /// Least and largest number of sheets without a way that the answer may report.
   struct Unresolved {
@@ -131,15 +167,22 @@ class PartVerdict {
       const VolumeContact& contact = truth_.touching[k].contact;
       const bool answered = std::ranges::any_of(
           mine_, [&](const VolumeContact& c) { return c.triangle == contact.triangle && c.face == contact.face; });
-      if (truth_.is_certain[k] != 0 && !answered) mismatch(print(contact, topology_) + " is missing");
+      if (truth_.is_certain[k] != 0 && !answered && !has_no_side(contact.face))
+        mismatch(print(contact, topology_) + " is missing");
       if (!truth_.inside && answered != (truth_.is_exact[k] != 0)) tally_.answered_not_exactly();
     }
     for (const VolumeContact& contact : mine_) {
       if (const VolumeAnswer* accepted = find(truth_.touching, contact))
         judge_numbers(contact, *accepted);
+      else if (has_no_side(contact.face))
+        tally_.answered_not_exactly();
       else
         mismatch(print(contact, topology_) + " is no contact");
     }
+  }
+
+  bool has_no_side(Face face) const {
+    return face.kind == FaceKind::vertex && is_folded_around(face.index, topology_, positions_);
   }
 
   void judge_numbers(const VolumeContact& c, const VolumeAnswer& exact) {
@@ -161,6 +204,7 @@ class PartVerdict {
   const VolumePartTruth& truth_;
   std::vector<VolumeContact> mine_;
   const Topology& topology_;
+  std::span<const Vec3f> positions_;
   Tally& tally_;
 };
 
@@ -237,7 +281,7 @@ void judge_volume_depth(const TestCase& test, const VolumeDepthTruth& truth, con
       std::vector<VolumeContact> mine;
       for (std::size_t k = first; k < next; ++k)
         if (part_of(out.contacts[k]) == part.component) mine.push_back(out.contacts[k]);
-      PartVerdict verdict(i, part, std::move(mine), topology, tally);
+      PartVerdict verdict(i, part, std::move(mine), topology, asked.positions, tally);
       verdict.judge();
       least += verdict.unresolved.least, most += verdict.unresolved.most;
     }
