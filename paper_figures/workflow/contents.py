@@ -1,6 +1,7 @@
 """Names what programs are made of: the content of the rooms that a result depends on, at each commit that an accepted
 file names. It is a digest of a room's files without its documents (.md), which are written after the results: `git
-ls-tree -r COMMIT -- fast | grep -v "[.]md$" | sha256sum`. Two commits of the same content made the same programs.
+ls-tree -r COMMIT -- fast | grep -v "[.]md$" | sha256sum`. Two commits of the same content made the same programs. What
+judges kernels (JUDGE) takes no part in a run: it has a digest of its own, on which what the judge says depends alone.
 
 `results/contents.csv` holds them, so that a checkout without its history knows them; the program writes it from the
 history and never by hand. A commit that the history of HEAD does not have has UNKNOWN contents. An accepted file is
@@ -26,6 +27,9 @@ from pathlib import Path
 from paper_figures.workflow.evidence import RESULTS
 
 ROOMS = ("fast", "reference", "compare", "experiments")
+JUDGE = tuple(f"compare/judge/{folder}" for folder in ("stages", "engine", "report")) + ("experiments/judge",)
+DIGESTS = (*ROOMS, "judge")
+JUDGED = ("judge", "determinism", "peers")  # begin the names of files whose numbers the judge said
 KEPT, PROVENANCE = "contents.csv", "provenance.csv"
 UNKNOWN = "unknown"
 DIGITS = 16  # of a digest
@@ -60,13 +64,17 @@ def history():
 
 
 def contents_at(commits):
-    """Returns commit -> the contents of its rooms, in the order of ROOMS; UNKNOWN for a room that it does not have."""
-    return {commit: tuple(content_of(commit, room) for room in ROOMS) for commit in commits}
+    """Returns commit -> its contents, in the order of DIGESTS; UNKNOWN for a room that it does not have."""
+    return {commit: (*(content_of(commit, [room], JUDGE) for room in ROOMS), content_of(commit, JUDGE))
+            for commit in commits}
 
 
-def content_of(commit, room):
-    listed = git("ls-tree", "-r", "--full-tree", commit, "--", room).splitlines(keepends=True)
-    text = "".join(line for line in listed if not line.endswith(DOCUMENT))
+def content_of(commit, folders, but=()):
+    """Returns the digest of the folders of a commit without documents and without the folders in `but`."""
+    listed = git("ls-tree", "-r", "--full-tree", commit, "--", *folders).splitlines(keepends=True)
+    left_out = tuple(f"{folder}/" for folder in but)
+    text = "".join(line for line in listed
+                   if not line.endswith(DOCUMENT) and not line.partition("\t")[2].startswith(left_out))
     return hashlib.sha256(text.encode()).hexdigest()[:DIGITS] if text else UNKNOWN
 
 
@@ -74,7 +82,7 @@ def of_history(commits):
     """Returns commit, as it is named -> its contents, rebuilt from the history of HEAD; UNKNOWN where that lacks it."""
     whole = {commit: next((name for name in sorted(history()) if name.startswith(commit)), None) for commit in commits}
     there = contents_at([name for name in whole.values() if name])
-    return {commit: there[name] if name else (UNKNOWN,) * len(ROOMS) for commit, name in whole.items()}
+    return {commit: there[name] if name else (UNKNOWN,) * len(DIGESTS) for commit, name in whole.items()}
 
 
 @lru_cache(maxsize=1)
@@ -135,14 +143,14 @@ def abbreviated(commits):
 
 def kept(results=RESULTS):
     """Returns commit -> its contents, as kept."""
-    return {row["commit"]: tuple(row[room] for room in ROOMS) for row in rows_of(results / KEPT)}
+    return {row["commit"]: tuple(row[name] for name in DIGESTS) for row in rows_of(results / KEPT)}
 
 
 def as_table(by_commit):
     """Returns the text of contents.csv."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(["commit", *ROOMS])
+    writer.writerow(["commit", *DIGESTS])
     writer.writerows([commit, *by_commit[commit]] for commit in sorted(by_commit))
     return out.getvalue()
 
@@ -154,14 +162,18 @@ def rebuilt(results=RESULTS):
 
 def contents_of(commit, known):
     """Returns the contents of a commit by any of its names; UNKNOWN if nothing is known of it."""
-    return next((each for name, each in known.items() if name.startswith(commit)), (UNKNOWN,) * len(ROOMS))
+    return next((each for name, each in known.items() if name.startswith(commit)), (UNKNOWN,) * len(DIGESTS))
 
 
 def old(results=RESULTS, head=None):
     """Returns the files that are old, sorted. `head`: the contents of HEAD."""
     known, head = kept(results), head or of_head()
-    is_new = lambda commits: commits and all(contents_of(commit, known) == head for commit in commits)  # noqa: E731
-    return sorted(name for name, commits in named(results).items() if not is_new(commits))
+
+    def is_new(name, commits):
+        count = len(DIGESTS) if name.partition("/")[2].startswith(JUDGED) else len(ROOMS)
+        return commits and all(contents_of(commit, known)[:count] == head[:count] for commit in commits)
+
+    return sorted(name for name, commits in named(results).items() if not is_new(name, commits))
 
 
 def mixed(results=RESULTS):

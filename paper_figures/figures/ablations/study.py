@@ -1,8 +1,8 @@
 """Runs one study of the method's parts (points x scenes x seeds), tabulates and draws it. Usage: python3 -m
 paper_figures.figures.ablations.study FOLDER --study NAME --ogc OGC --scale SCALE --backend BACKEND.
 
-NAME.yaml beside this file defines the study. Keys of `study`: `jitter` [m], `repeat` by scale, `audit`, `solver` (optional; it
-runs on the CPU) and `scenes`. Keys of a scene: `points` (as for --point of `ogc ablate`; all others are compared with
+NAME.yaml beside this file defines the study. Keys of `study`: `jitter` [m], `repeat` by scale, `audit`, `solver`
+(optional; it runs on the CPU) and `scenes`. Keys of a scene: `points` (as for --point of `ogc ablate`; all others are compared with
 the first; one list for each scale if they differ), `scales` (optional: the scales at which the scene is run), and by
 scale `set` (settings of all points) and `options` (further options of `ogc ablate`).
 

@@ -400,8 +400,9 @@ class Notes(unittest.TestCase):
         with (RESULTS / "h200/cpu_windows_paper.csv").open(newline="") as file:
             rows = [row for row in csv.DictReader(file) if row["row"] == "knot"]
         worst = max(float(row["worst step [ms]"]) for row in rows)
-        self.assertRegex(notes["knot.cpu_average"], f"^It waits for a whole run on 16 CPU threads. In windows of "
-                                                    f"{rows[0]['steps']} steps from {len(rows)} .* and {worst:.3g} ms at most")
+        self.assertRegex(notes["knot.cpu_average"],
+                         f"^It waits for a whole run on 16 CPU threads. In windows of {rows[0]['steps']} steps from "
+                         f"{len(rows)} .* and {worst:.3g} ms at most")
 
 
 class Runs(unittest.TestCase):

@@ -9,6 +9,7 @@ import csv
 import hashlib
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -27,7 +28,7 @@ LOST = {"819c918599316043b68ffe7564c5f48ea034e12b", "a038bacd6236537c071fa50626c
         "b645cd2acbde930863b4a6e7ca1f14883f21340c"}
 ABOUT_ITSELF = {"README.md", contents.PROVENANCE, "durations.csv", "captions.csv"}
 A, B = "a" * 40, "b" * 40
-TREES = {A: ("1", "2", "3", "4"), B: ("1", "2", "3", "5")}
+TREES = {A: ("1", "2", "3", "4", "6"), B: ("1", "2", "3", "5", "6")}
 HEAD = TREES[A]
 
 
@@ -162,6 +163,16 @@ class Keeping(Scratch):
             self.keep("nothing.csv")
 
 
+class Judge(unittest.TestCase):
+    def test_no_run_uses_what_judges_kernels(self):
+        used = re.compile(rf'#include "({"|".join(contents.JUDGE)})/')
+        runs = [path for folder in ("fast", "reference", "compare", "experiments/scenes", "experiments/program/runs",
+                                    "experiments/program/audits") for path in (SOURCE / folder).rglob("*.[ch]*")
+                if not path.relative_to(SOURCE).as_posix().startswith("compare/judge/")]
+        self.assertGreater(len(runs), 300)
+        self.assertEqual([path.name for path in runs if used.search(path.read_text())], [])
+
+
 class OfHistory(unittest.TestCase):
     """A repository of two commits, which differ in one room."""
 
@@ -205,8 +216,8 @@ class OfHistory(unittest.TestCase):
             for room, digest in zip(contents.ROOMS, found[name]):
                 listed = self.git("ls-tree", "-r", commit, "--", room) + "\n"
                 self.assertEqual(digest, hashlib.sha256(listed.encode()).hexdigest()[:contents.DIGITS])
-        self.assertEqual([a == b for a, b in zip(found[one[:10]], found[two])], [False, True, True, True])
-        self.assertEqual(found["c" * 40], (contents.UNKNOWN,) * 4)
+        self.assertEqual([a == b for a, b in zip(found[one[:10]], found[two])], [False, True, True, True, True])
+        self.assertEqual(found["c" * 40], (contents.UNKNOWN,) * 5)
         self.assertEqual(contents.of_head(), found[two])
 
     def test_a_document_changes_no_content_and_a_file_that_is_named_like_one_does(self):
@@ -217,9 +228,27 @@ class OfHistory(unittest.TestCase):
             found = contents.of_history([before, after])
             self.assertEqual(found[before] == found[after], same)
 
+    def test_what_judges_kernels_has_a_digest_of_its_own_on_which_the_judge_s_tables_alone_depend(self):
+        place = self.folder / contents.JUDGE[0] / "f"
+        place.parent.mkdir(parents=True)
+        place.write_text("judge")
+        after = self.commit("judge")
+        found = contents.of_history([self.commits[1], after])
+        before, now = found[self.commits[1]], found[after]
+        self.assertEqual(before[:4], now[:4])
+        self.assertNotEqual(before[4], now[4])
+        machine = self.results / "m"
+        machine.mkdir()
+        with (machine / contents.PROVENANCE).open("w") as file:
+            file.write(f"file,commit\njudge_cpu.csv,{self.commits[1]}\nrows.csv,{self.commits[1]}\n")
+        for name in ("judge_cpu.csv", "rows.csv"):
+            (machine / name).write_text("a\n1\n")
+        contents.write(self.results)
+        self.assertEqual(contents.old(self.results, now), ["m/judge_cpu.csv"])
+
     def test_a_commit_that_no_history_reaches_is_unknown_though_its_object_is_there(self):
         self.git("reset", "-q", "--hard", self.commits[0])
-        self.assertEqual(contents.of_history([self.commits[1]])[self.commits[1]], (contents.UNKNOWN,) * 4)
+        self.assertEqual(contents.of_history([self.commits[1]])[self.commits[1]], (contents.UNKNOWN,) * 5)
 
     def test_a_clone_without_history_says_so(self):
         shallow = self.folder.parent / "shallow"
@@ -228,7 +257,7 @@ class OfHistory(unittest.TestCase):
         with mock.patch.object(contents, "RESULTS", shallow / "paper_figures/results"):
             with self.assertRaisesRegex(contents.ContentsError, "without its history"):
                 contents.of_history([self.commits[0]])
-            self.assertEqual(len(contents.of_head()), 4)
+            self.assertEqual(len(contents.of_head()), 5)
 
 
 if __name__ == "__main__":
