@@ -206,12 +206,19 @@ def main(folder, ogc, scale="small", backends=("cpu",), single_only=False, start
 
 
 def drawn_as_made(arguments):
-    """Draws the runs that are there, without a table, and returns the picture's path."""
+    """Draws and tabulates the runs that are there, and returns the picture's path. The table says which curves of the
+    figure have no run, if the run of the steps before is there."""
     folder, backends = Path(arguments.folder), list(dict.fromkeys(arguments.backend or ["cpu"]))
     newton = list(kept_newton(*arguments.newton)) if arguments.newton else []
     beside = made(arguments.beside, ["cpu"], "small") if arguments.beside else []
-    draw(made(folder, backends, arguments.scale), newton, [], STEPS[arguments.scale], arguments.scale,
-         folder / "fig17.png", beside)
+    runs = made(folder, backends, arguments.scale)
+    if runs and (folder / "start/run.json").is_file():
+        rows = [{**summary(label, run, Run(folder / "start")), "status": run.status} for label, run in runs]
+        there = {label for label, _ in runs}
+        single, double = commands.three_cloths(arguments.scale, backends)
+        lacking = [label for job in (*single[1:], *double) if (label := label_of(job.name)) not in there]
+        write_table(folder / "fig17.csv", [*rows, *(not_run("curve", label, rows[0]) for label in lacking)])
+    draw(runs, newton, [], STEPS[arguments.scale], arguments.scale, folder / "fig17.png", beside)
     return folder / "fig17.png"
 
 

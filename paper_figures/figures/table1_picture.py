@@ -115,9 +115,9 @@ def draw(out):
               sum(colours[i] != "white" for _, colours in rows for i in (4, 5))]
     summary = f"On the GPU {counts[0]} of our {counts[1]} cells are at most the paper's time."
     wide, places = sum(WIDTHS), [sum(WIDTHS[:i]) for i in range(len(WIDTHS))]
-    notes = ("paper: RTX 4090 and Ryzen 7950X; ours: H200, and 16 threads of its host; H100: T-shirt and yarn stretch "
-             "with balls, yarn twist. Blue: at most the paper's mean;\nsand: slower, up to 2, up to 4 times, and more. "
-             "* mean and longest of windows from five states of a whole run. Of “50 layers” the paper prints one pair\n"
+    notes = ("paper: RTX 4090 and Ryzen 7950X; ours: H200 (H100: yarn twist with planes), and 16 threads of its "
+             "host. Blue: at most the paper's mean;\nsand: slower, up to 2, up to 4 times, and more. "
+             "* mean and longest of windows from states of a whole run. Of “50 layers” the paper prints one pair\n"
              "of times for both sizes; at 1M vertices balls have the membrane of an earlier default. “Cloth on body”: "
              "ours is a stand-in for the dress, with the body as a volume.")
     with plt.rc_context({"figure.constrained_layout.use": False}):
