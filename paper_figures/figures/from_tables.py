@@ -8,7 +8,6 @@ import csv
 import sys
 from pathlib import Path
 
-from paper_figures.figures import minimiser
 from paper_figures.figures.measured import activation_load, falling, growth, quality, yarn_rest, yarn_return
 from paper_figures.workflow.evidence import RESULTS
 
@@ -17,13 +16,9 @@ def quality_at_paper(rows, out):
     quality.draw(rows, "paper", out)
 
 
-def minimiser_at(scale):
-    return lambda rows, out: minimiser.draw(numbers(rows), scale, out)
-
-
 def numbers(rows):
-    """Returns rows whose cells that are numbers are numbers."""
-    return [{name: number(cell) for name, cell in row.items()} for row in rows]
+    """Returns rows whose cells that are numbers are numbers; a commit is none, even if all its digits are decimal."""
+    return [{name: cell if name == "commit" else number(cell) for name, cell in row.items()} for row in rows]
 
 
 def number(cell):
@@ -39,8 +34,7 @@ DRAWN = {  # machine/picture -> what draws the rows of the table of this name
     "h200/activation_load_small": activation_load.draw,
     "h200/growth_paper": lambda rows, out: growth.draw(numbers(rows), out),
     "two_cores/growth_paper": lambda rows, out: growth.draw(numbers(rows), out),
-    "h200/minimiser_paper": minimiser_at("paper"), "h200/minimiser_small": minimiser_at("small"),
-    "two_cores/minimiser_small": minimiser_at("small"), "two_cores/falling": falling.draw,
+    "two_cores/falling": falling.draw,
 }
 
 

@@ -32,8 +32,8 @@ auto key_of(const VolumeContact& c) { return std::tuple(c.point, c.inside, c.tri
 
 /// Returns whether triangles around a vertex certainly pass through one another. Then the vertex has no outer side. Two
 /// triangles that share no spoke do so if their arcs on the sphere about the vertex cross: with a, b and c, d from the
-/// vertex to the ends of the arcs, (a × b) × (c × d) = c det(a, b, d) − d det(a, b, c) = b det(c, d, a) − a det(c, d, b)
-/// is, up to its sign, a positive combination of both pairs.
+/// vertex to the ends of the arcs, (a × b) × (c × d) = c det(a, b, d) − d det(a, b, c) =
+/// b det(c, d, a) − a det(c, d, b) is, up to its sign, a positive combination of both pairs.
 bool is_folded_around(Index v, const Topology& topology, std::span<const Vec3f> positions) {
   const auto away = [&](Index w) {
     const Vec3f &p = positions[at(w)], &q = positions[at(v)];

@@ -2,9 +2,9 @@
 paper_figures.figures.ablations.study FOLDER --study NAME --ogc OGC --scale SCALE --backend BACKEND.
 
 NAME.yaml beside this file defines the study. Keys of `study`: `jitter` [m], `repeat` by scale, `audit`, `solver`
-(optional; it runs on the CPU) and `scenes`. Keys of a scene: `points` (as for --point of `ogc ablate`; all others are compared with
-the first; one list for each scale if they differ), `scales` (optional: the scales at which the scene is run), and by
-scale `set` (settings of all points) and `options` (further options of `ogc ablate`).
+(optional; it runs on the CPU) and `scenes`. Keys of a scene: `points` (as for --point of `ogc ablate`; all others are
+compared with the first; one list for each scale if they differ), `scales` (optional: the scales at which the scene is
+run), and by scale `set` (settings of all points) and `options` (further options of `ogc ablate`).
 
 FOLDER then holds a folder of `ogc ablate` for each scene, ablations.csv (a row for each scene, metric and point),
 NAME.txt (findings), NAME.png and NAME.pdf. An interrupted study continues with the interrupted run if it is called

@@ -56,9 +56,9 @@ class FromTables(unittest.TestCase):
 
     def test_all_can_be_drawn(self):
         with tempfile.TemporaryDirectory() as folder, mock.patch("builtins.print"):
-            from_tables.main(folder, ["h200/fig16_rest_small", "two_cores/minimiser_small"])
+            from_tables.main(folder, ["h200/fig16_rest_small", "two_cores/falling"])
             self.assertEqual({path.name for path in Path(folder).rglob("*.png")},
-                             {"fig16_rest_small.png", "minimiser_small.png"})
+                             {"fig16_rest_small.png", "falling.png"})
         for name, draw in from_tables.DRAWN.items():
             figure, title = drawn(draw, rows_of(name))
             self.assertTrue(title and any(axes.has_data() for axes in figure.axes), name)
@@ -68,8 +68,8 @@ class FromTables(unittest.TestCase):
             from_tables.main("unused", ["h200/none"])
 
     def test_numbers_become_numbers_and_words_stay(self):
-        row, = from_tables.numbers([{"a": "12", "b": "1.5e-3", "c": "cuda", "d": ""}])
-        self.assertEqual(row, {"a": 12, "b": 1.5e-3, "c": "cuda", "d": ""})
+        row, = from_tables.numbers([{"a": "12", "b": "1.5e-3", "c": "cuda", "d": "", "commit": "0123"}])
+        self.assertEqual(row, {"a": 12, "b": 1.5e-3, "c": "cuda", "d": "", "commit": "0123"})
 
     def test_a_return_counts_variants_within_a_row_and_names_each(self):
         rows = [row for row in rows_of("h200/yarn_return_paper") if row["turns [1]"] != "0"]
