@@ -1,7 +1,8 @@
 """Names what programs are made of: the content of the rooms that a result depends on, at each commit that an accepted
 file names. It is a digest of a room's files without its documents (.md), which are written after the results: `git
 ls-tree -r COMMIT -- fast | grep -v "[.]md$" | sha256sum`. Two commits of the same content made the same programs. What
-judges kernels (JUDGE) takes no part in a run: it has a digest of its own, on which what the judge says depends alone.
+judges kernels or runs other programs (JUDGE) takes no part in our runs: it has a digest of its own, on which what it
+says depends alone.
 
 `results/contents.csv` holds them, so that a checkout without its history knows them; the program writes it from the
 history and never by hand. A commit that the history of HEAD does not have has UNKNOWN contents. An accepted file is
@@ -27,7 +28,8 @@ from pathlib import Path
 from paper_figures.workflow.evidence import RESULTS
 
 ROOMS = ("fast", "reference", "compare", "experiments")
-JUDGE = tuple(f"compare/judge/{folder}" for folder in ("stages", "engine", "report")) + ("experiments/judge",)
+JUDGE = (*(f"compare/judge/{folder}" for folder in ("stages", "engine", "report")), "experiments/judge",
+         "experiments/peers")
 DIGESTS = (*ROOMS, "judge")
 JUDGED = ("judge", "determinism", "peers")  # begin the names of files whose numbers the judge said
 KEPT, PROVENANCE = "contents.csv", "provenance.csv"
