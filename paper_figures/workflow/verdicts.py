@@ -71,7 +71,8 @@ def load(folder=CLAIMS):
             if common["kind"] == RESULT and "measure" in claim:
                 own = claim.get("choices", [])
                 said = {choice["says"] for choice in own}
-                common["choices"] = [*own, *(each for each in document.get("choices", []) if each["says"] not in said)]
+                of_all = [] if "against" in claim else document.get("choices", [])  # another program has its own cloth
+                common["choices"] = [*own, *(each for each in of_all if each["says"] not in said)]
             result.append({**claim, **common, "band_set": claim.get("band_set", document["bands_set"])})
     twice = {claim["id"] for claim in result if sum(other["id"] == claim["id"] for other in result) > 1}
     named = {claim["instead"] for claim in result if "instead" in claim}

@@ -584,7 +584,7 @@ class OneSceneOfTwoFigures(unittest.TestCase):
         """Of the accepted results: threads stand beside each ratio of solvers."""
         judged = [j for j in verdicts.judge_all() if j.measured]
         found = {j.claim["id"]: j.note for j in judged if j.claim["id"].startswith("cloth_on_sphere.ipc_over")}
-        self.assertEqual(len(found), 2)
+        self.assertEqual(len(found), 1)  # the other is held against C-IPC itself
         for note in found.values():
             self.assertRegex(note, r" Both ran on \d+ threads\.")
 
