@@ -589,7 +589,7 @@ class OneSceneOfTwoFigures(unittest.TestCase):
             self.assertRegex(note, r" Both ran on \d+ threads\.")
 
     def test_a_ratio_is_of_the_same_materials(self):
-        cpu = {"backend": "cpu", "device": "8 threads"}
+        cpu = {"backend": "cpu", "device": "16 threads"}
         self.make("1_ipc", "stable_neo_hookean", 6, solver="ipc", **cpu)
         self.make("2_fig18", "stable_neo_hookean", 2, **cpu)
         self.make("3_table", "st_venant_kirchhoff", 1, **cpu)
