@@ -99,8 +99,9 @@ class Command:
     """Runs a command as a job (jobs.py) in a folder of its own, with its standard output in said.txt there.
 
     `words` begin with PROGRAM or PYTHON; FOLDER stands for the job's folder. `kept`: patterns of the files there that
-    are packed. `judged`: nearly all of its time is the reference's, whose cores it needs. A command of
-    another program, or with other words, is run again; one that was cut off is called again and goes on by itself."""
+    are packed. `judged`: it says whether answers are right, and no time, so that it needs cores and no device for
+    itself. A command of another program, or with other words, is run again; one that was cut off is called again and
+    goes on by itself."""
 
     name: str
     words: tuple

@@ -22,8 +22,8 @@ STIFFNESS = 100  # k_c [N/m]
 AS_STIFF = 0.1737
 RINGS = 2.9  # reach of what is left out at r = one edge: two rings of neighbours [edges]
 FEW = 3  # steps in which a cloth is torn; each takes seconds on a CPU
-# Seconds after which a run is stopped. LONGEST: runs of 1,200 steps that take long, IPC's and that with its set.
-# SHORTER: runs of which a few steps tell enough.
+# A run is stopped after so many seconds. LONGEST is for runs of 1,200 steps, by IPC or with its contact set; SHORTER is
+# for runs of which a few steps tell enough.
 LONGEST, SHORTER = {"smoke": 20, "small": 1800}, {"smoke": 20, "small": 600}
 # What could tear OGC's cloth at ten edges, one choice at a time: folder -> setting.
 VARIANTS = {"printed": "", "stiffness_10": "contact_stiffness=10", "stiffness_1": "contact_stiffness=1",

@@ -46,7 +46,7 @@ class Place:
         return {**os.environ, "CUDA_VISIBLE_DEVICES": self.device} if self.device else None
 
 
-# What a job has for itself where several run side by side: a device, the cores of a place, or one core.
+# Where jobs run side by side, each has one of these for itself: a device, the cores of a place, or one core.
 DEVICE, CORES, CORE = "device", "cores", "core"
 PLACE = contextvars.ContextVar("place", default=Place())  # of the commands of a thread; side_by_side.py sets it
 

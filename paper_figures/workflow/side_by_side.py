@@ -32,7 +32,7 @@ def places(names, cores):
     quarter = len(cores) // 4 if len(cores) >= 4 * len(names) else 0
     each = (len(cores) - quarter) // len(names) if quarter else 0
     begins = range(quarter, quarter + each * len(names), each) if each else [0] * len(names)
-    # A job on a device keeps two processors busy: itself, and the writer of its frames.
+    # A job on a device keeps two processors busy, as it writes its frames beside its steps.
     beside = max(len(names), quarter - 2 * len(names))
     return {DEVICE: [Place(name, tuple(cores[:quarter])) for name in names],
             CORES: [Place(name, tuple(cores[begin:begin + each])) for name, begin in zip(names, begins)],
@@ -70,7 +70,7 @@ class SideBySide(Runner):
         super().__init__(*arguments, **more)
         found = places(devices(cards), sorted(os.sched_getaffinity(0)))
         self.free = {needed: Places(free) for needed, free in found.items()}
-        # More than places: a part whose audit waits for processors does not keep a device waiting.
+        # There are more workers than places, so that a part whose audit waits for processors keeps no device waiting.
         self.workers, self.alone, self.held = 4 * cards, False, []  # held: (part, seconds) of each job's place
         self.jobs, self.ranks = max(self.jobs, self.workers), {}
 

@@ -361,7 +361,7 @@ class StepVerdict {
     if (has_half_spaces && !is_free && policy().slides) return;
     const double share = length > bound ? bound / length : 1;
     const double error = off_way(v, x, m, has_half_spaces && !is_free ? 0 : share, share);
-    // At the origin, without any motion, both are 0.
+    // For a vertex at the origin that does not move, the error and what is accepted are both 0.
     tally_.error(3, error > 0 ? error / accepted : 0, [&] {
       return where(i) + vertex(v) +
              text(", which touches, is %.4g m from where contacts let it go, %.4g accepted", error, accepted);

@@ -31,16 +31,18 @@ std::string print(const VolumeContact& c, const Topology& topology) {
 auto key_of(const VolumeContact& c) { return std::tuple(c.point, c.inside, c.triangle, c.face); }
 
 /// Returns whether triangles around a vertex certainly pass through one another. Then the vertex has no outer side. Two
-/// triangles that share no spoke do so if their arcs on the sphere about the vertex cross: with a, b and c, d from the
-/// vertex to the ends of the arcs, (a × b) × (c × d) = c det(a, b, d) − d det(a, b, c) =
-/// b det(c, d, a) − a det(c, d, b) is, up to its sign, a positive combination of both pairs.
+/// triangles that share no edge do so if their arcs cross on a sphere about the vertex. Let a and b be the vectors from
+/// the vertex to the ends of one arc, c and d those of the other. The planes of the arcs meet along
+/// (a × b) × (c × d) = c det(a, b, d) − d det(a, b, c) = b det(c, d, a) − a det(c, d, b). The arcs cross if this
+/// vector, or its negative, lies between a and b and between c and d: the signs of the determinants decide it.
 bool is_folded_around(Index v, const Topology& topology, std::span<const Vec3f> positions) {
   const auto away = [&](Index w) {
     const Vec3f &p = positions[at(w)], &q = positions[at(v)];
     return Vec3{double{p.x} - q.x, double{p.y} - q.y, double{p.z} - q.z};
   };
   const auto norm = [](const Vec3& a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); };
-  // Six products of three and five sums, each rounded to 2⁻⁵³ of at most ‖a‖₁ ‖b‖₁ ‖c‖₁.
+  // Each of the six products is rounded at most five times, and each of its three factors once, to 2⁻⁵³ of its size.
+  // The sizes add up to at most ‖a‖₁ ‖b‖₁ ‖c‖₁, so that the error is at most 8 · 2⁻⁵³ of it.
   const auto sign = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
     const double value = a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
     return std::abs(value) <= 0x1p-50 * norm(a) * norm(b) * norm(c) ? 0 : value > 0 ? 1 : -1;
@@ -67,12 +69,12 @@ std::string point_name(std::size_t i) { return "point " + std::to_string(i) + ":
 class PartVerdict {
  public:
   PartVerdict(std::size_t point, const VolumePartTruth& truth, std::vector<VolumeContact> mine,
-              const Topology& topology, std::span<const Vec3f> positions, Tally& tally)
+              const VolumeDepthCase& asked, Tally& tally)
       : point_(point),
         truth_(truth),
         mine_(std::move(mine)),
-        topology_(topology),
-        positions_(positions),
+        asked_(asked),
+        topology_(*asked.topology),
         tally_(tally) {}
 
   /// Least and largest number of sheets without a way that the answer may report.
@@ -175,14 +177,34 @@ class PartVerdict {
       if (const VolumeAnswer* accepted = find(truth_.touching, contact))
         judge_numbers(contact, *accepted);
       else if (has_no_side(contact.face))
-        tally_.answered_not_exactly();
+        judge_at_fold(contact);
       else
         mismatch(print(contact, topology_) + " is no contact");
     }
   }
 
   bool has_no_side(Face face) const {
-    return face.kind == FaceKind::vertex && is_folded_around(face.index, topology_, positions_);
+    return face.kind == FaceKind::vertex && is_folded_around(face.index, topology_, asked_.positions);
+  }
+
+  /// Judges a contact at a vertex without an outer side. It may be there or not, but its numbers are the vertex's.
+  void judge_at_fold(const VolumeContact& c) {
+    tally_.answered_not_exactly();
+    const Vec3f &x = asked_.points[point_], &v = asked_.positions[at(c.face.index)];
+    const Vec3 away{double{x.x} - v.x, double{x.y} - v.y, double{x.z} - v.z};
+    const double d = std::hypot(away.x, away.y, away.z), r = asked_.contact_radius;
+    // The distance is rounded a few times to 2⁻⁵³ of itself.
+    if (d > r * (1 + 0x1p-50)) return mismatch(print(c, topology_) + " is not nearer than r");
+    if (c.triangle != topology_.vertex_triangles[at(c.face.index)].front())
+      return mismatch(print(c, topology_) + " does not name the lowest-numbered triangle");
+    const Triangle& corners = topology_.triangles[at(c.triangle)];
+    VolumeAnswer exact;
+    exact.depth = r - d, exact.depth_scale = d + r;
+    for (std::size_t k = 0; k < 3; ++k) exact.weights[k] = corners[k] == c.face.index ? 1 : 0;
+    exact.weight_scale = 1;
+    if (d > 0) exact.direction = {away.x / d, away.y / d, away.z / d};
+    exact.direction_scale = d > 0 ? 1 : std::numeric_limits<double>::infinity();
+    judge_numbers(c, exact);
   }
 
   void judge_numbers(const VolumeContact& c, const VolumeAnswer& exact) {
@@ -203,8 +225,8 @@ class PartVerdict {
   std::size_t point_;
   const VolumePartTruth& truth_;
   std::vector<VolumeContact> mine_;
+  const VolumeDepthCase& asked_;
   const Topology& topology_;
-  std::span<const Vec3f> positions_;
   Tally& tally_;
 };
 
@@ -281,7 +303,7 @@ void judge_volume_depth(const TestCase& test, const VolumeDepthTruth& truth, con
       std::vector<VolumeContact> mine;
       for (std::size_t k = first; k < next; ++k)
         if (part_of(out.contacts[k]) == part.component) mine.push_back(out.contacts[k]);
-      PartVerdict verdict(i, part, std::move(mine), topology, asked.positions, tally);
+      PartVerdict verdict(i, part, std::move(mine), asked, tally);
       verdict.judge();
       least += verdict.unresolved.least, most += verdict.unresolved.most;
     }
