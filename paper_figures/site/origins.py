@@ -3,7 +3,6 @@ and durations beside them, and from the manifests of runs."""
 
 import csv
 import math
-import re
 from dataclasses import dataclass, replace
 
 from paper_figures.workflow import contents
@@ -85,6 +84,7 @@ class Origins:
                 replace(each, hardware=measured.device, commit=each.commit or measured.commit) for each in found]
 
     def title_of_machine(self, machine):
-        """Returns the machine in words: the title of the README of its results."""
-        found = re.match(r"# [^:\n]*: (.*)", (self.folder / machine / "README.md").read_text(encoding="utf-8"))
-        return found[1]
+        """Returns the machine in words: the title of the README of its results. What was tried is of no machine, and
+        has the whole title."""
+        title = (self.folder / machine / "README.md").read_text(encoding="utf-8").partition("\n")[0]
+        return title.removeprefix("# ").rpartition(": ")[2]

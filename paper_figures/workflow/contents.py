@@ -6,7 +6,8 @@ says depends alone.
 
 `results/contents.csv` holds them, so that a checkout without its history knows them; the program writes it from the
 history and never by hand. A commit that the history of HEAD does not have has UNKNOWN contents. An accepted file is
-*old* if a commit that it names has other contents than HEAD's, or unknown ones, or if it names none.
+*old* if a commit that it names has other contents than HEAD's, or unknown ones, or if it names none. Tables about what
+was tried (TRIED) are about the prototypes and former programs that they name, so that they do not grow old.
 
 Usage: python3 -m paper_figures.workflow.contents: prints how many files are old; `--list` names them; `--write` keeps
 results/contents.csv. `--keep MACHINE/FILE --redo COMMAND` keeps the row of provenance.csv about a table that no figure
@@ -33,6 +34,7 @@ JUDGE = (*(f"compare/judge/{folder}" for folder in ("stages", "engine", "report"
 DIGESTS = (*ROOMS, "judge")
 JUDGED = ("judge", "determinism", "peers")  # begin the names of files whose numbers the judge said
 KEPT, PROVENANCE = "contents.csv", "provenance.csv"
+TRIED = "tried"  # folder below the results
 UNKNOWN = "unknown"
 DIGITS = 16  # of a digest
 DOCUMENT = ".md\n"  # ends the line about a document
@@ -175,20 +177,25 @@ def old(results=RESULTS, head=None):
         count = len(DIGESTS) if name.partition("/")[2].startswith(JUDGED) else len(ROOMS)
         return commits and all(contents_of(commit, known)[:count] == head[:count] for commit in commits)
 
-    return sorted(name for name, commits in named(results).items() if not is_new(name, commits))
+    return sorted(name for name, commits in in_use(results).items() if not is_new(name, commits))
+
+
+def in_use(results=RESULTS):
+    """Returns what `named` does, without tables about what was tried."""
+    return {name: commits for name, commits in named(results).items() if not name.startswith(f"{TRIED}/")}
 
 
 def mixed(results=RESULTS):
     """Returns the files of programs of different content, sorted."""
     known = kept(results)
-    return sorted(name for name, commits in named(results).items()
+    return sorted(name for name, commits in in_use(results).items()
                   if len({contents_of(commit, known) if UNKNOWN not in contents_of(commit, known) else commit
                           for commit in commits}) > 1)
 
 
 def in_words(results=RESULTS, head=None):
     """Returns how many files are old, as a sentence."""
-    there, stale = len(named(results)), len(old(results, head))
+    there, stale = len(in_use(results)), len(old(results, head))
     return f"{stale} of {there} accepted files are of other sources than this commit's."
 
 

@@ -7,7 +7,7 @@ drawings and the other measured studies. Left out are other people's programs (e
 fuzz, which need builds of their own, and tables about rejected ideas.
 
 What is finished is kept, what the limit cut off goes on at the next call, which is due as long as the exit status is
-75. After each part its tables, manifests and some frames are packed into archives of at most 16 MiB (--pack). On
+75. As runs end, tables, manifests and some frames are packed into archives of at most 16 MiB (--pack). On
 another machine, or at home, --unpack brings them back: what is in them is not made again, but a run that begins with a
 state that was not packed is refused there. Everything is of one program: runs of another one in the folder are made
 again, its archives are refused, and so is a program with uncommitted changes, or whose sources are not those of the
@@ -51,9 +51,10 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from paper_figures.workflow import commands, contents, packing, parts, varied
+from paper_figures.workflow.audited import Audit
 from paper_figures.workflow.durations import RESULTS, in_words, measured_times, seconds_between
 from paper_figures.workflow.jobs import (AUDIT, CALL_AGAIN, CORES, DEVICE, FAILED, FINISHED, KEPT, STOPPED, Limit,
-                                         RunFailure, command_in, last_lines)
+                                         RunFailure, Step, command_in, last_lines)
 from paper_figures.workflow.runner import Runner
 from paper_figures.workflow.side_by_side import SideBySide
 
@@ -370,14 +371,31 @@ def stamp(out, said):
     os.environ["OGC_STAMP"] = str(path)
 
 
-def half_made(chosen, times):
-    """Returns the folders of runs whose states other jobs of their part still need: a packed run has few states, and is
-    made again."""
+def half_made(chosen, times, packed):
+    """Returns the folders of packed runs whose states jobs of their part still need and which were not packed: these
+    runs are made again. `packed`: member -> its archive."""
     for name, part in chosen.items():
-        if times.get(name, {}).get("end") not in (FINISHED, KEPT):
-            needed = {state[0] for job in part.jobs if (state := getattr(job, "state", ()))}
-            needed |= {job.of for job in part.jobs if hasattr(job, "of")}
-            yield from (f"{part.folder}/{run}/" for run in needed)
+        again = set()
+        # A run begins with the states of one before it in its chain.
+        for job in reversed(part.jobs) if times.get(name, {}).get("end") not in (FINISHED, KEPT) else ():
+            again.add(lacking(job, part, packed, getattr(job, "name", "") in again))
+        yield from (f"{part.folder}/{run}/" for run in sorted(again - {""}))
+
+
+def lacking(job, part, packed, again):
+    """Returns the run of which a job needs states that were not packed, or "". `again`: the job is made again."""
+    if hasattr(job, "of"):
+        audit = f"{part.folder}/{job.of}/{AUDIT}"
+        said = packing.read(packed[audit], audit) if isinstance(job, Audit) and audit in packed else "{}"
+        return "" if json.loads(said).get("complete") else job.of
+    if not getattr(job, "state", ()) or f"{part.folder}/{job.name}/run.json" in packed and not again:
+        return ""
+    run, place = job.state
+    frames = f"{part.folder}/{run}/frames/frame_"
+    if isinstance(place, Step):
+        return "" if f"{frames}{place.number:06d}.h5" in packed else run
+    last = isinstance(place, int) and place < 0 and (part.last >= -place or place == -1 and part.frames > 1)
+    return "" if last and any(name.startswith(frames) for name in packed) else run
 
 
 def bring(folder, out, said, chosen):
@@ -390,7 +408,8 @@ def bring(folder, out, said, chosen):
         if program_in(packing.read(path, STAMP)) != program_in(said):
             commit = line_of(packing.read(path, STAMP), "commit ") or "unknown"
             raise PlanError(f"{path.name} is of another program (commit {commit}): move it away")
-    left_out = (STAMP, TIMES, *half_made(chosen, packing.take_times(found, out)))
+    packed = {name: path for path in found for name in packing.members(path)}
+    left_out = (STAMP, TIMES, *half_made(chosen, packing.take_times(found, out), packed))
     for path in found:
         packing.note(out, packing.extract(path, out, left_out))
 
@@ -411,6 +430,14 @@ def make(options, chosen):
     common = (options.program, options.out, limit, options.part_limit, options.jobs)
     archive = packing.Archive(options.pack, options.out, options.frames, (STAMP, TIMES)) if options.pack else None
     ends, lock, packed_at = [], threading.Lock(), [-math.inf]
+    if not (options.out / TIMES).is_file():
+        (options.out / TIMES).write_text("{}\n")
+
+    def pack():  # as soon as a job ends: a machine that is taken away takes what was not packed
+        with lock:
+            if archive and time.monotonic() - packed_at[0] > PACK_EVERY:
+                archive.write(chosen)
+                packed_at[0] = time.monotonic()
 
     def ended(name, end, seconds):
         with lock:
@@ -422,16 +449,14 @@ def make(options, chosen):
             earlier = times.get(name, {}).get("seconds", 0)
             times[name] = {"seconds": round(earlier + seconds, 1), "end": end}
             (options.out / TIMES).write_text(json.dumps(times, indent=1) + "\n")
-            if archive and time.monotonic() - packed_at[0] > PACK_EVERY:
-                archive.write(chosen)
-                packed_at[0] = time.monotonic()
+        pack()
 
     if options.cards:
-        SideBySide(*common, cards=options.cards).make_all(chosen, groups(chosen), ended)
+        SideBySide(*common, cards=options.cards, after_job=pack).make_all(chosen, groups(chosen), ended)
     else:
         for name, part in chosen.items():
             begun = time.monotonic()
-            ended(name, Runner(*common).make(name, part), time.monotonic() - begun)
+            ended(name, Runner(*common, after_job=pack).make(name, part), time.monotonic() - begun)
     lines = archive.write(chosen) if archive else []
     print("\n".join(lines), end="\n" if lines else "")
     return 1 if FAILED in ends else CALL_AGAIN if STOPPED in ends else 0
@@ -450,7 +475,7 @@ def arguments():
     add("--time-limit", type=float, metavar="SECONDS", help="of the whole call")
     add("--part-limit", type=float, metavar="SECONDS", help="of each part")
     add("--jobs", type=int, default=1, help="chains of a part that go on side by side (default: 1)")
-    add("--pack", type=Path, metavar="FOLDER", help="pack what is finished after each part")
+    add("--pack", type=Path, metavar="FOLDER", help="pack what is finished, as runs end")
     add("--unpack", type=Path, metavar="FOLDER", help="first unpack what --pack packed, which then is not made again")
     add("--frames", type=int, metavar="N", help="pack at most N frames of a run (default: as its picture needs)")
     add("--cards", type=int, default=0, metavar="N", help="make parts side by side on N devices of this machine")

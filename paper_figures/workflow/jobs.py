@@ -292,9 +292,12 @@ def same_command(folder, words):
 
 
 def is_of(folder, program):
-    """Returns whether this program's commit made the run: no other program can continue it."""
+    """Returns whether this program's commit made the run, with uncommitted changes or without: no other program can
+    continue it."""
     said = subprocess.run([str(program), "--version"], capture_output=True, text=True, check=False).stdout
-    return f"commit {manifest_of(folder)['commit']}" in said
+    about = manifest_of(folder)
+    commit = next((line for line in said.splitlines() if line.startswith(f"commit {about['commit']}")), "")
+    return bool(commit) and ("(dirty" in commit) == about.get("dirty", False)
 
 
 def can_go_on(folder, words, program):

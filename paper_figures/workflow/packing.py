@@ -16,7 +16,7 @@ from paper_figures.workflow.jobs import AUDIT, FINISHED, KEPT, remove
 MIB = 2**20
 PACKED = "packed.json"  # beside the runs: packed file -> its last change [ns]
 STAMP, TIMES = "program.txt", "times.json"  # beside the runs of everything.py, which packs them with each archive
-PIECE = 10 * MIB  # of an archive, after which the next one begins: with one more file it has at most 16 MiB
+PIECE = 5 * MIB  # of an archive, after which the next one begins: the largest packed file, yarn's frame, has 10 MiB
 
 
 class UnpackError(Exception):
@@ -94,6 +94,15 @@ def note(out, names):
 def packed_before(out):
     kept = out / PACKED
     return json.loads(kept.read_text()) if kept.is_file() else {}
+
+
+def members(path):
+    """Returns the names of an archive's members. Throws UnpackError as extract does."""
+    try:
+        with tarfile.open(path) as archive:
+            return archive.getnames()
+    except (EOFError, tarfile.TarError) as error:
+        raise UnpackError(f"{path.name} is cut or damaged ({error})") from error
 
 
 def read(path, name):

@@ -24,6 +24,7 @@ from paper_figures.site.documents import Documents, documents_of_site
 from paper_figures.site.files import MOVIE, Files
 from paper_figures.site.origins import Origins, seconds_between
 from paper_figures.workflow import recipes, verdicts
+from paper_figures.workflow.contents import TRIED
 from paper_figures.workflow.evidence import MEMBRANES, RESULTS, ROOM, Evidence, EvidenceError, command_of
 from plots.progress import Progress
 
@@ -244,8 +245,9 @@ class Site:
 
     def machine(self, path):
         name = path.parent.name
+        title = self.origins.title_of_machine(name)
         return self.render("document.html", f"{name}.html", sections=self.documents.sections(path),
-                           title=f"Results on {self.origins.title_of_machine(name)}",
+                           title=title if name == TRIED else f"Results on {title}",
                            name=path.relative_to(recipes.ROOT).as_posix())
 
     def runs_of(self, scene):

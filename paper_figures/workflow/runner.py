@@ -33,8 +33,9 @@ PACK_EVERY = 100.0  # seconds, with --cores
 class Runner:
     """Makes parts of a book below one folder, with one program."""
 
-    def __init__(self, program, out, limit, part_limit=None, jobs=1):
+    def __init__(self, program, out, limit, part_limit=None, jobs=1, after_job=lambda: None):
         self.program, self.out, self.limit, self.part_limit, self.jobs = program, out, limit, part_limit, jobs
+        self.after_job = after_job  # is called in the job's thread, which has given its place back
 
     def chain(self, part, chain, limit):
         """Makes a chain's jobs and returns the worst way in which one ended; a job that begins with the state of a
@@ -47,6 +48,8 @@ class Runner:
             wanted = job.on_device and not job.done(root)
             with self.place(job, limit), DeviceMemory(root / f"{job.name}{MEMORY}", wanted):
                 ends.append(job.make(self.program, root, limit))
+            if ends[-1] == FINISHED:
+                self.after_job()
             if ends[-1] == STOPPED:
                 return STOPPED
         return FINISHED if FINISHED in ends else KEPT

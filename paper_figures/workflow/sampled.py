@@ -21,7 +21,7 @@ import sys
 from pathlib import Path
 
 from paper_figures.workflow import captions
-from paper_figures.workflow.contents import PROVENANCE, rows_of
+from paper_figures.workflow.contents import PROVENANCE, TRIED, rows_of
 from paper_figures.workflow.evidence import RESULTS
 from paper_figures.workflow.jobs import AUDIT
 from paper_figures.workflow.kept import MOVIES, PICTURES
@@ -116,7 +116,7 @@ def main():
     parser.add_argument("--machine", action="append", help="a folder of results (default: all)")
     parser.add_argument("--again", type=Path, metavar="FOLDER", help="results that were made again")
     options = parser.parse_args()
-    machines = options.machine or sorted(path.parent.name for path in RESULTS.glob(f"*/{PROVENANCE}"))
+    machines = options.machine or sorted({path.parent.name for path in RESULTS.glob(f"*/{PROVENANCE}")} - {TRIED})
     for machine in machines:
         if not (RESULTS / machine / PROVENANCE).is_file():
             parser.error(f"no results of a machine '{machine}'")

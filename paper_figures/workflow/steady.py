@@ -36,6 +36,11 @@ class Timed(Job):
 
     on_device, needs = False, DEVICE
 
+    def done(self, root):
+        """Returns whether it is finished and its rows are there, or the table that was made of them."""
+        folder = root / self.name
+        return super().done(root) and ((folder / "steps.csv").is_file() or (folder.parent / ROW).is_file())
+
     def results(self, root, frames, last):
         yield from (path for path in [root / self.name / "run.json"] if self.done(root))
 
@@ -85,7 +90,7 @@ class Medians:
         return False
 
     def make(self, _program, root, _limit=Limit(), _shown=False):
-        if all(job.done(root) for job in self.jobs):
+        if all((root / job.name / "steps.csv").is_file() and job.done(root) for job in self.jobs):
             row, steps = medians(self.repeated, self.scale, [root / job.name for job in self.jobs])
             folder = root / self.repeated.name
             write_changed(folder / ROW, as_csv(COLUMNS, [row]).encode())

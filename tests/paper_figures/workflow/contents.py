@@ -122,6 +122,12 @@ class Old(Scratch):
         self.assertEqual(contents.in_words(self.results, HEAD),
                          "4 of 5 accepted files are of other sources than this commit's.")
 
+    def test_what_was_tried_does_not_grow_old(self):
+        self.provide(other=B)
+        (self.results / "m").rename(self.results / contents.TRIED)
+        self.assertEqual((contents.old(self.results, HEAD), contents.mixed(self.results)), ([], []))
+        self.assertEqual(list(contents.named(self.results)), ["tried/other.csv"])
+
     def test_two_commits_of_the_same_content_are_one(self):
         (self.results / contents.KEPT).write_text(contents.as_table({A: HEAD, B: HEAD}))
         self.provide(both=f"{A} {B}")

@@ -22,7 +22,7 @@ SOURCE, OGC = Path(sys.argv[1]).resolve(), str(Path(sys.argv[2]).resolve())
 del sys.argv[1:3]
 sys.path.insert(0, str(SOURCE))
 from paper_figures.workflow import contents, everything, parts  # noqa: E402
-from paper_figures.workflow.jobs import FINISHED, KEPT, STOPPED, Limit, RunFailure  # noqa: E402
+from paper_figures.workflow.jobs import FINISHED, KEPT, STOPPED, Job, Limit, RunFailure, Step  # noqa: E402
 
 CALL_AGAIN = 75
 STUDIES = {"ablation_x": {scale: {backend: {"twist": ["ablate", "twist", "--backend", backend]}
@@ -164,6 +164,22 @@ class Calls(Scratch):
         self.assertRegex(self.call("cloth_on_sphere", program=OGC)[1], r"cloth_on_sphere .* s  kept")
 
 
+    def test_what_a_part_finished_is_packed_before_the_part_ends(self):
+        class Ends(Exception):
+            """Stands for the machine that is taken away in the part's second job."""
+
+        first, second = everything.Command("first", ("true",)), mock.Mock(on_device=None, state=(), name="second")
+        second.make.side_effect, second.results.return_value = Ends, ()
+        part = parts.Part("f", ((first, second),), frames=0)
+        options = everything.arguments().parse_args(
+            ["cores", "--out", str(self.out), "--pack", str(self.folder / "packed")])
+        everything.stamp(self.out, "commit a")
+        with self.assertRaises(Ends):
+            everything.make(options, {"part": part})
+        with tarfile.open(self.folder / "packed/runs_01.tar.gz") as archive:
+            self.assertIn("f/first/made.json", archive.getnames())
+
+
 class Moved(Scratch):
     """What one machine packed goes on in an empty folder of another one."""
 
@@ -203,10 +219,29 @@ class Moved(Scratch):
         self.assertRegex(said, r"judge .* s  kept\nlaws .* s  finished")
         self.assertEqual(len(self.calls), before + 1)
 
-    def test_a_run_whose_part_still_needs_its_states_is_made_again(self):
-        part = parts.book(parts.Wanted(scale="smoke", backend="cpu"))["twist"]
-        for end, expected in (("stopped", ["table1-smoke-cpu/twist/whole/"]), (FINISHED, [])):
-            self.assertEqual(list(everything.half_made({"twist": part}, {"twist": {"end": end}})), expected)
+    def test_a_run_whose_states_are_needed_and_were_not_packed_is_made_again(self):
+        twist = parts.book(parts.Wanted(scale="smoke", backend="cpu"))["twist"]
+        whole, archive = "table1-smoke-cpu/twist/whole", self.folder / "runs_01.tar.gz"
+        for complete, end, expected in ((False, "stopped", [f"{whole}/"]), (False, FINISHED, []),
+                                        (True, "stopped", [f"{whole}/"])):
+            with tarfile.open(archive, "w:gz") as packed:
+                said = json.dumps({"complete": complete}).encode()
+                about = tarfile.TarInfo(f"{whole}/audit.json")
+                about.size = len(said)
+                packed.addfile(about, io.BytesIO(said))
+            found = {f"{whole}/audit.json": archive, f"{whole}/run.json": archive}
+            self.assertEqual(list(everything.half_made({"twist": twist}, {"twist": {"end": end}}, found)), expected)
+        # All that begins with its states was packed, and its audit is complete.
+        found.update({f"{twist.folder}/{job.name}/run.json": archive for job in twist.jobs})
+        self.assertEqual(list(everything.half_made({"twist": twist}, {}, found)), [])
+
+    def test_a_run_is_kept_if_the_frames_with_which_the_rest_begins_were_packed(self):
+        chain = (Job("first", ()), Job("second", (), ("first", -2)), Job("third", (), ("second", Step(4))))
+        packed = dict.fromkeys(("f/first/run.json", "f/first/frames/frame_000003.h5", "f/second/run.json"))
+        for last, frame, expected in ((2, "4", []), (2, "5", ["f/second/"]), (1, "5", ["f/first/", "f/second/"])):
+            part = parts.Part("f", (chain,), frames=0, last=last)
+            found = {**packed, f"f/second/frames/frame_00000{frame}.h5": None}
+            self.assertEqual(list(everything.half_made({"p": part}, {}, found)), expected)
 
     def test_archives_of_another_program_damaged_ones_and_an_empty_folder_are_refused(self):
         packed = self.folder / "packed"

@@ -142,7 +142,7 @@ class Documents(unittest.TestCase):
         words = "It takes 1.85 ms in `twist` ([rows](whole_runs.csv)).\n"
         folder = RESULTS / "h200"
         self.assertEqual(list(faults(words, folder)), [])
-        self.assertEqual([found[2] for found in faults(words.replace("1.85", "19.9"), folder)], ["19.9"])
+        self.assertEqual([found[2] for found in faults(words.replace("1.85", "98.76"), folder)], ["98.76"])
 
     def test_generated_tables_are_those_of_the_files_and_a_wrong_number_in_them_is_found(self):
         for path in page_tables.DOCUMENTS:
@@ -174,7 +174,7 @@ class Documents(unittest.TestCase):
             late = sum(row["verdict"] == "reproduced" and row["band set after a run"] == "yes" for row in mine)
             self.assertIn(f"| {name} | {len(mine)} | {count('reproduced')} ({late}) | {count('refuted')} | "
                           f"{count('not comparable')} | {count('not yet run')} |", text)
-        there = sum(len(rows_of(path)) for path in RESULTS.glob("*/provenance.csv"))
+        there = sum(len(rows_of(path)) for path in RESULTS.glob("*/provenance.csv") if path.parent.name != "tried")
         self.assertRegex(text, rf"\n\d+ of {there} accepted files are of \[other sources\]")
 
     def test_where_there_is_no_repository_the_count_of_old_files_stays(self):

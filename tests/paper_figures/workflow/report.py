@@ -332,12 +332,12 @@ class Parts(unittest.TestCase):
     def test_a_document_s_links_lead_into_the_site_or_are_text(self):
         pages = {RESULTS / "h200/README.md": "h200.html"}
         made = documents.Documents(files.Files(self.folder), pages)
-        text = ("[a](results/h200/twist_still.csv) [b](results/h200/README.md#the-mat) [c](../CMakePresets.json) "
+        text = ("[a](results/h200/steady_paper.csv) [b](results/h200/README.md#the-mat) [c](../CMakePresets.json) "
                 "[d](https://example.org) ![e](results/h200/fig17_paper.png) <script>")
         html = made.html(text, RESULTS.parent / "ablations.md")
-        self.assertIn('<a href="files/h200/twist_still.csv">a</a>', html)
-        self.assertEqual((self.folder / "files/h200/twist_still.csv").read_bytes(),
-                         (RESULTS / "h200/twist_still.csv").read_bytes())
+        self.assertIn('<a href="files/h200/steady_paper.csv">a</a>', html)
+        self.assertEqual((self.folder / "files/h200/steady_paper.csv").read_bytes(),
+                         (RESULTS / "h200/steady_paper.csv").read_bytes())
         self.assertIn('<a href="h200.html#the-mat">b</a> c <a href="https://example.org">d</a>', html)
         self.assertNotIn("<img", html)
         self.assertIn("&lt;script&gt;", html)

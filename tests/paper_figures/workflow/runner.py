@@ -120,11 +120,15 @@ class OneJob(Scratch):
         self.assertEqual([self.make(job) for job in (short, short, longer)], [FINISHED, KEPT, FINISHED])
 
     def test_a_run_that_cannot_go_on_begins_anew(self):
-        self.assertEqual(self.cut(), STOPPED)
-        manifest = self.folder / "long/run.json"
-        manifest.write_text(manifest.read_text().replace('"commit": "', '"commit": "0'))  # another program's
-        self.assertEqual(self.make(self.LONG), FINISHED)
-        self.assertNotIn("resumed", jobs.manifest_of(self.folder / "long"))
+        for field in ("commit", "dirty"):  # another program's
+            self.assertEqual(self.cut(), STOPPED)
+            manifest = self.folder / "long/run.json"
+            about = json.loads(manifest.read_text())
+            about[field] = not about[field] if field == "dirty" else f"0{about[field]}"
+            manifest.write_text(json.dumps(about))
+            self.assertEqual(self.make(self.LONG), FINISHED)
+            self.assertNotIn("resumed", jobs.manifest_of(self.folder / "long"))
+            jobs.remove(self.folder / "long")
 
     def test_a_run_begins_with_the_frame_after_a_step_or_at_a_share_if_there_is_one(self):
         self.assertEqual(self.make(Job("run", (*SPHERE, "--steps", "6", "--set", "frame_steps=2"))), FINISHED)

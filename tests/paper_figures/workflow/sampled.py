@@ -42,7 +42,7 @@ class Sampled(unittest.TestCase):
         first = sampled.drawn(7, 10, machines)
         self.assertEqual(first, sampled.drawn(7, 10, machines))
         self.assertNotEqual(first, sampled.drawn(8, 10, machines))
-        self.assertEqual(len({row["file"] for _, row in first}), 10)
+        self.assertEqual(len({(machine, row["file"]) for machine, row in first}), 10)
 
     def test_times_and_programs_may_differ_in_a_table(self):
         for name in ("x_steps.csv", "x_steps.csv.gz"):

@@ -56,6 +56,9 @@ class Steady(Scratch):
         self.assertEqual(packed, {"run.json", "steady.csv", "step_medians.csv.gz"})
         self.assertEqual([name for name, *_ in self.taken("steady")], ["steady_smoke.csv"])
 
+        self.assertTrue(all(job.done(folder) for job in part.jobs[:-1]))
+        self.unpacked(folder, part)
+
         rows = folder / "cloth_on_sphere/repeat_3/steps.csv"
         text = rows.read_text().splitlines()
         cells = text[20].split(",")
@@ -63,6 +66,19 @@ class Steady(Scratch):
         rows.write_text("\n".join([*text[:20], ",".join(cells), *text[21:]]) + "\n")
         with self.assertRaisesRegex(RunFailure, "repeat_3 differs from .*repeat_1 in more than times"):
             part.jobs[-1].make(OGC, self.folder / part.folder)
+
+    def unpacked(self, folder, part):
+        """Repetitions travel without their rows: they are done with their table, and made again without it."""
+        rows, table = folder / "cloth_on_sphere/repeat_2/steps.csv", folder / "cloth_on_sphere/steady.csv"
+        text, said = rows.read_text(), table.read_text()
+        rows.unlink()
+        self.assertTrue(part.jobs[1].done(folder))
+        part.jobs[-1].make(OGC, folder)
+        self.assertEqual(table.read_text(), said)
+        table.unlink()
+        self.assertEqual([job.done(folder) for job in part.jobs[:3]], [True, False, True])
+        rows.write_text(text)
+        table.write_text(said)
 
     def taken(self, kind):
         """Returns what would be taken, of runs that stand in for those of a commit."""
