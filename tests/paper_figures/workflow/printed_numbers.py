@@ -136,7 +136,7 @@ class Documents(unittest.TestCase):
             tried += len(found)
             # One digit may make another number of the row.
             self.assertLessEqual(len(missed), 0.1 * len(found), f"{name}: {missed}")
-        self.assertGreater(tried, 200)
+        self.assertGreater(tried, 150)
 
     def test_a_wrong_number_in_a_sentence_is_found(self):
         words = "It takes 1.85 ms in `twist` ([rows](whole_runs.csv)).\n"
@@ -155,8 +155,9 @@ class Documents(unittest.TestCase):
 
     def test_each_table_that_is_listed_has_its_place(self):
         studies = [path.stem for path in (SOURCE / "paper_figures/figures/ablations").glob("*.yaml")]
-        listed = {page_tables.README: list(headline.PARTS), page_tables.ROOM / "ablations.md": studies,
-                  **{RESULTS / name: list(tables) for name, tables in page_tables.LISTED.items()}}
+        listed = {page_tables.README: list(headline.PARTS),
+                  **{(RESULTS / name).resolve(): list(tables) for name, tables in page_tables.LISTED.items()}}
+        listed[page_tables.ROOM / "ablations.md"] += studies
         for path, names in listed.items():
             self.assertEqual(sorted(page_tables.PLACE.findall(path.read_text())), sorted(names), path)
 
