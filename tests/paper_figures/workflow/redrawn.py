@@ -70,15 +70,20 @@ class Table1(unittest.TestCase):
     def test_each_cell_is_the_row_of_a_table_or_says_that_it_was_not_run(self):
         rows = table1_picture.rows_of(RESULTS / "h200/whole_runs.csv")
         whole = {(row["scene"], row["membrane"]): row for row in rows}
+        quiet = {row["variant"]: row for row in table1_picture.rows_of(RESULTS / "h200/steady_paper.csv")}
         rows = list(table1_picture.table())
         self.assertEqual(len(rows), len(table1_picture.ROWS))
         for (texts, colours), (*_, name) in zip(rows, table1_picture.ROWS):
             for place, row in ((12, name), (13, f"{name}_planes")):
                 found = [whole[key] for key in whole if key[0] == row]
                 found = [r for r in found if r["membrane"] == "stable_neo_hookean"] or found
-                expected = table1_picture.Time(float(found[0]["mean [ms]"]), float(found[0]["worst [ms]"])).words \
+                repeated = found and row in quiet and quiet[row]["membrane"] == found[0]["membrane"]
+                longest = quiet[row]["largest median [ms]"] if repeated else found and found[0]["worst [ms]"]
+                expected = table1_picture.Time(float(found[0]["mean [ms]"]), float(longest)).words \
                     if found else "not run"
                 self.assertEqual(texts[place], expected, row)
+                if repeated:  # a host's hiccup lengthens a step of one run, and no median
+                    self.assertLessEqual(float(longest), 1.05 * float(found[0]["worst [ms]"]), row)
                 self.assertEqual(colours[place - 8] == "white", not found)
             self.assertRegex(texts[11], r"^[\d.]+ / [\d.]+$", "the paper prints a time on the GPU in every row")
 
