@@ -277,13 +277,15 @@ def measured_studies(where, wanted):
             **{name: of_study(name, *(scale if has_scales else ())) for name, has_scales in MEASURED.items()}}
 
 
-def plan(where, wanted, listed):
-    """Returns name -> Part of all evidence on a machine of this kind, in the order in which it is made."""
+def plan(where, wanted, listed, data=""):
+    """Returns name -> Part of all evidence on a machine of this kind, in the order in which it is made. `data`: the
+    folder of the published dress, whose repeated runs stand beside those of the stand-in."""
     book = parts.book(wanted)
     last = {name: book.pop(name) for name in list(book) if name.startswith("windows_")}
     small = replace(wanted, scale="smoke") if wanted.scale == "small" else wanted
     return {**book, **judged(wanted), "laws": laws(wanted), "jittered": jittered(wanted),
-            **studies(small, listed), **measured_studies(where, wanted), **varied.parts_of(where, wanted), **last}
+            **studies(small, listed), **measured_studies(where, wanted), **varied.parts_of(where, replace(wanted, data=data)),
+            **last}
 
 
 def accepted_seconds(name, wanted, times):
@@ -481,6 +483,7 @@ def arguments():
     add("--cards", type=int, default=0, metavar="N", help="make parts side by side on N devices of this machine")
     add("--studies", type=Path, metavar="FILE", help="the ablations' commands, where PyYAML is missing")
     add("--no-studies", action="store_true", help="leave the ablations out")
+    add("--data", type=Path, metavar="FOLDER", help="of Codimensional IPC's dress and dancer, whose steps are repeated")
     add("--write-studies", type=Path, metavar="FILE", help="write that file, and run nothing")
     add("--changed", action="store_true", help="also a program of other sources than HEAD's; its runs are no evidence")
     return parser
@@ -490,10 +493,11 @@ def prepared(options):
     """Returns (parts to make, their expected seconds). Throws PlanError, and KeyError with a name that is no part."""
     wanted = parts.Wanted(scale=options.scale or {"cores": "small", "gpu": "paper"}[options.where],
                           backend={"cores": "cpu", "gpu": "cuda"}[options.where])
-    whole = plan(options.where, wanted, {})
+    data = str(options.data.resolve(strict=True)) if options.data else ""
+    whole = plan(options.where, wanted, {}, data)
     if not options.no_studies and (not options.parts or set(options.parts) - set(whole)):
         listed = json.loads(options.studies.read_text()) if options.studies else list_of_studies()
-        whole = plan(options.where, wanted, listed)
+        whole = plan(options.where, wanted, listed, data)
     for name in options.parts:
         if name not in whole:
             raise KeyError(name)

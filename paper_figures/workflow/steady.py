@@ -161,7 +161,8 @@ def about(repeated, scale, manifests):
             "solver": first["solver"], "backend": first["backend"], "device": first["device"],
             "commit": first["commit"][:10] + (" (dirty)" if first.get("dirty") else ""),
             "ended": max(manifest["ended"] for manifest in manifests),
-            "command": " ".join(["ogc", *(word.rpartition("/")[2] for word in words[1:])])}
+            "command": " ".join(["ogc", *("data=DIR" if word.startswith("data=") else word.rpartition("/")[2]
+                                          for word in words[1:])])}
 
 
 def gathered(folder):

@@ -2,7 +2,8 @@
 times by repetition: each is a command of `experiments/evidence`. Needs only Python's own library.
 
   steady_ROW       whole runs on a quiet device, repeated (steady.py): the other membrane, the dress without the rule
-                   that deep vertices cause detections, and the mat thicker or nearly incompressible among them
+                   that deep vertices cause detections, and the mat thicker or nearly incompressible among them, and
+                   with `--data` the published dress
   fig17_printed    one step of Fig. 17 with the printed γ_e at each of several steps
   fig17_share      that of the figure with the time of each stage, and without, in a process that is warm
   fig17_membrane   the figure's step with the other membrane; fig17_membrane_newton by Newton's method
@@ -32,7 +33,7 @@ ROUNDS = (16, 1)  # of the guess loop: the scene's at most, and Eq. 28 as printe
 THICKER = 2  # times
 EXPECTED = {"steady_cloth_on_sphere": 15, "steady_twist": 60, "steady_knot": 220, "steady_fifty_layers": 270,
             "steady_fifty_layers_1m": 780, "steady_fifty_layers_1m_st_venant": 780, "steady_dress_volumes": 45,
-            "steady_dress_volumes_st_venant": 45, "steady_dress_volumes_shallow": 35, "steady_robot_shirt_volumes": 40,
+            "steady_dress_volumes_st_venant": 45, "steady_dress_volumes_shallow": 35, "steady_dress_volumes_published": 60, "steady_robot_shirt_volumes": 40,
             "steady_robot_shirt_volumes_st_venant": 40, "steady_mat_twist_planes": 220,
             "steady_mat_twist_planes_poisson": 220, "steady_mat_twist_planes_thicker": 220, "steady_yarn_stretch": 45,
             "steady_yarn_twist": 70, "fig17_printed": 900, "fig17_share": 30, "fig17_membrane": 350,
@@ -72,8 +73,8 @@ def stretched(mesh, times):
     return "\n".join(lines) + "\n"
 
 
-def repeated(scale, backend):
-    """Returns what is repeated; on processors the sphere alone."""
+def repeated(scale, backend, data=""):
+    """Returns what is repeated; on processors the sphere alone. `data`: the folder of the published dress."""
     if backend == "cpu":
         return (Repeated("cloth_on_sphere"),)
     mat = Repeated(commands.MAT_PLANES)
@@ -83,6 +84,8 @@ def repeated(scale, backend):
     return (*map(Repeated, ("cloth_on_sphere", "yarn_twist", "yarn_stretch", "twist")), shirt, other(shirt), dress,
             other(dress),
             replace(dress, suffix="_shallow", options=("--set", "detection_deep=0"), choice="detection_deep=0"),
+            *([replace(dress, suffix="_published", options=("--set", f"data={data}"), choice="the published dress")]
+              if data else []),
             Repeated("fifty_layers", runs=3), mat,
             replace(mat, suffix="_poisson", options=("--set", "solid_poisson=0.49"), runs=3, choice="ν = 0.49"),
             replace(mat, suffix="_thicker", scene=Thicker(scale, THICKER), runs=3, choice="twice as thick"),
@@ -243,7 +246,7 @@ def parts_of(where, wanted):
     machine for themselves."""
     scale, backend, folder = wanted.scale, wanted.backend, wanted.folder
     found = {f"steady_{each.name}": Part(folder(STEADY), (each.jobs(scale, backend),), frames=0)
-             for each in repeated(scale, backend)}
+             for each in repeated(scale, backend, wanted.data)}
     found |= {name: Part(folder(FIG17), (jobs(scale, backend),), frames=0) for name, jobs in FIG17_PARTS.items()
               if where == "cores" or not name.endswith("newton")}
     if where == "cores":

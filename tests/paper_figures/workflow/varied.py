@@ -86,6 +86,19 @@ class Steady(Scratch):
             path.write_text(json.dumps({**json.loads(path.read_text()), "dirty": False, "commit": "a" * 40}))
         return list(taken.KINDS[kind](taken.Runs(self.folder, "smoke", "cpu")))
 
+    def test_the_published_dress_is_repeated_where_its_data_are_and_no_folder_is_kept(self):
+        there, none = (varied.repeated("paper", "cuda", data) for data in ("/x/input", ""))
+        published, = set(there) - set(none)
+        self.assertEqual((published.name, published.row), ("dress_volumes_published", "dress_volumes"))
+        run = published.jobs("paper", "cuda")[0]
+        self.assertIn("data=/x/input", run.arguments)
+        manifest = {**dict.fromkeys(("final_hash", "solver", "backend", "device", "ended"), "x"), "commit": "a" * 40,
+                    "scene": {"name": "dress", "bodies": []}, "settings": {"bounds": {"value": "ball"}},
+                    "command": " ".join(["ogc", "run", *map(str, run.arguments)])}
+        said = steady.about(published, "paper", [manifest])["command"]
+        self.assertIn("--set data=DIR", said)
+        self.assertNotIn("/", said)
+
     def test_without_repetitions_there_is_no_table(self):
         with self.assertRaisesRegex(RunFailure, "has no steady.csv: make parts steady_"):
             steady.gathered(self.folder)
