@@ -284,8 +284,8 @@ def plan(where, wanted, listed, data=""):
     last = {name: book.pop(name) for name in list(book) if name.startswith("windows_")}
     small = replace(wanted, scale="smoke") if wanted.scale == "small" else wanted
     return {**book, **judged(wanted), "laws": laws(wanted), "jittered": jittered(wanted),
-            **studies(small, listed), **measured_studies(where, wanted), **varied.parts_of(where, replace(wanted, data=data)),
-            **last}
+            **studies(small, listed), **measured_studies(where, wanted),
+            **varied.parts_of(where, replace(wanted, data=data)), **last}
 
 
 def accepted_seconds(name, wanted, times):

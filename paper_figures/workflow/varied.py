@@ -33,7 +33,8 @@ ROUNDS = (16, 1)  # of the guess loop: the scene's at most, and Eq. 28 as printe
 THICKER = 2  # times
 EXPECTED = {"steady_cloth_on_sphere": 15, "steady_twist": 60, "steady_knot": 220, "steady_fifty_layers": 270,
             "steady_fifty_layers_1m": 780, "steady_fifty_layers_1m_st_venant": 780, "steady_dress_volumes": 45,
-            "steady_dress_volumes_st_venant": 45, "steady_dress_volumes_shallow": 35, "steady_dress_volumes_published": 60, "steady_robot_shirt_volumes": 40,
+            "steady_dress_volumes_st_venant": 45, "steady_dress_volumes_shallow": 35,
+            "steady_dress_volumes_published": 60, "steady_robot_shirt_volumes": 40,
             "steady_robot_shirt_volumes_st_venant": 40, "steady_mat_twist_planes": 220,
             "steady_mat_twist_planes_poisson": 220, "steady_mat_twist_planes_thicker": 220, "steady_yarn_stretch": 45,
             "steady_yarn_twist": 70, "fig17_printed": 900, "fig17_share": 30, "fig17_membrane": 350,
