@@ -11,7 +11,7 @@ was tried (TRIED) are about the prototypes and former programs that they name, s
 
 Usage: python3 -m paper_figures.workflow.contents: prints how many files are old; `--list` names them; `--write` keeps
 results/contents.csv. `--keep MACHINE/FILE --redo COMMAND` keeps the row of provenance.csv about a table that no figure
-made. The standard library is enough.
+made; `--commit` names its program if its rows do not. The standard library is enough.
 """
 
 import argparse
@@ -199,13 +199,17 @@ def in_words(results=RESULTS, head=None):
     return f"{stale} of {there} accepted files are of other sources than this commit's."
 
 
-def keep(path, redo, figure=""):
-    """Keeps the row of provenance.csv about a table that no figure made; returns it. Throws ContentsError for a table
-    of a program with uncommitted changes."""
+def keep(path, redo, figure="", commit=""):
+    """Keeps the row of provenance.csv about a table that no figure made; returns it. `commit`: that of the program, if
+    the table's rows name none. Throws ContentsError for a table of a program with uncommitted changes, or of another
+    one."""
     rows = rows_of(path)
     if not rows:
         raise ContentsError(f"{path}: no table with rows: name one below {RESULTS}")
     commits, provenance = commits_in(path), next(folder for folder in path.parents if folder.parent == RESULTS)
+    if commit and commits:
+        raise ContentsError(f"{path.name} names its program itself ({', '.join(commits)}): leave --commit out")
+    commits = commits or [commit] * bool(commit)
     faulty = [commit for commit in commits if not HEX.fullmatch(commit)]
     if faulty:
         raise ContentsError(f"{path.name} is of a changed program ({', '.join(faulty)}): commit, build, and run again")
@@ -235,12 +239,13 @@ def main():
     parser.add_argument("--list", action="store_true", help="name the old files")
     parser.add_argument("--keep", type=Path, metavar="FILE", help="a table below the results: MACHINE/FILE.csv")
     parser.add_argument("--redo", metavar="COMMAND", help="that makes the table again")
+    parser.add_argument("--commit", default="", help="of the program, if the table's rows name none")
     options = parser.parse_args()
     if bool(options.keep) != bool(options.redo):
         parser.error("--keep FILE and --redo COMMAND belong together")
     try:
         if options.keep:
-            keep(RESULTS / options.keep, options.redo)
+            keep(RESULTS / options.keep, options.redo, commit=options.commit)
         if options.write or options.keep:
             write()
         stale = old()

@@ -148,10 +148,10 @@ class Old(Scratch):
 
 
 class Keeping(Scratch):
-    def keep(self, name):
+    def keep(self, name, **more):
         with mock.patch.object(contents, "RESULTS", self.results), \
                 mock.patch.object(contents, "history", lambda: frozenset({A})):
-            return contents.keep(self.results / "m" / name, "the command")
+            return contents.keep(self.results / "m" / name, "the command", **more)
 
     def test_a_table_that_no_figure_made_gets_its_row(self):
         (self.results / "m/made_small.csv").write_text(f'device,commit\n"G, CUDA 13.0",{A[:10]}\n')
@@ -159,6 +159,15 @@ class Keeping(Scratch):
         self.assertEqual([row[key] for key in ("file", "figure", "scale", "backend", "redo", "commit", "device")],
                          ["made_small.csv", "made", "small", "cuda", "the command", A, "G, CUDA 13.0"])
         self.assertEqual(contents.rows_of(self.results / "m" / contents.PROVENANCE), [row])
+
+    def test_a_table_whose_rows_name_no_program_is_of_the_named_one(self):
+        (self.results / "m/peers.csv").write_text("stage,cases\nbound,7\n")
+        self.assertEqual(self.keep("peers.csv", commit=A[:10])["commit"], A)
+        self.rows("t", A[:10])
+        with self.assertRaisesRegex(contents.ContentsError, "t.csv names its program itself"):
+            self.keep("t.csv", commit=A)
+        with self.assertRaisesRegex(contents.ContentsError, "is of a changed program"):
+            self.keep("peers.csv", commit=f"{A} (dirty)")
 
     def test_one_of_a_changed_program_is_refused(self):
         self.rows("t", f"{A[:10]} (dirty)")
