@@ -66,10 +66,10 @@ def rounded(text):
         return text or "–"
 
 
-def judged():
-    """Returns the judge's counts on the GPU, a row a stage."""
+def judged(path, where):
+    """Returns the judge's counts in a table, a row a stage. `where`: what computed the answers, in words."""
     stages = {}
-    for row in rows_of(GPU / "judge_cuda.csv"):
+    for row in rows_of(path):
         stages.setdefault(row["stage"], []).append(row)
     rows = []
     for stage, found in sorted(stages.items()):
@@ -84,8 +84,8 @@ def judged():
                      count(sum(int(row["mismatches"]) for row in found)), str(len(found)),
                      f"{largest[worst]:.0%} ({worst})" if worst else "–",
                      ", ".join(dict.fromkeys(row["device"].partition(",")[0] for row in found))))
-    return Table("Kernels on the GPU against exact answers", ("stage", "cases", "mismatches", "runs",
-                 "largest error, of what is allowed", "device"), tuple(rows), (GPU / "judge_cuda.csv",))
+    return Table(f"Kernels on {where} against exact answers", ("stage", "cases", "mismatches", "runs",
+                 "largest error, of what is allowed", "device"), tuple(rows), (path,))
 
 
 def agreement():

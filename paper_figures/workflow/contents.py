@@ -16,6 +16,7 @@ made; `--commit` names its program if its rows do not. The standard library is e
 
 import argparse
 import csv
+import datetime
 import gzip
 import hashlib
 import io
@@ -224,7 +225,11 @@ def keep(path, redo, figure="", commit=""):
            "device": devices[0] if len(devices) == 1 else SAID_BY_ROWS if devices else "", "ended": "",
            "sha256": hashlib.sha256(path.read_bytes()).hexdigest()[:16]}
     before = next((each for each in rows_of(provenance / PROVENANCE) if each["file"] == row["file"]), {})
-    row |= {key: before.get(key) or row[key] for key in ("compiler", "ended")}
+    row |= {key: before[key] for key in ("figure", "scale", "backend", "compiler", "device")
+            if row[key] in ("", "-") and before.get(key) or key == "figure" and before and not figure}
+    same = all(row[key] == before.get(key) for key in ("commit", "sha256"))
+    now = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
+    row["ended"] = before["ended"] if same else max(said("ended"), default=now)
     merge(provenance / PROVENANCE, COLUMNS, [row], ("file",))
     return row
 

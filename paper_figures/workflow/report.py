@@ -224,8 +224,10 @@ class Site:
                            without=[study for name, study in studies.items() if name not in found])
 
     def judge(self):
-        return self.render("judge.html", "judge.html", judged=self.table(tables.judged()),
-                           agreement=self.table(tables.agreement()))
+        on_gpu = tables.judged(tables.GPU / "judge_cuda.csv", "the GPU")
+        on_processor = tables.judged(tables.CORES / "judge_cpu.csv", "processors")
+        return self.render("judge.html", "judge.html", on_gpu=self.table(on_gpu),
+                           on_processor=self.table(on_processor), agreement=self.table(tables.agreement()))
 
     def peers(self):
         found = [self.table(make()) for make in (tables.peers_kernels, tables.peers_sets, tables.peers_scenes)]

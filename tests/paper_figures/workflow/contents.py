@@ -159,6 +159,17 @@ class Keeping(Scratch):
         self.assertEqual([row[key] for key in ("file", "figure", "scale", "backend", "redo", "commit", "device")],
                          ["made_small.csv", "made", "small", "cuda", "the command", A, "G, CUDA 13.0"])
         self.assertEqual(contents.rows_of(self.results / "m" / contents.PROVENANCE), [row])
+        self.assertEqual(self.keep("made_small.csv")["ended"], row["ended"], "nothing was made")
+        self.assertRegex(row["ended"], r"^20\d\d-\d\d-\d\dT.*Z$")
+
+    def test_a_table_that_was_made_again_ended_then_and_keeps_what_its_rows_do_not_say(self):
+        (self.results / "m/peers.csv").write_text("stage,cases\nbound,7\n")
+        before = {**self.keep("peers.csv", commit=A), "device": "2 threads", "compiler": "GNU", "ended": "2020"}
+        contents.merge(self.results / "m" / contents.PROVENANCE, contents.COLUMNS, [before], ("file",))
+        (self.results / "m/peers.csv").write_text("stage,cases\nbound,8\n")
+        row = self.keep("peers.csv", commit=A)
+        self.assertEqual((row["device"], row["compiler"]), ("2 threads", "GNU"))
+        self.assertNotEqual(row["ended"], "2020")
 
     def test_a_table_whose_rows_name_no_program_is_of_the_named_one(self):
         (self.results / "m/peers.csv").write_text("stage,cases\nbound,7\n")
