@@ -47,12 +47,15 @@ def drawn(draw, rows):
 
 class FromTables(unittest.TestCase):
     def test_each_is_kept_with_the_command_that_draws_it(self):
+        """From its table, or with the runs behind it."""
         for name in from_tables.DRAWN:
             machine, _, stem = name.partition("/")
             with (RESULTS / machine / "provenance.csv").open(newline="", encoding="utf-8") as file:
                 commands = [row["redo"] for row in csv.DictReader(file)
                             if Path(row["file"]).stem == stem and row["file"].endswith((".png", ".webp"))]
-            self.assertEqual(commands, [f".venv/bin/python -m paper_figures.figures.from_tables OUT {name}"], name)
+            again = (f".venv/bin/python -m paper_figures.figures.from_tables OUT {name}",
+                     f"experiments/evidence cores {stem}")
+            self.assertTrue(len(commands) == 1 and commands[0] in again, f"{name}: {commands}")
 
     def test_all_can_be_drawn(self):
         with tempfile.TemporaryDirectory() as folder, mock.patch("builtins.print"):
