@@ -415,10 +415,11 @@ class Evidence:
             if len({side.program for side in sides}) == 1 and len({side.version for side in sides}) > 1:
                 raise EvidenceError(f"{table.source} mixes commits {', '.join(sorted(s.version for s in sides))}: make "
                                     "all its rows by one program")
-            if len({side.machine for side in sides}) > 1:  # a ratio of two machines means nothing
+            is_time = any("[ms]" in column for column in columns) or rows[0].get("unit") == "ms"
+            # A ratio of times on two machines means nothing; counts have the same bits on any number of threads.
+            if is_time and len({side.machine for side in sides}) > 1:
                 continue
             value = cells[0] / cells[1] if len(cells) > 1 else cells[0]
-            is_time = "[ms]" in spec["column"] or rows[0].get("unit") == "ms"
             on = f"Both ran on {rows[0]['device']}." if len(cells) > 1 and is_time else ""
             return Measured(value, table.source, rows[0]["device"], rows[0]["commit"], rows[0].get("ended", ""), on,
                             rows[0].get("membrane", ""), sides)

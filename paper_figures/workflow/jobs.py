@@ -11,6 +11,7 @@ import contextvars
 import json
 import math
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -192,7 +193,7 @@ class Job:
         """Returns whether the folder holds the run of this command by this program, at its end. The state with which it
         began may be missing: packed runs have few frames."""
         status = manifest_of(root / self.name).get("status", "")
-        ended = status == "finished" or self.may_fail and status.startswith("failed")
+        ended = status == "finished" or self.may_fail and failed_in_step(status)
         ended = ended or bool(status) and (root / self.name / ENDED_BY_TIME).is_file()
         return ended and same_command(root / self.name, self.words(root, read=False))
 
@@ -244,7 +245,7 @@ class Job:
             return FINISHED
         if limit.left() == 0 and not status.startswith("failed"):
             return STOPPED
-        if self.may_fail and status.startswith("failed"):
+        if self.may_fail and failed_in_step(status):
             return FINISHED
         raise RunFailure(f"{' '.join(command)}: exit status {code}\n  {last_lines(log)}")
 
@@ -267,6 +268,12 @@ class Job:
 def manifest_of(folder):
     path = Path(folder) / "run.json"
     return json.loads(path.read_text()) if path.is_file() else {}
+
+
+def failed_in_step(status):
+    """Returns whether a run failed in a step, or in the audit of one, which can be a result: its status names the step.
+    A run without memory, disk or device says nothing about the method."""
+    return bool(re.match(r"failed: .*\b(in|of) step \d", status))
 
 
 def remove(folder):

@@ -11,7 +11,7 @@ import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from paper_figures.workflow.jobs import ENDED_BY_TIME, FAILED, STOPPED, RunFailure, manifest_of
+from paper_figures.workflow.jobs import ENDED_BY_TIME, FAILED, STOPPED, RunFailure, failed_in_step, manifest_of
 
 TIMES = "times.json"  # beside the runs: run -> how many cores had it, for how many seconds, and how it ended
 USUAL_CORES, USUAL_SECONDS = 2, 20.0  # of a job that nobody measured
@@ -160,8 +160,8 @@ def cut_by_time(task, seconds):
 
 def failed_run(task):
     """Returns whether the run of this task is there and failed, which can be a result."""
-    return bool(getattr(task.job, "may_fail", False)) and manifest_of(
-        task.root / task.job.name).get("status", "").startswith("failed")
+    return bool(getattr(task.job, "may_fail", False)) and failed_in_step(
+        manifest_of(task.root / task.job.name).get("status", ""))
 
 
 class Maker:

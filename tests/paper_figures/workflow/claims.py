@@ -290,6 +290,16 @@ class Judging(unittest.TestCase):
                                    Evidence(name))
         self.assertEqual((found.measured.value, found.measured.source), (1, "a/fig99_paper.csv"))
 
+    def test_a_ratio_of_counts_is_of_any_machines_and_one_of_times_of_one(self):
+        with tempfile.TemporaryDirectory() as name:
+            (Path(name) / "a").mkdir()
+            (Path(name) / "a/fig99_paper.csv").write_text(
+                "kind,sweeps [1],step [ms],commit,device\na,6,6,c1,10 threads\nb,3,3,c1,2 threads\n")
+            for column, expected in (("sweeps [1]", 2), ("step [ms]", None)):
+                spec = {"table": "fig99", "column": column, "over": {"kind": "a"}, "under": {"kind": "b"}}
+                measured = verdicts.judge(claim(measure=spec), Evidence(name)).measured
+                self.assertEqual(measured and measured.value, expected)
+
     def test_a_wait_that_is_not_declared_and_one_that_is_over_are_found(self):
         judged, waiting = claim(), claim(id="s.d", run={"scale": "paper", "steps": 100000})
         found = [verdicts.judge(each, Evidence()) for each in (judged, waiting, {**judged, "waits_for": "x"})]

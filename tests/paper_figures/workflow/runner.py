@@ -130,6 +130,18 @@ class OneJob(Scratch):
             self.assertNotIn("resumed", jobs.manifest_of(self.folder / "long"))
             jobs.remove(self.folder / "long")
 
+    def test_a_failure_is_a_result_where_a_step_failed_and_not_where_the_disk_was_taken_away(self):
+        job = Job("run", (*SPHERE, "--steps", "2"), may_fail=True)
+        self.assertEqual(self.make(job), FINISHED)
+        manifest = self.folder / "run/run.json"
+        about = json.loads(manifest.read_text())
+        for status, is_result in (("Newton's method did not converge in step 34: residual 0.00186", True),
+                                  ("the audit of step 7 failed (meeting_7.obj): 2 pairs of faces intersect", True),
+                                  ("run/trajectory.vtkhdf.growing: can't open the file (No such file or directory): "
+                                   "its folder or disk was taken away", False)):
+            manifest.write_text(json.dumps({**about, "status": f"failed: {status}"}))
+            self.assertEqual(job.done(self.folder), is_result, status)
+
     def test_a_run_begins_with_the_frame_after_a_step_or_at_a_share_if_there_is_one(self):
         self.assertEqual(self.make(Job("run", (*SPHERE, "--steps", "6", "--set", "frame_steps=2"))), FINISHED)
         for place, steps in ((Step(4), ["5"]), (jobs.Share(50, 2), ["3"]), (jobs.Share(100, 2), ["7"]), (0, ["1"])):
