@@ -2,6 +2,7 @@
 there. Of a run it has manifest, rows, audit and some frames. Needs only Python's own library.
 """
 
+import contextlib
 import itertools
 import json
 import os
@@ -96,24 +97,30 @@ def packed_before(out):
     return json.loads(kept.read_text()) if kept.is_file() else {}
 
 
-def members(path):
-    """Returns the names of an archive's members. Throws UnpackError as extract does."""
+@contextlib.contextmanager
+def opened(path):
+    """Opens an archive. Throws UnpackError if it is cut or damaged, also while it is read."""
     try:
         with tarfile.open(path) as archive:
-            return archive.getnames()
+            yield archive
     except (EOFError, tarfile.TarError) as error:
         raise UnpackError(f"{path.name} is cut or damaged ({error})") from error
+
+
+def members(path):
+    """Returns the names of an archive's members. Throws UnpackError as `opened` does."""
+    with opened(path) as archive:
+        return archive.getnames()
 
 
 def read(path, name):
-    """Returns the text of a member of an archive; empty if there is none. Throws UnpackError as extract does."""
-    try:
-        with tarfile.open(path) as archive, archive.extractfile(name) as file:
-            return file.read().decode()
-    except KeyError:
-        return ""
-    except (EOFError, tarfile.TarError) as error:
-        raise UnpackError(f"{path.name} is cut or damaged ({error})") from error
+    """Returns the text of a member of an archive; empty if there is none. Throws UnpackError as `opened` does."""
+    with opened(path) as archive:
+        try:
+            with archive.extractfile(name) as file:
+                return file.read().decode()
+        except KeyError:
+            return ""
 
 
 def take_times(archives, out):
@@ -134,24 +141,21 @@ def extract(path, out, left_out=()):
     """Writes the members of an archive below `out`, but those whose names begin as in `left_out`, and returns their
     names. Throws UnpackError, before anything is written, if a member is not a plain file or would be written
     elsewhere, or if the archive is truncated. Python's own data filter is not in Debian 12's."""
-    try:
-        with tarfile.open(path) as archive:
-            members = [member for member in archive.getmembers() if not member.name.startswith(tuple(left_out))]
-            for member in members:
-                inside = PurePosixPath(member.name)
-                folder = out.joinpath(inside).parent.resolve()
-                if (not member.isfile() or inside.is_absolute() or ".." in inside.parts
-                        or not folder.is_relative_to(out.resolve())):
-                    raise UnpackError(f"'{member.name}' is no plain file, or would be written outside the folder")
-            for member in members:
-                target = out / member.name
-                target.parent.mkdir(parents=True, exist_ok=True)
-                target.unlink(missing_ok=True)
-                with archive.extractfile(member) as source, target.open("wb") as file:
-                    shutil.copyfileobj(source, file)
-            return [member.name for member in members]
-    except (EOFError, tarfile.TarError) as error:
-        raise UnpackError(f"{path.name} is cut or damaged ({error})") from error
+    with opened(path) as archive:
+        wanted = [member for member in archive.getmembers() if not member.name.startswith(tuple(left_out))]
+        for member in wanted:
+            inside = PurePosixPath(member.name)
+            folder = out.joinpath(inside).parent.resolve()
+            if (not member.isfile() or inside.is_absolute() or ".." in inside.parts
+                    or not folder.is_relative_to(out.resolve())):
+                raise UnpackError(f"'{member.name}' is no plain file, or would be written outside the folder")
+        for member in wanted:
+            target = out / member.name
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.unlink(missing_ok=True)
+            with archive.extractfile(member) as source, target.open("wb") as file:
+                shutil.copyfileobj(source, file)
+        return [member.name for member in wanted]
 
 
 def unpack(folder, out, program):
