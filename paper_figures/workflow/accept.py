@@ -22,7 +22,7 @@ from pathlib import Path
 from paper_figures.workflow import captions, contents, recipes
 from paper_figures.workflow.contents import COLUMNS, merge, rows_of
 from paper_figures.workflow.evidence import NOT_RUN, RESULTS, SCENES, run_at
-from paper_figures.workflow.jobs import ENDED_BY_TIME
+from paper_figures.workflow.jobs import ENDED_BY_TIME, manifests_below
 from paper_figures.workflow.kept import MOVIES, PICTURES, AcceptError, file_of, run_files
 
 # Bytes of a file, and of a picture or movie; a test limits tables to 10 MB and pictures and movies to 30.
@@ -35,7 +35,7 @@ COMPUTED = {("table1", "paper")}
 def manifests(folder):
     """Returns (run folder's name below the figure's, manifest) of each run of a figure; an audit after the run counts
     like one beside it."""
-    paths = sorted(folder.rglob("run.json"))
+    paths = manifests_below(folder)
     return [("_".join(path.parent.relative_to(folder).parts), manifest_at(path)) for path in paths]
 
 
@@ -119,7 +119,7 @@ def pieces(recipe, scale, backend, runs, incomplete=False):
     check_tables(tables)
     found += [(f"{path.stem}_{scale}.csv", path.read_bytes()) for path in tables
               if not path.stem.endswith(f"_{scale}")]
-    paths = [path for path in sorted(folder.rglob("run.json")) if keeps(recipe, run_name(path, folder))]
+    paths = [path for path in manifests_below(folder) if keeps(recipe, run_name(path, folder))]
     for path in paths:  # one run lies beside its picture, several in a folder
         apart = f"/{run_name(path, folder)}" if len(paths) > 1 else ""
         found += run_files(path, f"{recipe.name}_{scale}{apart}")

@@ -73,6 +73,7 @@ DEAR = ("plane", "volume_depth", "orientation", "sweep", "step")  # for the refe
 MEASURED = {"activation_load": True, "creep": True, "falling": False, "radius": True}  # whether it has scales
 MEASURED_ON_DEVICE = ("mat_volumes", "yarn_return")
 SECONDS = "part_seconds.csv"  # of a machine's results: how long parts took there
+ON_DEVICE = "cuda: usable"  # what the program says of a machine with a device
 LARGEST = 2**20  # bytes of a packed file
 PACK_EVERY = 20  # seconds at least between two packings, which take seconds of all parts
 
@@ -360,13 +361,13 @@ def check_program(said):
 
 def stamp(out, said):
     """Keeps what the program says of itself, and so makes runs of another one in the folder due (jobs.same_command);
-    another machine makes nothing due."""
+    another machine makes nothing due, and one without a device does not replace what one with a device says."""
     path = out / STAMP
     out.mkdir(parents=True, exist_ok=True)
     if not path.is_file() or program_in(path.read_text()) != program_in(said):
         path.write_text(said)
         (out / TIMES).unlink(missing_ok=True)
-    elif path.read_text() != said:
+    elif path.read_text() != said and (ON_DEVICE in said or ON_DEVICE not in path.read_text()):
         about = path.stat()
         path.write_text(said)
         os.utime(path, ns=(about.st_atime_ns, about.st_mtime_ns))

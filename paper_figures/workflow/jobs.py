@@ -8,6 +8,7 @@ and returns how that ended (KEPT, FINISHED, STOPPED); it throws RunFailure. `res
 import argparse
 import contextlib
 import contextvars
+import glob
 import json
 import math
 import os
@@ -268,6 +269,11 @@ class Job:
 def manifest_of(folder):
     path = Path(folder) / "run.json"
     return json.loads(path.read_text()) if path.is_file() else {}
+
+
+def manifests_below(folder):
+    """Returns the paths of the manifests below a folder, sorted; a link to a run is as good as the run."""
+    return sorted(folder / name for name in glob.glob("**/run.json", root_dir=folder, recursive=True))
 
 
 def failed_in_step(status):

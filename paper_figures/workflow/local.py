@@ -44,7 +44,7 @@ def verb(step, recipe):
         return "computing it exactly" if part else "drawing"
     if "rows" in body and part:
         return f"the runs of {part}"
-    if {"run", "of", "rows"} & set(body):
+    if {"run", "row", "of", "rows"} & set(body):
         return {"run": f"simulating {recipe.scene}", "movie": "making the movie"}.get(part, "drawing")
     return f"simulating{f' {recipe.scene}' if recipe.scene else ''}, then drawing"
 

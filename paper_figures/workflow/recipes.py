@@ -20,7 +20,9 @@ from pathlib import Path
 import yaml
 
 from paper_figures.workflow import parts
+from paper_figures.workflow.audited import Audit
 from paper_figures.workflow.durations import in_words, measured_times, seconds_between
+from paper_figures.workflow.jobs import manifests_below
 
 HERE = Path(__file__).parent
 ROOM = HERE.parent
@@ -31,8 +33,8 @@ REPRESENTATIVE = "fig18"
 RUNS = ("commands.py", "layers.py", "release.py", "slide.py")  # modules that define the runs of figures with several
 # Files that determine a run's numbers; a change elsewhere (tests, plots, documents) reruns nothing.
 SOURCES = ("compare", "reference", "fast", "experiments")
-KEYS = {"title", "illustrations", "scene", "script", "run", "options", "of", "movie", "rows", "backends",
-        "missing", "kept", "study"}
+KEYS = {"title", "illustrations", "scene", "script", "run", "row", "options", "of", "movie", "rows", "paper_rows",
+        "backends", "missing", "kept", "study", "beyond"}
 STUDIES = "ablations"  # the studies' folder, and the name for all of them
 QUICK = ("fig17", "fig18", "fig18_solvers", "fig20")  # with illustrations: experiments/reproduce --quick, at small
 
@@ -117,9 +119,9 @@ def shown_of(body):
 
 
 def choose(names, recipes, backend):
-    """Returns recipes by figure, scene, `illustrations`, `ablations` or `all` (without studies). Throws RecipeError for
-    a name that is none of these, is not implemented, or has no such backend."""
-    chosen, apart = [], {"missing", "study"}
+    """Returns recipes by figure, scene, `illustrations`, `ablations` or `all`: what the paper has. Throws RecipeError
+    for a name that is none of these, is not implemented, or has no such backend."""
+    chosen, apart = [], {"missing", "study", "beyond"}
     for name in names or [REPRESENTATIVE]:
         found = [r for r in recipes.values() if r.name == name] or [r for r in recipes.values() if r.scene == name][:1]
         if name == "all":
@@ -162,16 +164,19 @@ def steps(recipe, scale, backend, ogc, python=sys.executable):
         return [Step(f"{recipe.name}_data", data, (PROGRAM,), (ogc, "illustrate", recipe.name, "--out", here)),
                 Step(recipe.name, picture, (data, str(FIGURES / "illustrations.py"), *plots),
                      (*drawing, here, recipe.name))]
-    if "rows" in recipe.body:
-        return _table(recipe, scale, backend, ogc, python)
-    if "run" in recipe.body:
+    runner = (python, "-m", "paper_figures.workflow.runner", "--program", ogc, "--out", ".", "--scale", scale,
+              "--backend", backend)
+    if {"run", "row"} & set(recipe.body):
         run, movie = f"{here}/run", recipe.movie(scale, backend)
-        command = (ogc, "run", recipe.scene, "--scale", scale, "--backend", backend, *map(str, recipe.body["run"]),
-                   "--out", run)
+        # A row's run is made once for Table 1 and its figure, which has a link to it.
+        command = (*runner, recipe.name) if "row" in recipe.body else (
+            ogc, "run", recipe.scene, "--scale", scale, "--backend", backend, *map(str, recipe.body["run"]), "--out", run)
         inputs = (f"{run}/run.json", *script, *plots)
         return [Step(f"{recipe.name}_run", f"{run}/run.json", (PROGRAM,), command, gpu, all_cores=True),
                 Step(recipe.name, picture, inputs, (*drawing, run, "--out", picture)),
                 *([Step(f"{recipe.name}_movie", movie, inputs, (*drawing, run, "--movie", movie))] if movie else [])]
+    if "rows" in recipe.body:
+        return _table(recipe, scale, backend, runner)
     if "of" in recipe.body:
         drawn = [f"{name}-{scale}-{backend}/{run}" for name, run in shown_of(recipe.body).items()]
         # A figure that makes its runs itself has its picture as output.
@@ -189,17 +194,21 @@ def steps(recipe, scale, backend, ogc, python=sys.executable):
               if movie else [])]
 
 
-def _table(recipe, scale, backend, ogc, python):
+def _table(recipe, scale, backend, runner):
     """Returns the steps of Table 1. The output of a row's step is the row's last run: the others continue where they
-    were interrupted."""
+    were interrupted. Windows on the CPU stand beside the runs of a device alone."""
     here, scripts = recipe.folder(scale, backend), tuple(str(HERE / name) for name in RUNS)
-    runner = (python, "-m", "paper_figures.workflow.runner", "--program", ogc, "--out", ".", "--scale", scale)
-    rows = [Step(f"{recipe.name}_{row}", f"{here}/{row}/cpu_100/run.json", (PROGRAM, *scripts),
-                 (*runner, "--backend", backend, row, f"windows_{row}"), int(backend == "cuda"), all_cores=True)
-            for row in recipe.body["rows"]]
+    names = (*recipe.body["rows"], *(recipe.body["paper_rows"] if scale == "paper" else ()))
+    rows = []
+    for row in names:
+        asked = (row,) if backend == "cpu" else (row, f"windows_{row}")
+        book = parts.book(parts.Wanted(scale, backend))
+        last = [job.name for name in asked for job in book[name].jobs if not isinstance(job, Audit)][-1]
+        rows.append(Step(f"{recipe.name}_{row}", f"{here}/{last}/run.json", (PROGRAM, *scripts), (*runner, *asked),
+                         int(backend == "cuda"), all_cores=True))
     gather = Step(recipe.name, recipe.picture(scale, backend),
                   (*(row.output for row in rows), str(FIGURES / "table1.py")),
-                  (python, "-m", "paper_figures.figures.table1", here))
+                  (runner[0], "-m", "paper_figures.figures.table1", here))
     return [*rows, gather]
 
 
@@ -224,7 +233,7 @@ def seconds_of(recipe, scale, backend, runs):
     records = [json.loads(path.read_text()) for path in (runs / f"{step.log}.json" for step in
                                                          steps(recipe, scale, backend, "ogc")) if path.is_file()]
     took = [record["seconds"] for record in records if "seconds" in record]
-    of_runs = sum(map(seconds_of_run, (runs / recipe.folder(scale, backend)).rglob("run.json")))
+    of_runs = sum(map(seconds_of_run, manifests_below(runs / recipe.folder(scale, backend))))
     if 0 < len(took) < len(steps(recipe, scale, backend, "ogc")) or not (took or of_runs):
         return None
     return max(sum(took), of_runs)

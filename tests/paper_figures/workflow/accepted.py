@@ -218,6 +218,17 @@ class Accepting(Scratch):
         self.assertEqual((self.results / "machine/durations.csv").read_text().splitlines()[1:],
                          ["fig18,paper,cuda,90.0,machine"])
 
+    def test_a_run_behind_a_link_is_the_figures_too(self):
+        self.finished(started="2026-11-22T10:00:00Z", ended="2026-11-22T10:01:30Z")
+        run, row = self.runs / "fig18-paper-cuda/run", self.runs / "table1-paper-cuda/sphere/whole"
+        row.parent.mkdir(parents=True)
+        run.rename(row)
+        run.symlink_to(row)
+        rows = {row["file"]: row["device"] for row in self.accept("fig18")}
+        self.assertIn("fig18_paper_run.json", rows)
+        self.assertRegex(rows["fig18_paper.png"], "H200")
+        self.assertIn("fig18,paper,cuda,90.0,machine", (self.results / "machine/durations.csv").read_text())
+
     def test_a_picture_is_of_its_own_backend_where_later_windows_on_the_cpu_lie_beside_its_run(self):
         self.finished(ended="2026-11-22T10:00:00Z")
         self.make_run("fig18-paper-cuda/cpu_0", backend="cpu", device="16 threads", ended="2026-11-22T11:00:00Z")
@@ -492,7 +503,7 @@ class Accepting(Scratch):
 class Figures(unittest.TestCase):
     def test_a_script_makes_the_picture_that_the_workflow_waits_for(self):
         for recipe in recipes.load().values():
-            if "script" in recipe.body and not {"run", "of", "study"} & set(recipe.body):
+            if "script" in recipe.body and not {"run", "row", "of", "study"} & set(recipe.body):
                 text = (SOURCE / f"paper_figures/figures/{recipe.body['script'].replace('.', '/')}.py").read_text()
                 self.assertIn(f'"{recipe.name}.png"', text, recipe.name)
 

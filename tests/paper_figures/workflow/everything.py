@@ -266,6 +266,10 @@ class Moved(Scratch):
         self.assertRegex(self.call("laws")[1], r"laws .* s  kept")
         self.assertIn("3 threads", stamp.read_text())
         self.assertEqual(stamp.stat().st_mtime_ns, 0)
+        with_device = stamp.read_text() + f"  {everything.ON_DEVICE} (H200)\n"
+        stamp.write_text(with_device)
+        self.call("laws")
+        self.assertEqual(stamp.read_text(), with_device, "the device made what is there")
 
 
 class Programs(unittest.TestCase):

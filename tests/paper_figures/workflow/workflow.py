@@ -6,6 +6,7 @@ left out, and the test says so.
 """
 
 import importlib.util
+import itertools
 import json
 import os
 import subprocess
@@ -79,6 +80,10 @@ class Recipes(unittest.TestCase):
         self.assertGreaterEqual(len(studies), 5)
         self.assertEqual(names("ablations", backend="cuda"), studies)
         self.assertFalse(set(studies) & set(names("all")))
+        beyond = [name for name, recipe in book.items() if "beyond" in recipe.body]
+        self.assertEqual(beyond, ["fig16_rest", "growth", "minimiser", "quality"])
+        self.assertFalse(set(beyond) & set(names("all")), "the paper does not have them")
+        self.assertEqual(names(*beyond), beyond)
         self.assertEqual(names("yarn_twist", "fig15"), ["fig16", "fig15"])
         for wrong, words in ((("fig99",), "no figure or scene 'fig99'; there are: .*fig01"),
                              (("fig18_solvers", "cuda"), "no backend 'cuda'")):
@@ -90,6 +95,25 @@ class Recipes(unittest.TestCase):
             (Path(name) / "fig99.yaml").write_text("title: x\nsolvers: [vbd]\n")
             with self.assertRaisesRegex(recipes.RecipeError, "fig99.yaml: unknown key solvers; there are: backends"):
                 recipes.load(name)
+
+    def test_a_row_is_a_step_whose_output_is_its_last_run_and_a_figure_shares_it(self):
+        book, made = recipes.load(), {}
+        for scale, backend in itertools.product(("small", "paper"), ("cpu", "cuda")):
+            *rows, _ = recipes.steps(book["table1"], scale, backend, "ogc")
+            made[scale, backend] = {step.name.removeprefix("table1_"): step for step in rows}
+        self.assertEqual(set(made["paper", "cpu"]), set(parts.ROWS))
+        self.assertNotIn("fifty_layers_1m", made["small", "cpu"], "they are no million vertices there")
+        words = lambda scale, backend, row="twist": made[scale, backend][row].command  # noqa: E731
+        self.assertNotIn("windows_twist", words("paper", "cpu"), "its whole runs are of the CPU")
+        self.assertIn("windows_twist", words("paper", "cuda"))
+        self.assertTrue(made["small", "cpu"]["twist"].output.endswith("/twist/residual_100/run.json"))
+        self.assertTrue(made["paper", "cpu"]["fifty_layers_1m"].output.endswith("/whole/run.json"))
+        self.assertTrue(made["paper", "cuda"]["twist"].output.endswith("/twist/cpu_100/run.json"))
+        for recipe in (recipe for recipe in book.values() if "row" in recipe.body):
+            part = parts.book(parts.Wanted("small", "cpu"))[recipe.name]
+            run = recipes.steps(recipe, "small", "cpu", "ogc")[0]
+            self.assertEqual((run.command[-1], run.output), (recipe.name, f"{part.shown_as}/run.json"))
+            self.assertEqual(part.jobs[0].name, f"{recipe.body['row']}/whole")
 
     def test_the_list_says_what_is_done(self):
         with tempfile.TemporaryDirectory() as name:
