@@ -7,9 +7,9 @@ drawings and the other measured studies. Left out are other people's programs (e
 fuzz, which need builds of their own, and tables about rejected ideas.
 
 What is finished is kept, what the limit cut off goes on at the next call, which is due as long as the exit status is
-75. As runs end, tables, manifests and some frames are packed into archives of at most 16 MiB (--pack). On
-another machine, or at home, --unpack brings them back: what is in them is not made again, but a run that begins with a
-state that was not packed is refused there. Everything is of one program: runs of another one in the folder are made
+75. As runs end, tables, manifests and some frames are packed into archives (--pack) of at most 16 MiB, or of one larger
+file. On another machine, or at home, --unpack brings them back: what is in them is not made again, but a run that
+begins with a state that was not packed is refused there. Everything is of one program: runs of another one in the folder are made
 again, its archives are refused, and so is a program with uncommitted changes, or whose sources are not those of the
 checkout's HEAD.
 

@@ -17,7 +17,8 @@ from paper_figures.workflow.jobs import AUDIT, FINISHED, KEPT, remove
 MIB = 2**20
 PACKED = "packed.json"  # beside the runs: packed file -> its last change [ns]
 STAMP, TIMES = "program.txt", "times.json"  # beside the runs of everything.py, which packs them with each archive
-PIECE = 5 * MIB  # of an archive, after which the next one begins: the largest packed file, yarn's frame, has 10 MiB
+# Of an archive, after which the next one begins: a frame of yarn has 10 MiB. A scene that leaves out many pairs has 22.
+PIECE = 5 * MIB
 
 
 class UnpackError(Exception):

@@ -8,8 +8,9 @@ Figures are kept by `experiments/reproduce FIGURE … --unpack PACKED --accept M
 Usage: python3 -m paper_figures.workflow.taken MACHINE RUNS [KIND …] [--scale S] [--backend B] [--partly]. RUNS is the
 --out of experiments/evidence, or where its packed files were unpacked (`python3 -m paper_figures.workflow.runner
 --unpack PACKED --out RUNS`). A kind is one of those that `--help` lists. A table of which a part is missing is left as
-it was, and the part is named; `--partly` takes it all the same. Nothing is taken of a program with uncommitted changes,
-of a run that failed its audit, or of rows of several commits.
+it was, and the part is named; `--partly` takes it all the same, and of a table with rows of parts (JOINED) keeps the
+accepted rows of the same sources that it does not replace. Nothing is taken of a program with uncommitted changes, of a
+run that failed its audit, or of rows of several commits.
 """
 
 import argparse
@@ -34,6 +35,9 @@ from paper_figures.workflow.kept import AcceptError, file_of, run_files
 
 SHORT = 10  # digits of a commit in a table
 DRAWN = "drawn"  # in the words about a picture: the file that the script drew
+# Figures whose tables have rows of several parts, and the columns that tell these rows apart.
+JOINED = {"steady": ("variant",), "seconds": ("part", "scale", "backend"),
+          "cpu_windows": ("row", "state, share of the run [%]")}
 # Columns of jittered_STARTS, from those of `ogc ablate`.
 OF_A_START = {"bounds": "bounds", "seed": "seed", "steps [1]": "steps", "median_step [ms]": "median step [ms]",
               "worst_step [ms]": "worst step [ms]", "detections_a_step [1]": "detections a step [1]",
@@ -301,6 +305,18 @@ KINDS = {each.__name__: each for each in (rows, windows, judge, determinism, law
                                           steady, solved_steps, seconds)}
 
 
+def joined(path, data, key):
+    """Returns a table with the rows of the accepted one at `path` that it does not replace; rows of other sources than
+    this table's go."""
+    rows, accepted = list(csv.DictReader(io.StringIO(data.decode()))), rows_of(path)
+    named = lambda row: tuple(row[name] for name in key)  # noqa: E731
+    sources = {commit: of[:len(contents.ROOMS)] for commit, of in contents.of_history(
+        {row["commit"] for row in (*rows, *accepted)}).items()}
+    mine = {named(row) for row in rows}
+    same = [row for row in accepted if named(row) not in mine and sources[row["commit"]] == sources[rows[0]["commit"]]]
+    return as_csv(sorted((*rows, *same), key=named)) if same else data
+
+
 def keep(machine, runs, found, results):
     """Writes (name, bytes, words about them) and their rows of provenance.csv, in place of those of the same figure,
     scale and backend; returns the names."""
@@ -313,6 +329,8 @@ def keep(machine, runs, found, results):
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_bytes(data)
             continue
+        if runs.partly and words["figure"] in JOINED:
+            data = joined(path, data, JOINED[words["figure"]])
         entries.append((path, data, {"file": name, "scale": runs.wanted.scale, "backend": runs.wanted.backend, **words,
                                      "sha256": hashlib.sha256(data).hexdigest()[:16]}))
     table = [row for _, _, row in entries]

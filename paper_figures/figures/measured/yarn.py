@@ -55,6 +55,14 @@ ALTS = {commands.STRETCH: "Renderings of a knitted cloth of one yarn that is pul
                              "With the penalty force threads pass through one another, tangle, and the cloth comes "
                              "apart. Close views, a plot of the tension, and a table of pull-throughs."}
 
+# Where no threads passed through one another without bounds either.
+HOLDS_TITLES = {commands.STRETCH: "Fig. 15. Pulled apart, the knit holds with OGC, and here with a penalty force, too",
+                commands.YARN_TWIST: "Fig. 16. Twisted five turns and let go, the knit stays a knit with OGC, and here "
+                                     "with a penalty force, too"}
+HOLDS_ALT = ("Renderings of a knitted cloth of one yarn that is pulled apart, or twisted and let go, with OGC and with "
+             "a penalty force; it stays whole with both. Close views, a plot of the tension, and a table of "
+             "pull-throughs, of which there are none.")
+
 
 def runs_of(options):
     """Returns name -> Run with at least one step, and makes missing runs; with --made returns only existing ones."""
@@ -312,6 +320,12 @@ def draw_at_rest(axes, scene, found):
         show(place, run, frame, camera, words, REST_SIZE)
 
 
+def titled(scene, rows):
+    """Returns title and text of the picture, by what happened without bounds."""
+    pulled = any(row["kind"] != "ogc" and row["meetings [1]"] not in ("", 0, "0") for row in rows)
+    return (TITLES[scene], ALTS[scene]) if pulled else (HOLDS_TITLES[scene], HOLDS_ALT)
+
+
 def draw(scene, runs, rows, out, rested=()):
     """Draws pictures of our run and of the baseline, both from near, the tension, and the numbers of the table.
     `rested`: runs and words of more cloths, whose last states are shown (at_rest_of)."""
@@ -326,7 +340,8 @@ def draw(scene, runs, rows, out, rested=()):
              "quadratic force, no bounds")
     page = [*[style.pictures(count, SIZE[scene])] * 2, style.pictures(2, NEAR_SIZE),
             (2.5, [(0.5, "plot"), (0.5, "picture")]), *([style.pictures(len(rested), REST_SIZE)] if rested else [])]
-    figure, axes = style.page(page, TITLES[scene], below)
+    title, alt = titled(scene, rows)
+    figure, axes = style.page(page, title, below)
     for row, (kind, found) in zip(axes, pictures.items()):
         draw_pictures(row, scene, found, KINDS[kind])
     for place, (kind, found) in zip(axes[2], pictures.items()):
@@ -336,8 +351,8 @@ def draw(scene, runs, rows, out, rested=()):
     draw_rows(axes[3][1], scene, rows)
     if rested:
         draw_at_rest(axes[4], scene, rested)
-    alt = ALTS[scene] + (AT_REST_ALT if rested else "")
-    style.save(figure, out, TITLES[scene], alt, source_of([runs[name] for name in main_runs(scene).values()]))
+    alt += AT_REST_ALT if rested else ""
+    style.save(figure, out, title, alt, source_of([runs[name] for name in main_runs(scene).values()]))
 
 
 def arguments():

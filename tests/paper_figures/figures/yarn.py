@@ -84,6 +84,11 @@ class Known(unittest.TestCase):
         self.assertEqual([kept[name] for name in ("meetings [1]", "first meeting at step")], [0, ""])
         self.assertEqual([yarn.met_in_words(row) for row in (silent, kept)], ["–", "0"])
 
+    def test_the_title_says_what_happened_without_bounds(self):
+        rows = lambda met: [{"kind": "ogc", "meetings [1]": 0}, {"kind": "baseline", "meetings [1]": met}]  # noqa: E731
+        for met, said in ((3, "tangles with a penalty force"), (0, "here with a penalty force, too"), ("", "here")):
+            self.assertIn(said, yarn.titled(commands.YARN_TWIST, rows(met))[0])
+
     def test_cloths_at_rest_that_were_not_made_are_named(self):
         made_up(self.folder / "released", [0], [0.1])
         with self.assertRaisesRegex(RunError, "run.json|no states of"):

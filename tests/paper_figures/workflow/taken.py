@@ -103,6 +103,19 @@ class Taken(unittest.TestCase):
             self.assertEqual(everything.accepted_seconds("twist", wanted, {}), times["twist"]["seconds"])
             self.assertIsNone(everything.accepted_seconds("knot", wanted, {}))
 
+    def test_parts_of_a_table_add_up_if_they_are_of_the_same_sources(self):
+        path = self.results / "machine/steady_smoke.csv"
+        path.parent.mkdir()
+        sources = {"new": ("s",) * 4 + ("judge",), "old": ("s",) * 4 + ("another",), "other": ("t",) * 5}
+        lines = {name: f"{variant},{ms},{commit}\n" for name, variant, ms, commit in
+                 (("replaced", "a", 1, "old"), ("kept", "b", 2, "old"), ("gone", "c", 3, "other"),
+                  ("new", "a", 4, "new"))}
+        head = "variant,ms,commit\n"
+        path.write_text(head + lines["replaced"] + lines["kept"] + lines["gone"])
+        with mock.patch.object(taken.contents, "of_history", lambda commits: {name: sources[name] for name in commits}):
+            data = taken.joined(path, (head + lines["new"]).encode(), ("variant",))
+        self.assertEqual(data.decode(), head + lines["new"] + lines["kept"])
+
     def test_a_table_without_one_of_its_parts_is_left_as_it_was(self):
         with self.assertRaisesRegex(taken.Missing, "windows: .*run.json is missing"):
             self.take("windows")
