@@ -25,7 +25,9 @@ try:
     from paper_figures.figures.measured import yarn, yarn_rest, yarn_return
     from paper_figures.workflow import common, half_turn, untitled
     from paper_figures.workflow.evidence import RESULTS
+    from paper_figures.workflow.jobs import ENDED_BY_TIME
     from paper_figures.workflow.runs import Iterations
+    from ogc_testbed.runs import RunError
     from plots import style
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
@@ -151,6 +153,19 @@ class Curves(unittest.TestCase):
         jobs = half_turn.ogc("small")
         self.assertEqual([job.name for job in jobs if job.scene], ["vbd_rings", "vbd_wide_excluded"])
         self.assertEqual({job.name for job in (*jobs, *half_turn.ipc("small"))}, set(fig02.NAMES))
+
+    def test_fig_2_goes_on_without_a_run_of_ipc_of_which_no_step_ended_in_its_time(self):
+        def made(_ogc, job, _folder):
+            if job.name == "ipc_stiff":
+                raise RunError("no step yet")
+            return job.name
+        with tempfile.TemporaryDirectory() as name, mock.patch.object(fig02, "run_job", made):
+            arguments = SimpleNamespace(folder=name, made=False, ogc="", scale="small", backend="cpu", membrane="m")
+            with self.assertRaisesRegex(RunError, "no step yet"):
+                fig02.runs_of(arguments)
+            (Path(name) / "ipc_stiff").mkdir()
+            (Path(name) / "ipc_stiff" / ENDED_BY_TIME).write_text("{}")
+            self.assertEqual(set(fig02.NAMES) - set(fig02.runs_of(arguments)), {"ipc_stiff"})
 
     def test_fig_2_shows_ogc_where_ipc_ended_and_where_its_window_began(self):
         def run_of(solver, steps, frames):
