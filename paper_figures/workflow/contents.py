@@ -170,12 +170,17 @@ def contents_of(commit, known):
     return next((each for name, each in known.items() if name.startswith(commit)), (UNKNOWN,) * len(DIGESTS))
 
 
+def counting(name):
+    """Returns how many digests count for a file, in the order of DIGESTS."""
+    return len(DIGESTS) if name.partition("/")[2].startswith(JUDGED) else len(ROOMS)
+
+
 def old(results=RESULTS, head=None):
     """Returns the files that are old, sorted. `head`: the contents of HEAD."""
     known, head = kept(results), head or of_head()
 
     def is_new(name, commits):
-        count = len(DIGESTS) if name.partition("/")[2].startswith(JUDGED) else len(ROOMS)
+        count = counting(name)
         return commits and all(contents_of(commit, known)[:count] == head[:count] for commit in commits)
 
     return sorted(name for name, commits in in_use(results).items() if not is_new(name, commits))
@@ -189,9 +194,13 @@ def in_use(results=RESULTS):
 def mixed(results=RESULTS):
     """Returns the files of programs of different content, sorted."""
     known = kept(results)
+
+    def of(name, commit):
+        found = contents_of(commit, known)[:counting(name)]
+        return commit if UNKNOWN in found else found
+
     return sorted(name for name, commits in in_use(results).items()
-                  if len({contents_of(commit, known) if UNKNOWN not in contents_of(commit, known) else commit
-                          for commit in commits}) > 1)
+                  if len({of(name, commit) for commit in commits}) > 1)
 
 
 def in_words(results=RESULTS, head=None):

@@ -42,7 +42,7 @@ class Restored(unittest.TestCase):
 
     def test_thinned_runs_are_refused(self):
         with tempfile.TemporaryDirectory() as name, self.assertRaisesRegex(EvidenceError, "a row for every step"):
-            restored.restore("two_cores", "fig02_small", name)
+            restored.restore("h200", "fig19_paper", name)
 
 
 class Kept(unittest.TestCase):
