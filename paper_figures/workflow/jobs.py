@@ -142,7 +142,7 @@ def frame_of(run, place, read=True):
     if isinstance(place, Step):
         frames, place = [frame for frame in frames if frame.stem == f"frame_{place.number:06d}"], 0
     if len(frames) < (place + 1 if place >= 0 else -place):
-        raise RunFailure(f"a run begins with a frame of {run}, which does not have it: make that run first")
+        raise RunFailure(f"a run begins with a frame of {run}, which does not have it: remove it, and call again")
     return frames[place], int(frames[place].stem.removeprefix("frame_"))
 
 

@@ -19,7 +19,7 @@ sys.path.insert(0, str(SOURCE))
 try:
     import numpy as np
 
-    from paper_figures.figures import fig21_activation_drop
+    from paper_figures.figures import fig10_fifty_layers, fig21_activation_drop
     from paper_figures.figures.measured import knot, pile
     from paper_figures.workflow import parts
     from plots.scene_figure import NEAREST
@@ -93,6 +93,14 @@ class Packed(unittest.TestCase):
                 nearest = round(share * (frames - 1)) / (frames - 1)
                 # half of what a figure allows; a run's own frames may be as far from both
                 self.assertLessEqual(abs(nearest - share), NEAREST / 2, f"{figure}: {share}")
+
+
+class Layers(unittest.TestCase):
+    def test_a_shorter_run_shows_the_moments_that_it_reaches_and_its_end(self):
+        self.assertEqual(fig10_fifty_layers.moments(4800), [0, 240, 480, 960, 4800])
+        self.assertEqual(fig10_fifty_layers.moments(9600), [0, 240, 480, 960, 4800])
+        self.assertEqual(fig10_fifty_layers.moments(1200), [0, 240, 480, 960, 1200])
+        self.assertEqual(fig10_fifty_layers.moments(300), [0, 240, 300])
 
 
 class Pile(unittest.TestCase):
