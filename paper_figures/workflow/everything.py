@@ -9,9 +9,9 @@ fuzz, which need builds of their own, and tables about rejected ideas.
 What is finished is kept, what the limit cut off goes on at the next call, which is due as long as the exit status is
 75. As runs end, tables, manifests and some frames are packed into archives (--pack) of at most 16 MiB, or of one larger
 file. On another machine, or at home, --unpack brings them back: what is in them is not made again, but a run that
-begins with a state that was not packed is refused there. Everything is of one program: runs of another one in the folder are made
-again, its archives are refused, and so is a program with uncommitted changes, or whose sources are not those of the
-checkout's HEAD.
+begins with a state that was not packed is refused there. Everything is of one program: runs of another one in the
+folder are made again, its archives are refused, and so is a program with uncommitted changes, or whose sources are not
+those of the checkout's HEAD.
 
 Expected times are those of an earlier call into the same folder, else of the accepted results, on the machine that made
 them; "–" where nobody measured. Python's own library is enough, except for the list of ablations, which needs PyYAML:

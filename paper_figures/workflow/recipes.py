@@ -169,8 +169,8 @@ def steps(recipe, scale, backend, ogc, python=sys.executable):
     if {"run", "row"} & set(recipe.body):
         run, movie = f"{here}/run", recipe.movie(scale, backend)
         # A row's run is made once for Table 1 and its figure, which has a link to it.
-        command = (*runner, recipe.name) if "row" in recipe.body else (
-            ogc, "run", recipe.scene, "--scale", scale, "--backend", backend, *map(str, recipe.body["run"]), "--out", run)
+        options = ("--scale", scale, "--backend", backend, *map(str, recipe.body.get("run", ())), "--out", run)
+        command = (*runner, recipe.name) if "row" in recipe.body else (ogc, "run", recipe.scene, *options)
         inputs = (f"{run}/run.json", *script, *plots)
         return [Step(f"{recipe.name}_run", f"{run}/run.json", (PROGRAM,), command, gpu, all_cores=True),
                 Step(recipe.name, picture, inputs, (*drawing, run, "--out", picture)),
