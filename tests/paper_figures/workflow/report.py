@@ -446,12 +446,12 @@ class JustMade(unittest.TestCase):
 
     def test_table_1_is_shown_where_it_was_made(self):
         self.assertNotIn("just made", Page(self.site("paper").table1()).words)
-        made = self.runs / "table1-small-cuda/table1_small.csv"
+        made = self.runs / "table1-smoke-cuda/table1_smoke.csv"
         made.parent.mkdir()
-        made.write_bytes((RESULTS / "two_cores/table1_small.csv").read_bytes())
-        page = Page(self.site("small").table1())
-        self.assertIn("Table 1 at scale small, just made", page.words)
-        self.assertIn("files/new/table1_small.csv", page.links)
+        made.write_bytes((RESULTS / "two_cores/table1_smoke.csv").read_bytes())
+        page = Page(self.site("smoke").table1())
+        self.assertIn("Table 1 at scale smoke, just made", page.words)
+        self.assertIn("files/new/table1_smoke.csv", page.links)
 
     def test_the_time_of_a_table_is_that_of_its_rows_steps_or_is_said_to_be_not_measured(self):
         (self.runs / "t").mkdir(parents=True)
