@@ -17,7 +17,8 @@ from paper_figures.workflow.jobs import AUDIT, FINISHED, KEPT, remove
 MIB = 2**20
 PACKED = "packed.json"  # beside the runs: packed file -> its last change [ns]
 STAMP, TIMES = "program.txt", "times.json"  # beside the runs of everything.py, which packs them with each archive
-# Of an archive, after which the next one begins: a frame of yarn has 10 MiB. A scene that leaves out many pairs has 22.
+# An archive that has reached this size is closed. Its last file can be large: a frame of yarn has 10 MiB, a scene that
+# leaves out many pairs 22.
 PIECE = 5 * MIB
 
 

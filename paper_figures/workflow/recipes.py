@@ -199,10 +199,9 @@ def _table(recipe, scale, backend, runner):
     were interrupted. Windows on the CPU stand beside the runs of a device alone."""
     here, scripts = recipe.folder(scale, backend), tuple(str(HERE / name) for name in RUNS)
     names = (*recipe.body["rows"], *(recipe.body["paper_rows"] if scale == "paper" else ()))
-    rows = []
+    book, rows = parts.book(parts.Wanted(scale, backend)), []
     for row in names:
         asked = (row,) if backend == "cpu" else (row, f"windows_{row}")
-        book = parts.book(parts.Wanted(scale, backend))
         last = [job.name for name in asked for job in book[name].jobs if not isinstance(job, Audit)][-1]
         rows.append(Step(f"{recipe.name}_{row}", f"{here}/{last}/run.json", (PROGRAM, *scripts), (*runner, *asked),
                          int(backend == "cuda"), all_cores=True))

@@ -4,10 +4,10 @@ Usage: python3 -m paper_figures.workflow.sampled [--seed N] [--rows 10] [--machi
 it prints the files and their commands. These make runs; `accept` and `taken` with --results FOLDER turn the runs into
 files of the same names, and --again FOLDER compares these with the accepted ones.
 
-The same program on the same kind of machine has the same bits; on two hosts with processors of other speeds VBD had
-them, and Newton's method and IPC differed by roundings. So of a run the hash of its last state and the settings must be
-equal, of a table every cell but times and what depends on them, of an audit its counts. A picture shows times too: it
-must have the same size and title. Standard seeds: 58 frozen, and that of the day, which is printed.
+The same program on the same kind of machine has the same bits, but Newton's method and IPC may differ by roundings from
+host to host. So of a run the hash of its last state and the settings must be equal, of a table every cell but times and
+what depends on them, of an audit its counts. A picture shows times too: it must have the same size and title. Standard
+seeds: 58 frozen, and that of the day, which is printed.
 """
 
 import argparse

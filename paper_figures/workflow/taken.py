@@ -35,7 +35,7 @@ from paper_figures.workflow.kept import AcceptError, file_of, run_files
 
 SHORT = 10  # digits of a commit in a table
 DRAWN = "drawn"  # in the words about a picture: the file that the script drew
-# Figures whose tables have rows of several parts, and the columns that tell these rows apart.
+# Tables of these figures have rows of several parts; the columns tell their rows apart.
 JOINED = {"steady": ("variant",), "seconds": ("part", "scale", "backend"),
           "cpu_windows": ("row", "state, share of the run [%]")}
 # Columns of jittered_STARTS, from those of `ogc ablate`.

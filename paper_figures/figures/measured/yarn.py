@@ -55,7 +55,7 @@ ALTS = {commands.STRETCH: "Renderings of a knitted cloth of one yarn that is pul
                              "With the penalty force threads pass through one another, tangle, and the cloth comes "
                              "apart. Close views, a plot of the tension, and a table of pull-throughs."}
 
-# Where no threads passed through one another without bounds either.
+# These are for runs in which no threads passed through one another without bounds either.
 HOLDS_TITLES = {commands.STRETCH: "Fig. 15. Pulled apart, the knit holds with OGC, and here with a penalty force, too",
                 commands.YARN_TWIST: "Fig. 16. Twisted five turns and let go, the knit stays a knit with OGC, and here "
                                      "with a penalty force, too"}
