@@ -124,15 +124,18 @@ class Bands(unittest.TestCase):
         commits = history("paper_figures/claims", "paper_figures/results/verdicts.csv")
         # or no run judges it now
         marked = {j.claim["id"] for j in verdicts.judge_all() if j.late or "band_after" in j.claim}
+        told = set().union(*(told for *_, told in commits))
         for each in verdicts.load():
-            states = [(date, bands.get(each["id"])) for date, bands, _ in commits if each["id"] in bands]
+            states = [(date, bands.get(each["id"])) for date, bands, *_ in commits if each["id"] in bands]
             if not states or each.get("band") in (None, "stored"):
                 continue
+            if (each["id"], each["band_set"][:10]) in told:
+                self.assertIn(each["id"], marked, "its mark went with the result that it told of: use band_after")
             changes = [date for (date, band), (_, before) in zip(states[1:], states) if band != before]
             if states[-1][1] == band_of(each):
                 last = changes[-1] if changes else states[0][0]
                 self.assertGreaterEqual(each["band_set"], last, f"{each['id']}: changed later than band_set says")
-            known = next((date for date, _, judged in commits if each["id"] in judged), "9999")
+            known = next((date for date, _, judged, _ in commits if each["id"] in judged), "9999")
             if states[-1][1] != band_of(each) or changes and known < changes[-1]:
                 self.assertTrue(known == "9999" or each["id"] in marked,
                                 f"{each['id']}: a number of {known} was known; say so in band_after")
@@ -158,9 +161,12 @@ def versions(names):
     return texts
 
 
+KNOWN = re.compile(r"The band was set on (\S+), when this was known")
+
+
 def history(claims, kept):
-    """[(date, {claim: its band}, claims with a number)] of every commit that changed either, the oldest first; skips
-    the test where the checkout has no whole history."""
+    """[(date, {claim: its band}, claims with a number, {(claim, day of its band)} of those marked as known)] of every
+    commit that changed either, the oldest first; skips the test where the checkout has no whole history."""
     try:
         if git("rev-parse", "--is-shallow-repository").strip() != b"false":
             raise unittest.SkipTest("a checkout without its history")
@@ -177,7 +183,8 @@ def history(claims, kept):
         judged = {row[0] for row in (line.split(",") for line in rows.splitlines()) if decided & set(row[1:3])}
         claims_then = [each for text in documents if text for each in json.loads(text)["claims"]]
         bands = {each["id"]: band_of(each) for each in claims_then if "id" in each}
-        result.append((date, bands, judged))
+        told = {(line.split(",")[0], day[1]) for line in rows.splitlines() if (day := KNOWN.search(line))}
+        result.append((date, bands, judged, told))
     return result
 
 
