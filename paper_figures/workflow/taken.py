@@ -35,9 +35,9 @@ from paper_figures.workflow.kept import AcceptError, file_of, run_files
 
 SHORT = 10  # digits of a commit in a table
 DRAWN = "drawn"  # in the words about a picture: the file that the script drew
-# Tables of these figures have rows of several parts; the columns tell their rows apart.
-JOINED = {"steady": ("variant",), "seconds": ("part", "scale", "backend"),
-          "cpu_windows": ("row", "state, share of the run [%]")}
+# Tables of these figures have rows of several parts; the columns tell the parts' rows apart.
+JOINED = {"steady": ("variant",), "seconds": ("part", "scale", "backend"), "ablations": ("study", "scene"),
+          "jittered": ("scene", "bounds"), "cpu_windows": ("row", "state, share of the run [%]")}
 # Columns of jittered_STARTS, from those of `ogc ablate`.
 OF_A_START = {"bounds": "bounds", "seed": "seed", "steps [1]": "steps", "median_step [ms]": "median step [ms]",
               "worst_step [ms]": "worst step [ms]", "detections_a_step [1]": "detections a step [1]",
@@ -308,13 +308,16 @@ KINDS = {each.__name__: each for each in (rows, windows, judge, determinism, law
 def joined(path, data, key):
     """Returns a table with the rows of the accepted one at `path` that it does not replace; rows of other sources than
     this table's go."""
-    rows, accepted = list(csv.DictReader(io.StringIO(data.decode()))), rows_of(path)
+    packed = path.suffix == ".gz"
+    text = (gzip.decompress(data) if packed else data).decode()
+    rows, accepted = list(csv.DictReader(io.StringIO(text))), rows_of(path)
     named = lambda row: tuple(row[name] for name in key)  # noqa: E731
     sources = {commit: of[:len(contents.ROOMS)] for commit, of in contents.of_history(
         {row["commit"] for row in (*rows, *accepted)}).items()}
     mine = {named(row) for row in rows}
     same = [row for row in accepted if named(row) not in mine and sources[row["commit"]] == sources[rows[0]["commit"]]]
-    return as_csv(sorted((*rows, *same), key=named)) if same else data
+    whole = as_csv(sorted((*rows, *same), key=named)) if same else text.encode()
+    return gzip.compress(whole, mtime=0) if packed else whole
 
 
 def keep(machine, runs, found, results):

@@ -116,6 +116,16 @@ class Taken(unittest.TestCase):
             data = taken.joined(path, (head + lines["new"]).encode(), ("variant",))
         self.assertEqual(data.decode(), head + lines["new"] + lines["kept"])
 
+    def test_studies_add_up_scene_by_scene_and_keep_the_order_of_their_points(self):
+        path = self.results / "machine/ablations_smoke.csv.gz"
+        path.parent.mkdir()
+        head = "study,scene,point,commit\n"
+        kept, gone, new = "a,twist,z,one\na,twist,b,one\n", "b,twist,x,one\n", "b,twist,z,two\nb,twist,a,two\n"
+        path.write_bytes(taken.gzip.compress((head + kept + gone).encode()))
+        with mock.patch.object(taken.contents, "of_history", lambda commits: dict.fromkeys(commits, ("s",) * 5)):
+            data = taken.joined(path, taken.gzip.compress((head + new).encode()), taken.JOINED["ablations"])
+        self.assertEqual(taken.gzip.decompress(data).decode(), head + kept + new)
+
     def test_a_table_without_one_of_its_parts_is_left_as_it_was(self):
         with self.assertRaisesRegex(taken.Missing, "windows: .*run.json is missing"):
             self.take("windows")
