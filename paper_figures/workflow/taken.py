@@ -106,8 +106,11 @@ def rows(runs):
         audit = path.with_name(everything.AUDIT)
         if not path.is_file() or not (runs.partly or audit.is_file() and json.loads(audit.read_text())["complete"]):
             continue
-        words = {"figure": row, "redo": f"{runs.redo} {row}", **origin_of([manifest_of(path)])}
-        yield from ((name, data, words) for name, data in run_files(path, row))
+        # Beside the run of a device, as Table 1 has both columns.
+        stem = row if runs.wanted.backend == "cuda" else f"{row}_{runs.wanted.backend}"
+        size = f" --scale {runs.wanted.scale}" if stem != row else ""
+        words = {"figure": stem, "redo": f"{runs.redo}{size} {row}", **origin_of([manifest_of(path)])}
+        yield from ((name, data, words) for name, data in run_files(path, stem))
         found += 1
     if not found:
         raise Missing("rows: no whole run with a complete audit")

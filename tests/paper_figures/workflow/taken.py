@@ -79,9 +79,9 @@ class Taken(unittest.TestCase):
                 row, data = self.provenance[name], (self.results / "machine" / name).read_bytes()
                 self.assertEqual(row["sha256"], hashlib.sha256(data).hexdigest()[:16])
                 self.assertEqual(row["commit"], COMMIT)
-                self.assertRegex(row["redo"], "^experiments/evidence cores (twist|laws|determinism)$")
-        self.assertLess({"twist_run.json", "twist_audit.json", "laws_cpu.csv"}, set(self.provenance))
-        scene = json.loads((self.results / "machine/twist_run.json").read_text())["scene"]["sha256"]
+            self.assertRegex(row["redo"], "^experiments/evidence cores (--scale smoke twist|laws|determinism)$")
+        self.assertLess({"twist_cpu_run.json", "twist_cpu_audit.json", "laws_cpu.csv"}, set(self.provenance))
+        scene = json.loads((self.results / "machine/twist_cpu_run.json").read_text())["scene"]["sha256"]
         self.assertTrue((self.results / f"scenes/{scene}.json").is_file())
 
     def test_numbers_are_those_of_the_evidence(self):
@@ -138,7 +138,7 @@ class Taken(unittest.TestCase):
         old = self.results / "machine/twist_old.csv"
         old.write_text("x\n")
         with (self.results / "machine/provenance.csv").open("a") as file:
-            file.write(f"twist_old.csv,twist,smoke,cpu,x,{COMMIT},,,,0\n")
+            file.write(f"twist_old.csv,twist_cpu,smoke,cpu,x,{COMMIT},,,,0\n")
         self.assertEqual(self.take("rows"), names)
         self.assertFalse(old.exists())
         self.assertNotIn("twist_old.csv", self.provenance)
