@@ -346,7 +346,7 @@ class Parts(unittest.TestCase):
         self.assertIn("&lt;script&gt;", html)
 
     def test_curves_say_in_words_what_they_show(self):
-        run = next(run for run in report.Evidence(RESULTS).runs if run.source == "h200/sphere_cuda_run.json")
+        run = next(run for run in report.Evidence(RESULTS).runs if run.source == "h200/cloth_on_sphere_run.json")
         self.assertTrue(curves.are_drawn(run))
         found = curves.Drawing().draw(run, "media/one", self.folder)
         self.assertEqual(len(found), 4)
@@ -407,11 +407,12 @@ class JustMade(unittest.TestCase):
         for scale, scene in (("paper", "cloth_on_sphere"), ("small", "knot")):
             run = self.runs / f"{'fig18' if scale == 'paper' else 'fig11'}-{scale}-cuda/run"
             run.mkdir(parents=True)
-            manifest = manifest_at(RESULTS / "h200/sphere_cuda_run.json")
-            manifest.update(scale=scale, dirty=True, scene={**manifest["scene"], "name": scene},
+            manifest = manifest_at(RESULTS / "h200/cloth_on_sphere_run.json")
+            manifest.update(scale=scale, dirty=True, audit="every", audited_states=100, guarantee_kept=True,
+                            scene={**manifest["scene"], "name": scene},
                             command=f"/of/a/machine/ogc run {scene} --out /of/a/machine/runs/run")
             (run / "run.json").write_text(json.dumps(manifest))
-            (run / "steps.csv").write_bytes((RESULTS / "h200/sphere_cuda_steps.csv").read_bytes())
+            (run / "steps.csv").write_bytes((RESULTS / "h200/cloth_on_sphere_steps.csv").read_bytes())
         picture = self.runs / "fig18-paper-cuda/fig18.png"
         picture.write_bytes((RESULTS / "h200/fig17_paper.png").read_bytes())
         picture.with_suffix(".caption.json").write_text(
