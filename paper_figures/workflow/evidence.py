@@ -328,6 +328,21 @@ def ended_of(path):
         return next((row["ended"] for row in csv.DictReader(file) if row["file"] == path.name), "")
 
 
+def same_sources(first, second):
+    """Returns whether two commits are one, or have the same sources by results/contents.csv."""
+    from paper_figures.workflow import contents
+
+    of = [contents.contents_of(commit, _contents())[:len(contents.ROOMS)] for commit in (first, second)]
+    return first == second or of[0] == of[1] and contents.UNKNOWN not in of[0]
+
+
+@lru_cache(maxsize=1)
+def _contents():
+    from paper_figures.workflow import contents
+
+    return contents.kept()
+
+
 class Evidence:
     """Holds all usable runs and tables below `folder`: accepted results, or run folders; `changed`: also those of a
     changed program."""
@@ -381,10 +396,10 @@ class Evidence:
         return [run.first(wanted["steps"]) for run in found] if "steps" in wanted else found
 
     def _ratio(self, spec, wanted):
-        """Returns the ratio of two runs of one commit and the same materials, and of one machine unless the ratio is
-        about two."""
+        """Returns the ratio of two runs of the same sources and the same materials, and of one machine unless the ratio
+        is about two."""
         over, under = (self.runs_as({**wanted, **part.get("run", {})}) for part in spec["ratio"])
-        alike = [(a, b) for a in over for b in under if a.manifest["commit"] == b.manifest["commit"]
+        alike = [(a, b) for a in over for b in under if same_sources(a.manifest["commit"], b.manifest["commit"])
                  and a.membranes == b.membranes
                  and (spec.get("devices") == "differ" or a.manifest["device"] == b.manifest["device"])]
         if not alike:

@@ -17,6 +17,7 @@ from paper_figures.workflow import commands, contents, verdicts
 from paper_figures.workflow.evidence import RESULTS, Evidence, EvidenceError
 
 TABLE = "whole_runs.csv"
+ON_CPU = "_cpu"  # ends the name of a row about a run on processors
 COSTS = ("step alone [ms]", "a detection [ms]", "10⁵ contacts [ms]", "residual of the fit [ms]")
 
 
@@ -63,14 +64,16 @@ def newest(runs):
 
 def table(folder):
     """Returns as CSV, for each row of Table 1, the run on a GPU that judges its claims, and the newest one with another
-    membrane."""
-    evidence = Evidence(folder)
-    asked = {claim["scene"]: claim["run"] for claim in verdicts.load() if claim["id"].endswith(".cuda_average")}
-    wanted = {row: {"scene": commands.scene_of(row), **asked[commands.scene_of(row)],
-                    "bounds": "planes" if row.endswith(commands.WITH_PLANES) else "ball",
-                    "body_contact": commands.body_of(row)} for row in ROWS}
-    found = {row: evidence.runs_as(wanted[row]) for row in ROWS}
-    rows = [row_of(row, run) for row, runs in found.items() for run in newest(runs)]
+    membrane; below them the runs on the paper's number of processors, which the row's name tells."""
+    evidence, claims = Evidence(folder), verdicts.load()
+    rows = []
+    for backend, end in (("cuda", ""), ("cpu", ON_CPU)):
+        asked = {claim["scene"]: claim["run"] for claim in claims if claim["id"].endswith(f".{backend}_average")}
+        for row in ROWS:
+            scene, bounds = commands.scene_of(row), "planes" if row.endswith(commands.WITH_PLANES) else "ball"
+            wanted = {"scene": scene, **asked.get(scene, {}), "bounds": bounds, "body_contact": commands.body_of(row)}
+            runs = evidence.runs_as(wanted) if scene in asked else []
+            rows += [row_of(row + end, run) for run in newest(runs)]
     if not rows:
         raise EvidenceError(f"{folder} holds no whole run of Table 1: accept one")
     out = io.StringIO()

@@ -16,6 +16,7 @@ import tempfile
 import unittest
 from pathlib import Path
 from types import SimpleNamespace
+from unittest import mock
 
 SOURCE = Path(sys.argv.pop(1)) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else Path(__file__).parents[2]
 sys.path.insert(0, str(SOURCE))
@@ -620,6 +621,20 @@ class OneSceneOfTwoFigures(unittest.TestCase):
         found = verdicts.judge(ratio, Evidence(self.folder)).measured
         self.assertAlmostEqual(found.value, 3)
         self.assertEqual(found.source, "1_ipc/run.json / 2_fig18/run.json")
+
+    def test_a_ratio_is_of_the_same_sources(self):
+        cpu = {"backend": "cpu", "device": "16 threads"}
+        names = {"first": "a" * 40, "same": "b" * 40, "other": "c" * 40, "unknown": "d" * 40}
+        known = {names["first"]: ("s",) * 5, names["same"]: ("s",) * 5, names["other"]: ("t",) * 5}
+        ratio = next(each for each in verdicts.load() if each["id"] == "cloth_on_sphere.ipc_over_vbd")
+        self.make("1_ipc", "stable_neo_hookean", 6, solver="ipc", commit=names["first"], **cpu)
+        with mock.patch("paper_figures.workflow.evidence._contents", lambda: known):
+            for name in ("same", "other", "unknown"):
+                self.make(f"2_{name}", "stable_neo_hookean", 2, commit=names[name], **cpu)
+                found = Evidence(self.folder)._ratio(ratio["measure"][1],
+                                                     {"scene": "cloth_on_sphere", **ratio["run"]})
+                self.assertEqual(found is not None, name == "same", name)
+                shutil.rmtree(self.folder / f"2_{name}")
 
 
 class Files(unittest.TestCase):
