@@ -557,7 +557,7 @@ def yarn_twisted(scale, backend):
 
 # Whether the twisted cloth returns: let go as in Fig. 16, then braked until it hangs still, beside the cloth that hangs
 # untwisted. With the scene's 4 iterations it never does, braked or not: so few sweeps do not follow friction, whose
-# block is a thousand times m/h², and move in circles of a centimetre (results/two_cores/yarn_rest_iterations.csv).
+# block is a thousand times m/h², and move in circles of a centimetre (results/tried/yarn_rest_iterations.csv).
 # Friction holds threads in place, so that there are many states at rest; the next runs, of both cloths, have none, and
 # the energy alone decides. Eight iterations of an eighth of the time step are as many sweeps a second as 64 iterations
 # of the whole one, and follow better: in a step an eighth as long the stiffness of a segment is half of m/h², in place

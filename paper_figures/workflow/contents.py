@@ -33,7 +33,8 @@ ROOMS = ("fast", "reference", "compare", "experiments")
 JUDGE = (*(f"compare/judge/{folder}" for folder in ("stages", "engine", "report")), "experiments/judge",
          "experiments/peers")
 DIGESTS = (*ROOMS, "judge")
-JUDGED = ("judge", "determinism", "peers")  # begin the names of files whose numbers the judge said
+# Begin the names of files whose numbers the judge said; those of peers_cipc are of simulations.
+JUDGED = ("judge", "determinism", *(f"peers_{of}" for of in ("ipctk", "newton", "sets", "gaps", "trajectories")))
 KEPT, PROVENANCE = "contents.csv", "provenance.csv"
 TRIED = "tried"  # folder below the results
 UNKNOWN = "unknown"
