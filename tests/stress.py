@@ -5,8 +5,9 @@ calls of the Python package, runs that are killed again and again, and on a devi
     tests/stress.py BUILD --out FILE [--files N] [--calls N] [--kills N]
     tests/stress.py BUILD --out FILE --device [--steps N]
 
-BUILD holds the tests, or with --device at least `ogc`; FILE is the table, a row for each kind, in place of an earlier
-one. A count of 0 leaves a kind out. Exit status 1: something failed; its words are in FILE.log.
+BUILD holds the tests, or with --device at least `ogc`; calls from Python need the environment .venv. FILE is the table,
+a row for each kind, in place of an earlier one. A count of 0 leaves a kind out. Exit status 1: something failed; its
+words are in FILE.log.
 """
 
 import argparse
@@ -71,6 +72,8 @@ class Stress:
         for seed in (1, today()):
             begun = time.monotonic()
             done = self.run([sys.executable, script, self.build, f"--seed={seed}", f"--cases={number}"])
+            if done.returncode == 77:  # skipped
+                sys.exit(f"stress: {done.stdout.strip() or done.stderr.strip()}; call it by .venv/bin/python")
             self.add("calls of the Python package", number, "calls", int(done.returncode != 0), seed, begun)
 
     def kills(self, times):

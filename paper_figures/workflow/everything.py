@@ -70,7 +70,8 @@ CHEAP = ("rest_state", "closest_face", "closest_points", "block", "detect_vertex
          "initial_guess", "activation", "contact_force", "friction_force", "volume_force", "membrane", "bending",
          "spring", "tetrahedron", "rod", "truncate")
 DEAR = ("plane", "volume_depth", "orientation", "sweep", "step")  # for the reference, whose answers take the time
-MEASURED = {"activation_load": True, "creep": True, "falling": False, "radius": True}  # whether it has scales
+# Study -> whether it has scales.
+MEASURED = {"activation_load": True, "creep": True, "falling": False, "left_forces": False, "radius": True}
 MEASURED_ON_DEVICE = ("mat_volumes", "yarn_return")
 SECONDS = "part_seconds.csv"  # of a machine's results: how long parts took there
 ON_DEVICE = "cuda: usable"  # what the program says of a machine with a device

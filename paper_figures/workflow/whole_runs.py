@@ -51,6 +51,7 @@ def row_of(row, run):
             "contacts a step": run.mean("vertex_facet_contacts") + run.mean("edge_edge_contacts"),
             **dict(zip(COSTS, parts)), "first quarter [ms]": first, "last quarter [ms]": last,
             "at bound, first quarter [1]": free, "at bound, last quarter [1]": cut,
+            "left residual, median [1]": float(run.manifest.get("left_residual", "nan")),
             "largest elastic energy [J]": run.largest("elastic_energy"), "largest lag [m]": run.largest("largest_lag"),
             "smallest distance [m]": min(run.thinned.of("smallest", closest) if run.thinned else run.column(closest)),
             "device": run.manifest["device"], "commit": run.manifest["commit"][:10], "source": run.source}

@@ -531,7 +531,8 @@ class OneSceneOfTwoFigures(unittest.TestCase):
             body["material"]["membrane"] = membrane
         (self.folder / name).mkdir()
         (self.folder / name / "run.json").write_text(json.dumps({**manifest, "ended": name, **changes}))
-        head, *rows = [line.split(",") for line in (RESULTS / "h200/cloth_on_sphere_steps.csv").read_text().splitlines()]
+        text = (RESULTS / "h200/cloth_on_sphere_steps.csv").read_text()
+        head, *rows = [line.split(",") for line in text.splitlines()]
         step, wall = (next(i for i, title in enumerate(head) if title.partition(" ")[0] == name)
                       for name in ("step", "wall"))
         for row in rows:

@@ -317,7 +317,8 @@ class Plans(unittest.TestCase):
             text = (SOURCE / f"paper_figures/figures/measured/{name}.py").read_text()
             (said,) = re.findall(r"parser_of_figure\(__doc__\.splitlines\(\)\[0\](.*)\)", text)
             self.assertEqual(bool(re.match(r", [A-Z(]", said)), has_scales, name)
-            self.assertEqual("has_backend=False" in said, name in ("activation_load", "falling", "radius"), name)
+            of_cpu = ("activation_load", "falling", "left_forces", "radius")
+            self.assertEqual("has_backend=False" in said, name in of_cpu, name)
 
     def test_what_needs_numpy_is_left_out_in_words_where_it_is_missing(self):
         options = everything.arguments().parse_args(["gpu", "--no-studies"])

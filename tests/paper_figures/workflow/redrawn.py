@@ -87,6 +87,18 @@ class Table1(unittest.TestCase):
                 self.assertEqual(colours[place - 8] == "white", not found)
             self.assertRegex(texts[11], r"^[\d.]+ / [\d.]+$", "the paper prints a time on the GPU in every row")
 
+    def test_a_whole_run_of_processors_goes_before_windows_which_have_a_star(self):
+        cells = {name: texts[9] for (texts, _), (*_, name) in zip(table1_picture.table(), table1_picture.ROWS)}
+        rows = table1_picture.rows_of(RESULTS / "h200/whole_runs.csv")
+        whole = {row["scene"].removesuffix("_cpu"): row for row in rows if row["scene"].endswith("_cpu")}
+        windows = {row["row"] for row in table1_picture.rows_of(RESULTS / "h200/cpu_windows_paper.csv")}
+        self.assertTrue(whole)
+        for name, text in cells.items():
+            self.assertEqual(text.endswith("*"), name in windows and name not in whole, name)
+            if name in whole:
+                time = table1_picture.Time(float(whole[name]["mean [ms]"]), float(whole[name]["worst [ms]"]))
+                self.assertEqual(text, time.words)
+
     def test_a_cell_is_blue_if_ours_takes_at_most_the_papers_mean_and_darker_the_slower(self):
         paper = table1_picture.Time(2.0, 3.0)
         shades = [table1_picture.shade(table1_picture.Time(mean), paper) for mean in (2.0, 2.1, 4.1, 8.1, None)]
