@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from paper_figures.workflow import commands, half_turn
-from paper_figures.workflow.common import baseline_arguments, ipc_windows
+from paper_figures.workflow.common import baseline_arguments
 from paper_figures.workflow.jobs import ENDED_BY_TIME
 from paper_figures.workflow.runs import provenance, run_job, write_table
 from plots import style
@@ -23,6 +23,7 @@ from ogc_testbed.runs import Run, RunError
 
 SCENE, OGC = commands.TWIST, "vbd"
 SIZE, NEAR, MIDDLE = (960, 560), (960, 480), 0.16  # pixels; what is shown from near, around the middle [m]
+FEW, TORN = 5, 1.5  # states; length of the median edge over that at rest
 VISIBLE = 0.03  # angle defect of bulges of a tenth of an edge, which turn faces by 11° [rad]
 # Names in pictures and at curves, by the run's folder.
 NAMES = {OGC: "OGC", "vbd_thin": "OGC, r = 1/5 edge", "vbd_rings": "OGC without two rings",
@@ -98,7 +99,6 @@ def rows_of(runs):
         time, defect, stretched = history(run, rest)
         h, energies = run.setting("time_step"), dict(zip(run.column("step").astype(int), run.column("kinetic_energy")))
         rows.append({"run": name, "at": "end" if run.status == "finished" else "cut off",
-                     "begins at step [1]": int(run.column("step")[0]) - 1,
                      "steps [1]": len(run.column("step")), "time [s]": time[-1], "angle defect [rad]": defect[-1],
                      **dict(zip(("stretch 1 % [1]", "stretch median [1]", "stretch 99 % [1]"), stretched[-1])),
                      "angle defect of OGC then [rad]": np.interp(time[-1], times, defects),
@@ -138,15 +138,13 @@ def title_of(rows):
         words.append(f"{SETS[other]} " + (
             f"stretches the sheet by {100 * (theirs['stretch median [1]'] - 1):.0f} %" if apart >= 0.01 else
             "bulges the sheet" if bulged else "leaves the sheet smooth"))
-    sheet = "it" if words else "the sheet"
-    words.append(f"OGC's leaves {sheet} smooth" if bulges < VISIBLE else f"OGC's bulges {sheet}" + (
+    whose, sheet = ("OGC's", "it") if words else ("OGC's contact set", "the sheet")
+    words.append(f"{whose} leaves {sheet} smooth" if bulges < VISIBLE else f"{whose} bulges {sheet}" + (
         " only by its own neighbours" if without <= bulges / 2 else ""))
+    if not theirs and "vbd_wide" in rows:
+        torn = rows["vbd_wide"]["stretch median [1]"] >= TORN
+        words.append("with r of ten edges it tears it apart" if torn else "with r of ten edges, too")
     return f"Fig. 2. {'; '.join(words)}"
-
-
-def whole(run):
-    """Returns whether the run begins at the scene's start; a window begins with a state of OGC's run."""
-    return run is not None and run.column("step")[0] == 1
 
 
 def size_of(run):
@@ -156,12 +154,11 @@ def size_of(run):
 
 
 def frame_beside(run, others):
-    """Returns the last frame of a run; of OGC's whole run the one at the latest time that another run reached, so that
-    states are compared; beside a window of IPC's the state from which it began."""
+    """Returns the last frame of a run; of OGC's run the one at the latest time that another run reached, so that states
+    are compared."""
     if run.manifest["solver"] != "vbd" or not others:
         return run.frame(run.frames[-1])
-    ends = [int(other.column("step")[-1 if whole(other) else 0]) - (not whole(other)) for other in others]
-    return run.frame_at_step(max(ends))
+    return run.frame_at_step(max(int(other.column("step")[-1]) for other in others))
 
 
 def draw_row(axes, runs, names, letters, reach=None):
@@ -178,10 +175,8 @@ def draw_row(axes, runs, names, letters, reach=None):
         points = subject(*shown[-1])
         camera = around(points, np.median(points, axis=0), reach, shown[-1][0], size=NEAR)
     for place, (run, frame), letter, name in zip(axes, shown, letters, names):
-        begins = int(run.column("step")[0]) - 1
-        title = f"({letter}) {NAMES[name]}" + (f", {frame.step - begins} steps from OGC's state" if begins else "")
         show(place, run, frame, camera or fitted(run, [frame], size),
-             f"{title}, {'from near' if reach else moment(frame)}", size)
+             f"({letter}) {NAMES[name]}, {'from near' if reach else moment(frame)}", size)
 
 
 def draw(runs, out):
@@ -189,18 +184,20 @@ def draw(runs, out):
     name -> run. Returns a line about each run."""
     style.use()
     rest, rows = rest_of(runs), {row["run"]: row for row in rows_of(runs)}
-    whole_size = runs[OGC].manifest["scale"] == "paper"  # there IPC and OGC are drawn alone
+    whole_size = runs[OGC].manifest["scale"] == "paper"  # of which there are fewer runs
     edge = [name for name in EDGE if name in runs or not whole_size]
     ten = [name for name in TEN if name in runs]
     shown = [(edge, None), (edge, MIDDLE), *([(ten, None)] if ten else [])]
     sizes = [style.pictures(len(names), NEAR if reach else SIZE) for names, reach in shown]
-    figure, axes = style.page([*sizes, (2.4, [(1 / 3, "plot")] * 3), (0.55, [(1, "picture")])], title_of(rows),
+    # Few states show no course.
+    curves = 1 if all(len(run.frames) < FEW for run in runs.values()) else 3
+    figure, axes = style.page([*sizes, (2.4, [(1 / curves, "plot")] * curves), (0.55, [(1, "picture")])], title_of(rows),
                               below_of(runs, rows))
     letters = iter("abcdefghijklmnop")
     for places, (names, reach) in zip(axes, shown):
         draw_row(places, runs, names, [next(letters) for _ in names], reach)
     draw_curves(axes[-2], runs, rest)
-    style.key(axes[-1][0], axes[-2][0].get_lines()[:-1])
+    style.key(axes[-1][0], axes[-2][-1].get_lines())
     said = ", ".join(f"{NAMES.get(name, name)} {row['angle defect [rad]']:.2g} rad, edges stretched by "
                      f"{row['stretch median [1]']:.3g}" for name, row in rows.items())
     style.save(figure, out, title_of(rows), ALT.format(said=said), source_of(list(runs.values())))
@@ -214,7 +211,7 @@ def below_of(runs, rows):
     scale = runs[OGC].manifest["scale"]
     small = "" if scale == "paper" else f" (scale {scale}; the paper has 200 × 200)"
     found = ", ".join(f"{NAMES[name].replace(', ', ' at ', 1) if 'wide' in name else NAMES[name]} "
-                      f"{row['angle defect [rad]']:.2g}" + ("" if whole(runs[name]) and row["at"] == "end" else
+                      f"{row['angle defect [rad]']:.2g}" + ("" if row["at"] == "end" else
                                                             f" (at {row['time [s]']:.2g} s)")
                       for name, row in rows.items() if name in CURVES)
     return (f"{size_of(runs[OGC])}{small}, r = one edge where nothing else is said; mean angle defect [rad], which is "
@@ -222,20 +219,24 @@ def below_of(runs, rows):
 
 
 def draw_curves(panels, runs, rest):
-    bulges, stretched, energy = panels
+    """Draws the kinetic energy of runs, and before it in two panels, if there are three, what states show."""
+    *courses, energy = panels
     for name, colour in CURVES.items():
         if name not in runs:
             continue
         run = runs[name]
         time, defect, stretches = history(run, rest)
-        bulges.plot(time[time > 0], defect[time > 0], color=colour, label=NAMES[name])
-        stretched.plot(time, stretches[:, 1], color=colour)
+        for panel, values in zip(courses, (defect, stretches[:, 1])):
+            panel.plot(time[time > 0], values[time > 0], color=colour)
         energy.plot(run.column("step") * run.setting("time_step"), run.column("kinetic_energy"), color=colour,
-                    linewidth=0.8)
+                    linewidth=0.8, label=NAMES[name])
+    energy.set(xlabel="time [s]", ylabel="energy [J]", title="Kinetic energy", yscale="log")
+    if not courses:
+        return
+    bulges, stretched = courses
     bulges.axhline(VISIBLE, color=style.PAPER, linewidth=0.8, linestyle=":")
     bulges.set(xlabel="time [s]", ylabel="angle defect [rad]", title="Bulges; dotted: a tenth of an edge", yscale="log")
     stretched.set(xlabel="time [s]", ylabel="length / rest length", title="Stretch of edges, median")
-    energy.set(xlabel="time [s]", ylabel="energy [J]", title="Kinetic energy", yscale="log")
 
 
 def has_steps(folder):
@@ -245,19 +246,13 @@ def has_steps(folder):
 
 
 def runs_of(arguments):
-    """Returns folder's name -> run. At the paper's size IPC's whole run would take days; IPC then has windows of 20
-    steps from states of OGC's run."""
+    """Returns folder's name -> run. At the paper's size IPC's run would take days, and is none."""
     folder = Path(arguments.folder)
     if arguments.made:
-        found = {name: Run(folder / name) for name in NAMES if has_steps(folder / name)}
-        windows = sorted((Run(path.parent) for path in folder.glob("ipc_*/run.json") if path.parent.name not in NAMES),
-                         key=lambda run: run.column("step")[0])
-        return {**found, **({"ipc": windows[-1]} if windows and "ipc" not in found else {})}
+        return {name: Run(folder / name) for name in NAMES if has_steps(folder / name)}
     runs = {job.name: run_job(arguments.ogc, job, folder)
             for job in half_turn.ogc(arguments.scale, arguments.backend, arguments.membrane)}
-    if arguments.scale == "paper":
-        return {**runs, "ipc": ipc_windows(arguments, SCENE, runs[OGC], commands.TWIST_WINDOWS)[-1]}
-    for job in half_turn.ipc(arguments.scale, arguments.membrane):
+    for job in half_turn.ipc(arguments.scale, arguments.membrane) if arguments.scale != "paper" else ():
         try:
             runs[job.name] = run_job(arguments.ogc, job, folder)
         except RunError:

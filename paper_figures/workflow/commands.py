@@ -17,8 +17,6 @@ ONE_ITERATION, ACTIVATIONS = "one_iteration_drop", "activation_drop"
 NEO_HOOKEAN = "stable_neo_hookean"  # in all scenes (compare/deviations.md)
 ST_VENANT = ("--set", "membrane=st_venant_kirchhoff")  # the other one that the paper leaves open
 
-TWIST_STEPS, TWIST_WINDOWS = 1200, (300, 600, 900, 1180)  # at scales small and paper
-
 THREE_CLOTHS_STEP = {"smoke": 24, "small": 40, "paper": 50}
 THREE_CLOTHS_OTHERS = {"paper": (25, 41)}  # for these the start stores the states before
 # The paper draws 500 and 50.
@@ -62,14 +60,6 @@ def beside_ipc(scene, scale, backend="cpu", membrane=NEO_HOOKEAN):
     """Returns OGC's run and IPC's of Fig. 20."""
     base = (scene, *shared(scale, membrane), "--audit", "frame")
     return Job("vbd", (*base, *on(backend))), Job("ipc", (*base, "--solver", "ipc"))
-
-
-def ipc_windows(scene, whole, starts, last, scale, membrane=NEO_HOOKEAN, steps=20):
-    """Returns windows of IPC with so many steps from states of the run `whole`, which ends at step `last`, because IPC
-    is too slow for the whole run."""
-    return [Job(f"ipc_{start}", (scene, *shared(scale, membrane), "--solver", "ipc", "--profile", "--steps",
-                                 min(last, start + steps)), (whole, Step(start)))
-            for start in starts]
 
 
 def three_cloths(scale, backends, start_iterations=None):

@@ -32,15 +32,6 @@ def baseline_arguments(description, scales=("smoke", "small", "paper"), backends
     return parser
 
 
-def ipc_windows(arguments, scene, whole, starts, steps=20):
-    """Returns windows of IPC with so many steps from states of the run `whole`, because IPC is too slow for the whole
-    run."""
-    last = int(whole.column("step")[-1])
-    jobs = commands.ipc_windows(scene, whole.folder.name, [start for start in starts if start < last], last,
-                                arguments.scale, arguments.membrane, steps)
-    return [run_job(arguments.ogc, job, arguments.folder) for job in jobs]
-
-
 def draw_a_run(scene, draw_it, profiled=False, seen=None):
     """Draws the figure of the run of `scene` that the command line names, by draw_it(run, out), or its movie.
     `profiled`: draw_it gets a third argument, the run of the option --profiled, or None. `seen`: camera of the movie as

@@ -225,8 +225,8 @@ class RunEvidence:
 
     def matches(self, wanted):
         """Returns whether the run is the one that a claim wants. `wanted`: keys of the manifest, and profiled, audited,
-        audited_states (at least so many), membrane, contact_activation, bounds, body_contact, detection_fraction
-        (rounded to single precision in the manifest), and steps: so many from the scene's start, not a window. A start
+        audited_states (at least so many), membrane, contact_activation, bounds, body_contact, detection_radius_cap,
+        detection_fraction (rounded to single precision in the manifest), and steps: so many from the scene's start, not a window. A start
         moved by --jitter, bounds other than the paper's, and bodies that may be entered match only if the claim names
         them."""
         m = self.manifest
@@ -241,6 +241,7 @@ class RunEvidence:
                    "profiled": lambda yes: bool(m.get("stages")) == yes,
                    "membrane": lambda name: self.membranes == {name},
                    "contact_activation": lambda name: m["settings"].get("contact_activation", {}).get("value") == name,
+                   "detection_radius_cap": lambda cap: m["settings"]["detection_radius_cap"]["value"] == cap,
                    "bounds": lambda name: bounds == name,
                    "body_contact": lambda name: self.contact == name,
                    "detection_fraction":

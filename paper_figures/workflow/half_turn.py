@@ -9,7 +9,7 @@ all neighbours, and without those on the sheet that are nearer than r at rest.
 
 import json
 import subprocess
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from paper_figures.workflow.commands import NEO_HOOKEAN, ST_VENANT, TWIST, on, shared
 from paper_figures.workflow.jobs import Job
@@ -25,6 +25,9 @@ FEW = 3  # steps in which a cloth is torn; each takes seconds on a CPU
 # A run on processors is stopped after so many seconds. LONGEST is for IPC's 1,200 steps, and for those of its set in
 # OGC's solver, beside OGC's; SHORTER is for runs of which the first steps tell enough.
 LONGEST, SHORTER = {"smoke": 20, "small": 1800}, {"smoke": 20, "small": 400}
+# The picture at the paper's size is of runs of `neighbours` and `wide_softer`: name there -> theirs.
+AT_PAPER = {"vbd": "neighbours/printed", "vbd_rings": "neighbours/two_rings", "vbd_k1": "neighbours/stiffness_1",
+            "vbd_wide": "wide/printed", "vbd_wide_k1": "wide/stiffness_1", "vbd_wide_excluded": "wide/excluded"}
 # What could tear OGC's cloth at ten edges, one choice at a time: folder -> setting.
 VARIANTS = {"printed": "", "stiffness_10": "contact_stiffness=10", "stiffness_1": "contact_stiffness=1",
             "stiffness_0.1": "contact_stiffness=0.1", "stiffness_0.01": "contact_stiffness=0.01",
@@ -85,15 +88,18 @@ class LeftOut:
 
 def ogc(scale, backend="cpu", membrane=NEO_HOOKEAN):
     """Returns OGC's runs: r of one edge and of a fifth; with a softer contact; without two rings of neighbours; ten
-    edges with all neighbours, with a softer contact, and without the neighbours on the sheet nearer than r."""
+    edges with all neighbours, with a softer contact, and without the neighbours on the sheet nearer than r; at the
+    paper's size some of these, of which those at ten edges need a device."""
+    if scale == "paper":
+        there = {job.name: job for varied in (neighbours, wide_softer)[:1 if backend == "cpu" else 2]
+                 for job in varied(scale, backend)}
+        return [replace(there[other], name=name) for name, other in AT_PAPER.items() if other in there]
     base, more = (TWIST, *shared(scale, membrane)), ("--audit", "frame", *on(backend))
     length = edge(scale)
-    jobs = [Job("vbd", (*base, *more))]
-    if scale == "paper":
-        return jobs
-    jobs += [Job("vbd_thin", (*base, *more, "--set", f"contact_radius={RADIUS * length / 5:.6g}")),
-             *(Job(f"vbd_k{k}", (*base, *more, "--set", f"contact_stiffness={k}")) for k in (10, 1)),
-             Job("vbd_rings", more, scene=LeftOut(scale, RINGS))]
+    jobs = [Job("vbd", (*base, *more)),
+            Job("vbd_thin", (*base, *more, "--set", f"contact_radius={RADIUS * length / 5:.6g}")),
+            *(Job(f"vbd_k{k}", (*base, *more, "--set", f"contact_stiffness={k}")) for k in (10, 1)),
+            Job("vbd_rings", more, scene=LeftOut(scale, RINGS))]
     if scale == "smoke":  # ten edges are two thirds of the cloth
         return jobs
     few = ("--steps", FEW) if backend == "cpu" else ()
@@ -106,7 +112,7 @@ def ogc(scale, backend="cpu", membrane=NEO_HOOKEAN):
 
 def ipc(scale, membrane=NEO_HOOKEAN):
     """Returns IPC's runs on the CPU at r of one edge: with a stiffness that adapts; as stiff as OGC's contact; and its
-    contact set in OGC's solver. At ten edges each of its steps takes minutes."""
+    contact set in OGC's solver. At ten edges each of its steps takes minutes, and at the paper's size all take days."""
     base, by = (TWIST, *shared(scale, membrane)), ("--solver", "ipc", "--profile", "--audit", "frame")
     r = RADIUS * edge(scale)
     return [Job("ipc", (*base, *by), seconds=LONGEST[scale] if scale == "small" else 0),

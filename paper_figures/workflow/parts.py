@@ -74,8 +74,8 @@ def of_figures(wanted):
     """Returns the parts of figures that are made of several runs."""
     scale, backend, folder = wanted.scale, wanted.backend, wanted.folder
     single, double = commands.three_cloths(scale, wanted.backends)
-    half_turns, begins = half_turn.ogc(scale, backend), ("vbd", commands.TWIST_WINDOWS, commands.TWIST_STEPS, scale)
-    by_ipc = half_turn.ipc(scale) if scale != "paper" else commands.ipc_windows(commands.TWIST, *begins)
+    half_turns = half_turn.ogc(scale, backend)
+    by_ipc = [] if scale == "paper" else half_turn.ipc(scale)
     drop, ipc = commands.beside_ipc(commands.ONE_ITERATION, scale, backend)
     on_cpu = tuple(job for job in single if "cpu" in job.name and backend != "cpu")
     on_device = tuple(job for job in single if job not in on_cpu)
@@ -89,7 +89,7 @@ def of_figures(wanted):
         "fig17_cpu": Part(folder("fig17"), (on_cpu,), "fig17", frames=0, last=1),
         "fig21": Part(folder("fig21"), tuple(map(tuple, commands.activations(scale, backend))), "fig21", frames=0,
                       last=2),
-        "fig02_ipc": Part(folder("fig02"), one_by_one(by_ipc), "fig02", frames=2 if scale == "paper" else 13),
+        **({"fig02_ipc": Part(folder("fig02"), one_by_one(by_ipc), "fig02", frames=13)} if by_ipc else {}),
         "fig20_ipc": Part(folder("fig20"), ((ipc,),), "fig20", frames=25),
         "fig17_double": Part(folder("fig17"), one_by_one(double), "fig17", frames=0, last=1),
         # For a figure on the CPU, as its recipe states: its ratios are of the same cores, with nothing running beside.
