@@ -26,7 +26,7 @@ SIZE, NEAR, MIDDLE = (960, 560), (960, 480), 0.16  # pixels; what is shown from 
 FEW, TORN = 5, 1.5  # states; length of the median edge over that at rest
 VISIBLE = 0.03  # angle defect of bulges of a tenth of an edge, which turn faces by 11° [rad]
 # Names in pictures and at curves, by the run's folder.
-NAMES = {OGC: "OGC", "vbd_thin": "OGC, r = 1/5 edge", "vbd_rings": "OGC without two rings",
+NAMES = {OGC: "OGC", "vbd_thin": "OGC, r = 1/5 edge", "vbd_rings": "OGC, two rings left out",
          "vbd_k10": "OGC, k_c = 10 N/m", "vbd_k1": "OGC, k_c = 1 N/m",
          "ipc": "IPC", "ipc_stiff": "IPC, as stiff as OGC", "pairs": "IPC's set in OGC's solver",
          "vbd_wide": "OGC, r = ten edges",
@@ -35,7 +35,8 @@ NAMES = {OGC: "OGC", "vbd_thin": "OGC, r = 1/5 edge", "vbd_rings": "OGC without 
          "vbd_wide_excluded": "OGC, ten edges, near ones left out"}
 EDGE, TEN = ("pairs", "ipc", OGC, "vbd_rings"), ("vbd_wide", "vbd_wide_k1", "vbd_wide_excluded")  # rows of pictures
 CURVES = {OGC: style.OURS, "vbd_rings": style.COLOURS[2], "ipc": style.BASELINE, "pairs": style.COLOURS[5],
-          "ipc_stiff": style.COLOURS[1], "vbd_wide": style.COLOURS[4], "vbd_wide_excluded": style.COLOURS[6]}
+          "ipc_stiff": style.COLOURS[1], "vbd_wide": style.COLOURS[4], "vbd_wide_k1": "0.6",
+          "vbd_wide_excluded": style.COLOURS[6]}
 # Whose contacts the title compares with OGC's set, and how stiff they are.
 SETS = {"pairs": "IPC's contact set at OGC's stiffness", "ipc_stiff": "IPC's contact set at OGC's stiffness",
         "ipc": "IPC's contact set"}
@@ -142,8 +143,9 @@ def title_of(rows):
     words.append(f"{whose} leaves {sheet} smooth" if bulges < VISIBLE else f"{whose} bulges {sheet}" + (
         " only by its own neighbours" if without <= bulges / 2 else ""))
     if not theirs and "vbd_wide" in rows:
-        torn = rows["vbd_wide"]["stretch median [1]"] >= TORN
-        words.append("with r of ten edges it tears it apart" if torn else "with r of ten edges, too")
+        longer = rows["vbd_wide"]["stretch median [1]"]
+        words.append("with r of ten edges, too" if longer < TORN else
+                     f"with r of ten edges it blows it up, edges {longer:.2g} times as long")
     return f"Fig. 2. {'; '.join(words)}"
 
 

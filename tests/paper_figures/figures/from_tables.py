@@ -124,7 +124,11 @@ class Curves(unittest.TestCase):
         self.assertIn("stretches the sheet by 26 %", title(vbd=(0.01, 1.0), pairs=(0.3, 1.26)))
         self.assertIn("OGC's bulges it only by its own neighbours",
                       title(vbd=(0.2, 1.0), vbd_rings=(0.05, 1.0), ipc=(0.01, 1.0)))
-        self.assertEqual(title(vbd=(0.2, 1.0), vbd_rings=(0.19, 1.0)), "Fig. 2. OGC's bulges the sheet")
+        self.assertEqual(title(vbd=(0.2, 1.0), vbd_rings=(0.19, 1.0)), "Fig. 2. OGC's contact set bulges the sheet")
+        for longer, words in ((1.1, "with r of ten edges, too"),
+                              (3.9, "with r of ten edges it blows it up, edges 3.9 times as long")):
+            self.assertEqual(title(vbd=(0.01, 1.0), vbd_wide=(1.0, longer)),
+                             f"Fig. 2. OGC's contact set leaves the sheet smooth; {words}")
 
     def test_angle_defects_see_bulges_and_no_folds(self):
         side = 9
