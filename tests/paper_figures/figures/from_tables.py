@@ -56,7 +56,7 @@ class FromTables(unittest.TestCase):
                 commands = [row["redo"] for row in csv.DictReader(file)
                             if Path(row["file"]).stem == stem and row["file"].endswith((".png", ".webp"))]
             again = (f".venv/bin/python -m paper_figures.figures.from_tables OUT {name}",
-                     f"experiments/evidence cores {stem}")
+                     f"experiments/evidence cores {stem.removesuffix('_small')}")
             self.assertTrue(len(commands) == 1 and commands[0] in again, f"{name}: {commands}")
 
     def test_all_can_be_drawn(self):
