@@ -76,8 +76,8 @@ def on_gpu(row, machine=MACHINE):
 
 
 def on_cpu(row, machine=MACHINE):
-    """Returns our time on 16 CPU threads, of the whole run if there is one; else the mean of windows with equal weights,
-    and the longest step among them."""
+    """Returns our time on 16 CPU threads, of the whole run if there is one; else the mean of windows with equal
+    weights, and the longest step among them."""
     for whole in (r for r in rows_of(machine / "whole_runs.csv") if r["scene"] == f"{row}_cpu"):
         return Time(float(whole["mean [ms]"]), float(whole["worst [ms]"]))
     found = [r for r in rows_of(machine / "cpu_windows_paper.csv") if r["row"] == row]

@@ -226,9 +226,9 @@ class RunEvidence:
     def matches(self, wanted):
         """Returns whether the run is the one that a claim wants. `wanted`: keys of the manifest, and profiled, audited,
         audited_states (at least so many), membrane, contact_activation, bounds, body_contact, detection_radius_cap,
-        detection_fraction (rounded to single precision in the manifest), and steps: so many from the scene's start, not a window. A start
-        moved by --jitter, bounds other than the paper's, and bodies that may be entered match only if the claim names
-        them."""
+        detection_fraction (rounded to single precision in the manifest), and steps: so many from the scene's start, not
+        a window. A start moved by --jitter, bounds other than the paper's, and bodies that may be entered match only if
+        the claim names them."""
         m = self.manifest
         bounds = m["settings"].get("bounds", {}).get("value", PAPER_BOUNDS)
         if "jitter" in m and "jitter" not in wanted or bounds != wanted.get("bounds", PAPER_BOUNDS):
