@@ -193,8 +193,8 @@ def draw(runs, out):
     sizes = [style.pictures(len(names), NEAR if reach else SIZE) for names, reach in shown]
     # Few states show no course.
     curves = 1 if all(len(run.frames) < FEW for run in runs.values()) else 3
-    figure, axes = style.page([*sizes, (2.4, [(1 / curves, "plot")] * curves), (0.55, [(1, "picture")])], title_of(rows),
-                              below_of(runs, rows))
+    figure, axes = style.page([*sizes, (2.4, [(1 / curves, "plot")] * curves), (0.55, [(1, "picture")])],
+                              title_of(rows), below_of(runs, rows))
     letters = iter("abcdefghijklmnop")
     for places, (names, reach) in zip(axes, shown):
         draw_row(places, runs, names, [next(letters) for _ in names], reach)
