@@ -24,10 +24,11 @@ from xml.etree import ElementTree
 
 HERE = Path(__file__).parent
 COLUMNS = ("what", "asked", "of", "faults", "seeds", "seconds", "device", "commit")
-# Of each sample file or scene: the test begins with a check of the whole one, then all cases are one check.
+# The tests check each sample twice: once as it is, and once all its damaged cases together.
 CHECKS_A_SAMPLE = 2
 FILES = {"damaged mesh files": "damaged mesh files*", "damaged states and scenes": "damaged states and scenes*"}
-# Test -> how often it cuts a run off: kills of a writer; each of four scenes by each of three signals, until it ends.
+# Values are a test and how many runs it cuts off: it kills a writer five times, or cuts each of four scenes off by each
+# of three signals until it ends.
 CUTS = {"a writer killed at any moment": ("kill -9 at any moment*", 5),
         "scenes cut off until they end": ("a run that kill -9*", 12)}
 SCENES = ("cloth_on_sphere", "twist", "knot", "fifty_layers", "robot_shirt", "mat_twist", "yarn_stretch")

@@ -33,8 +33,7 @@ ROOMS = ("fast", "reference", "compare", "experiments")
 JUDGE = (*(f"compare/judge/{folder}" for folder in ("stages", "engine", "report")), "experiments/judge",
          "experiments/peers")
 DIGESTS = (*ROOMS, "judge")
-# Begin the names of files whose numbers the judge said; those of peers_cipc are of simulations.
-JUDGED = ("judge", "determinism", *(f"peers_{of}" for of in ("ipctk", "newton", "sets", "gaps", "trajectories")))
+JUDGED = ("judge", "determinism", "peers")  # begin the names of files whose numbers the judge said
 KEPT, PROVENANCE = "contents.csv", "provenance.csv"
 TRIED = "tried"  # folder below the results
 UNKNOWN = "unknown"

@@ -330,18 +330,17 @@ def ended_of(path):
 
 
 def same_sources(first, second):
-    """Returns whether two commits are one, or have the same sources by results/contents.csv."""
-    from paper_figures.workflow import contents
-
-    of = [contents.contents_of(commit, _contents())[:len(contents.ROOMS)] for commit in (first, second)]
-    return first == second or of[0] == of[1] and contents.UNKNOWN not in of[0]
+    """Returns whether two commits are one, or have the same sources."""
+    return first == second or sources_of(first) is not None and sources_of(first) == sources_of(second)
 
 
-@lru_cache(maxsize=1)
-def _contents():
-    from paper_figures.workflow import contents
+@lru_cache(maxsize=None)
+def sources_of(commit):
+    """Returns the digests of the rooms at a commit by results/contents.csv; None if it does not know them."""
+    from paper_figures.workflow import contents  # which takes RESULTS from here
 
-    return contents.kept()
+    found = contents.contents_of(commit, contents.kept())[:len(contents.ROOMS)]
+    return None if contents.UNKNOWN in found else found
 
 
 class Evidence:

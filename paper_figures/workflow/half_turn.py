@@ -25,7 +25,8 @@ FEW = 3  # steps in which a cloth is torn; each takes seconds on a CPU
 # A run on processors is stopped after so many seconds. LONGEST is for IPC's 1,200 steps, and for those of its set in
 # OGC's solver, beside OGC's; SHORTER is for runs of which the first steps tell enough.
 LONGEST, SHORTER = {"smoke": 20, "small": 1800}, {"smoke": 20, "small": 400}
-# The picture at the paper's size is of runs of `neighbours` and `wide_softer`: name there -> theirs.
+# The picture at the paper's size draws runs of `neighbours` and `wide_softer`. Keys are the runs' names in the picture,
+# values those that they have there.
 AT_PAPER = {"vbd": "neighbours/printed", "vbd_rings": "neighbours/two_rings", "vbd_k1": "neighbours/stiffness_1",
             "vbd_wide": "wide/printed", "vbd_wide_k1": "wide/stiffness_1", "vbd_wide_excluded": "wide/excluded"}
 # What could tear OGC's cloth at ten edges, one choice at a time: folder -> setting.

@@ -11,6 +11,7 @@ A figure that is not implemented has `title`, `scene` and `missing`: what the pr
 """
 
 import argparse
+import csv
 import hashlib
 import json
 import sys
@@ -239,8 +240,13 @@ def seconds_of(recipe, scale, backend, runs):
 
 
 def seconds_of_run(path):
-    """Returns the time from a run's start to its end [s]; 0 if it has not ended."""
-    return seconds_between(json.loads(path.read_text())) or 0.0
+    """Returns the time from a run's start to its end [s], or that of the steps of a run that was resumed, because such
+    a run waited; 0 if it has not ended."""
+    manifest, rows = json.loads(path.read_text()), path.with_name("steps.csv")
+    if "resumed" in manifest and rows.is_file():
+        with rows.open(newline="") as file:
+            return sum(float(row["wall [ms]"]) for row in csv.DictReader(file)) / 1000
+    return seconds_between(manifest) or 0.0
 
 
 def durations(chosen, scale, backend, runs, machine):

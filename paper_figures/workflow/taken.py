@@ -106,7 +106,7 @@ def rows(runs):
         audit = path.with_name(everything.AUDIT)
         if not path.is_file() or not (runs.partly or audit.is_file() and json.loads(audit.read_text())["complete"]):
             continue
-        # Beside the run of a device, as Table 1 has both columns.
+        # The name tells the run from that of a device, because Table 1 has both columns.
         stem = row if runs.wanted.backend == "cuda" else f"{row}_{runs.wanted.backend}"
         size = f" --scale {runs.wanted.scale}" if stem != row else ""
         words = {"figure": stem, "redo": f"{runs.redo}{size} {row}", **origin_of([manifest_of(path)])}

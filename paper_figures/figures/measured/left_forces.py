@@ -12,7 +12,8 @@ from ogc_testbed.runs import Run
 
 NAME = "left_forces"
 SCALE = "small"
-# Name -> scene and options: each kind of element, each bending, and volumes; as many steps as meet contacts.
+# Keys are the runs' names, values scene and options. The runs have every kind of element, both bendings, and volumes,
+# and so many steps that they meet contacts.
 RUNS = {"cloth_on_sphere": ("cloth_on_sphere",),
         "cloth_on_sphere_isometric": ("cloth_on_sphere", "--set", "bending=isometric_quadratic"),
         "twist_planes": ("twist", "--steps", 300, "--set", "bounds=planes"), "mat_twist": ("mat_twist", "--steps", 240),

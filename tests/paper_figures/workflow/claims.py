@@ -626,10 +626,10 @@ class OneSceneOfTwoFigures(unittest.TestCase):
     def test_a_ratio_is_of_the_same_sources(self):
         cpu = {"backend": "cpu", "device": "16 threads"}
         names = {"first": "a" * 40, "same": "b" * 40, "other": "c" * 40, "unknown": "d" * 40}
-        known = {names["first"]: ("s",) * 5, names["same"]: ("s",) * 5, names["other"]: ("t",) * 5}
+        known = {names["first"]: "s", names["same"]: "s", names["other"]: "t"}
         ratio = next(each for each in verdicts.load() if each["id"] == "cloth_on_sphere.ipc_over_vbd")
         self.make("1_ipc", "stable_neo_hookean", 6, solver="ipc", commit=names["first"], **cpu)
-        with mock.patch("paper_figures.workflow.evidence._contents", lambda: known):
+        with mock.patch("paper_figures.workflow.evidence.sources_of", known.get):
             for name in ("same", "other", "unknown"):
                 self.make(f"2_{name}", "stable_neo_hookean", 2, commit=names[name], **cpu)
                 found = Evidence(self.folder)._ratio(ratio["measure"][1],

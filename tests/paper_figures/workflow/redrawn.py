@@ -23,7 +23,7 @@ except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
 from paper_figures.workflow import ablation_tables, accept, captions, contents, recipes, redrawn, restored  # noqa: E402
-from paper_figures.workflow.evidence import RESULTS, EvidenceError, run_at, runs_in  # noqa: E402
+from paper_figures.workflow.evidence import RESULTS, EvidenceError, run_at, runs_in, same_sources  # noqa: E402
 
 ORIGIN = {"commit": "c" * 40, "compiler": "GNU", "device": "d", "ended": "2026-01-01T00:00:00Z"}
 
@@ -90,9 +90,12 @@ class Table1(unittest.TestCase):
     def test_a_whole_run_of_processors_goes_before_windows_which_have_a_star(self):
         cells = {name: texts[9] for (texts, _), (*_, name) in zip(table1_picture.table(), table1_picture.ROWS)}
         rows = table1_picture.rows_of(RESULTS / "h200/whole_runs.csv")
+        windows = {row["row"]: row for row in table1_picture.rows_of(RESULTS / "h200/cpu_windows_paper.csv")}
         whole = {row["scene"].removesuffix("_cpu"): row for row in rows if row["scene"].endswith("_cpu")}
-        windows = {row["row"] for row in table1_picture.rows_of(RESULTS / "h200/cpu_windows_paper.csv")}
-        self.assertTrue(whole)
+        old = {name for name, row in whole.items()
+               if name in windows and not same_sources(row["commit"], windows[name]["commit"])}
+        whole = {name: row for name, row in whole.items() if name not in old}
+        self.assertLessEqual({"twist", "dress_volumes"}, set(whole))
         for name, text in cells.items():
             self.assertEqual(text.endswith("*"), name in windows and name not in whole, name)
             if name in whole:

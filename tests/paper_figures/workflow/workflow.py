@@ -333,6 +333,13 @@ class Jobs(Scratch):
             manifest.write_text(json.dumps({"started": "2026-01-01T00:00:00Z", "ended": ended}))
             self.assertEqual(recipes.seconds_of_run(manifest), seconds)
 
+    def test_what_a_run_waited_until_it_was_resumed_does_not_count(self):
+        manifest, about = self.runs / "run.json", {"started": "2026-01-01T00:00:00Z", "ended": "2026-01-01T09:00:00Z"}
+        (self.runs / "steps.csv").write_text("step [1],wall [ms]\n1,1500\n2,2500\n")
+        for resumed, seconds in (({}, 9 * 3600), ({"resumed": "2026-01-01T08:59:00Z after step 1"}, 4)):
+            manifest.write_text(json.dumps({**about, **resumed}))
+            self.assertEqual(recipes.seconds_of_run(manifest), seconds)
+
     def test_the_stamp_is_rewritten_for_another_program_alone(self):
         stamp = self.runs / recipes.PROGRAM
         recipes.program_stamp(self.runs, self.ogc)
