@@ -2,7 +2,8 @@
 paper_figures.figures.ablations.study FOLDER --study NAME --ogc OGC --scale SCALE --backend BACKEND.
 
 NAME.yaml beside this file defines the study. Keys of `study`: `jitter` [m], `repeat` by scale, `audit`, `solver`
-(optional; it runs on the CPU) and `scenes`. Keys of a scene: `points` (as for --point of `ogc ablate`; all others are
+(optional; it runs on the CPU), `timed` (optional: its runs have the machine for themselves, so that their times count;
+without it the study has none) and `scenes`. Keys of a scene: `points` (as for --point of `ogc ablate`; all others are
 compared with the first; one list for each scale if they differ), `scales` (optional: the scales at which the scene is
 run), and by scale `set` (settings of all points) and `options` (further options of `ogc ablate`).
 
@@ -31,7 +32,8 @@ HERE = Path(__file__).parent
 TABLE = "ablations.csv"
 KEPT = "guarantee_kept"  # metric: number of a point's runs that kept the guarantee
 JUDGED = ("yes", "no")  # values of a run whose guarantee was audited
-KEYS = {"jitter", "repeat", "audit", "scenes", "panels", "solver"}
+KEYS = {"jitter", "repeat", "audit", "scenes", "panels", "solver", "timed"}
+TIMES = ("median_step", "worst_step")  # metrics
 SCENE_KEYS = {"points", "set", "options", "scales"}
 CAME_TO_AN_END = (0, 1)  # exit statuses of ogc ablate; 1 means that a run failed, which is a result
 AXES = 2.8  # width of a column's axes and titles beside the points' names [inches]
@@ -137,8 +139,6 @@ def rows(folder, study, scene):
         yield {"study": study, "scene": scene, "metric": KEPT, "point": point, "unit": "1", "runs": len(runs),
                "finished": ended, **dict.fromkeys(("median", "smallest", "largest"), kept), **made_by,
                "membrane": membrane(folder, point)}
-
-
     yield from time_of(folder, {"study": study, "scene": scene, **made_by})
 
 
@@ -215,9 +215,11 @@ def main():
         folder = asked.folder / scene
         if not asked.made:
             run(asked.ogc, words, folder, asked.jobs)
-        table += rows(folder, asked.study, scene)
-        findings += [f"{scene}: {line}\n" for line in (folder / "ablation_findings.txt").read_text().splitlines()]
-        metrics[scene] = ablation.read(folder)
+        hidden = () if study.get("timed") else TIMES
+        table += (row for row in rows(folder, asked.study, scene) if row["metric"] not in hidden)
+        findings += [f"{scene}: {line}\n" for line in (folder / "ablation_findings.txt").read_text().splitlines()
+                     if not line.startswith(hidden)]
+        metrics[scene] = {name: metric for name, metric in ablation.read(folder).items() if name not in hidden}
     out = asked.folder / asked.study
     write_table(asked.folder / TABLE, table)
     out.with_suffix(".txt").write_text("".join(findings))

@@ -158,7 +158,6 @@ def row_of(name, run, windows=()):
             "largest mean tension over k_c r [1]": cell(np.nanmax(pull) / most),
             "largest stretch [1]": cell(np.nanmax(run.column("largest_stretch"))),
             "smallest contact distance [m]": cell(np.nanmin(run.column("smallest_contact_distance"), initial=np.inf)),
-            "mean [ms]": cell(np.mean(run.column("wall"))), "worst [ms]": cell(np.max(run.column("wall"))),
             "scale": run.manifest["scale"], "status": run.manifest["status"].splitlines()[0],
             "ended": run.manifest["ended"], **provenance(run)}
 
