@@ -22,7 +22,7 @@ from paper_figures.workflow.runs import provenance, write_table
 from plots import render, style  # noqa: F401  tests replace render.available
 from plots.camera import around, densest, of_ends, view_of
 from plots.render import View
-from plots.scene_figure import MOVIE, audit_in_words, draw_movie, moment, show, source_of, times
+from plots.scene_figure import MOVIE, audit_in_words, draw_movie, moment, show, source_of
 from ogc_testbed.runs import Run, RunError
 
 FIGURE = {commands.STRETCH: "fig15", commands.YARN_TWIST: "fig16"}
@@ -42,7 +42,6 @@ AT_REST_SHOWN = {"released": "OGC, let go and braked", "released_frictionless": 
 AT_REST_ALT = (" Three more renderings show the cloth after it was let go and braked, with friction and without, and a "
                "cloth that was never twisted.")
 NEAR_VIEW = {commands.STRETCH: View((0.25, 1.0, 0.0), up=(1, 0, 0)), commands.YARN_TWIST: View((0.25, 0.1, 1.0))}
-PAPER_MS = {commands.STRETCH: "0.23 / 0.30", commands.YARN_TWIST: "0.25 / 0.33"}
 TITLES = {commands.STRETCH: "Fig. 15. Pulled apart, the knit holds with OGC and unravels with a penalty force",
           commands.YARN_TWIST: "Fig. 16. Twisted five turns and let go, the knit stays a knit with OGC and tangles "
                                "with a penalty force"}
@@ -333,10 +332,9 @@ def draw(scene, runs, rows, out, rested=()):
     pictures = {kind: moments(scene, runs, kind) for kind in KINDS}
     count = max(map(len, pictures.values()))
     where = "" if ours.manifest["scale"] == "paper" else f"scale {ours.manifest['scale']}; "
-    below = (f"{where}one yarn of {ours.manifest['scene']['vertices']:,} vertices, {audit_in_words(ours)}; ours "
-             f"{np.mean(times(ours)):.2g} ms a step, longest {times(ours).max():.2g} ({ours.manifest['device']}), "
-             f"paper {PAPER_MS[scene]} (RTX 4090); “penalty” (the paper's Newton): the same sweep with a "
-             "quadratic force, no bounds")
+    below = (f"{where}one yarn of {ours.manifest['scene']['vertices']:,} vertices, {audit_in_words(ours)}; "
+             f"{ours.manifest['device']}; “penalty” (the paper's Newton): the same sweep with a quadratic force, no "
+             "bounds")
     page = [*[style.pictures(count, SIZE[scene])] * 2, style.pictures(2, NEAR_SIZE),
             (2.5, [(0.5, "plot"), (0.5, "picture")]), *([style.pictures(len(rested), REST_SIZE)] if rested else [])]
     title, alt = titled(scene, rows)
