@@ -1,7 +1,7 @@
 """Takes what experiments/evidence made, and no figure keeps, into results/MACHINE: the whole runs of Table 1's rows
 with their audits, windows on the processors, the judge's counts and digests, the laws, jittered starts, the ablations,
-the measured studies, repeated runs, steps of Fig. 17 with one choice varied, and how long each part took. Each file has
-a row in provenance.csv with the command that makes it again.
+the measured studies, repeated runs, steps of Fig. 17 by Newton's method and with one choice varied, and how long each
+part took. Each file has a row in provenance.csv with the command that makes it again.
 
 Figures are kept by `experiments/reproduce FIGURE … --unpack PACKED --accept MACHINE`, which draws them.
 
@@ -25,6 +25,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from paper_figures.figures import fig17_three_cloths_on_sphere as fig17
 from paper_figures.figures.table1 import paper
 from paper_figures.workflow import accept, captions, commands, contents, everything, parts, varied
 from paper_figures.workflow import steady as repetitions
@@ -32,6 +33,7 @@ from paper_figures.workflow.contents import COLUMNS, PROVENANCE, merge, rows_of
 from paper_figures.workflow.evidence import RESULTS, SCENES
 from paper_figures.workflow.jobs import FINISHED, KEPT, RunFailure
 from paper_figures.workflow.kept import AcceptError, file_of, run_files
+from ogc_testbed.runs import Run
 
 SHORT = 10  # digits of a commit in a table
 DRAWN = "drawn"  # in the words about a picture: the file that the script drew
@@ -45,6 +47,8 @@ OF_A_START = {"bounds": "bounds", "seed": "seed", "steps [1]": "steps", "median_
               "largest_lag [m]": "largest lag [m]", "smallest_distance [m]": "smallest distance [m]",
               "median_residual [1]": "median residual [1]", "guarantee_kept": "guarantee kept",
               "final_hash": "final hash", "device": "device"}
+OF_AN_ITERATION = ("iteration [1]", "residual [1]", "energy [J]", "largest_change [m]", "share [1]", "vertices_cut [1]",
+                   "discrete_detections [1]")
 
 
 class Missing(Exception):
@@ -304,8 +308,28 @@ def solved_steps(runs):
                {"figure": part, "redo": f"{runs.redo} {part}", **words})
 
 
+def newton(runs):
+    """Yields Newton's curves of Fig. 17, a row for each and their iterations, which the figure draws (--newton)."""
+    folder, scale = runs.of("fig17"), runs.wanted.scale
+    found = [(label, run) for label, run in fig17.made(folder, runs.wanted.backends, scale)
+             if label.startswith("Newton") and run.status == "finished"]
+    if not found:
+        raise Missing("newton: no finished run of Fig. 17 by Newton's method")
+    start = Run(folder / "start")
+    words = {"figure": "fig17_newton", "redo": f"{runs.redo} fig17 fig17_double",
+             **origin_of([manifest_of(run.folder / "run.json") for _, run in found])}
+    yield f"fig17_newton_{scale}.csv", as_csv([fig17.summary(label, run, start) for label, run in found]), words
+    yield "fig17_newton_iterations.csv", as_csv([row for curve in found for row in iterations_of(*curve)]), words
+
+
+def iterations_of(label, run):
+    """Yields the rows of a curve, without the columns that one step of one solver leaves alone or that are times."""
+    for row in rows_of(run.folder / "iterations.csv"):
+        yield {"curve": label, **{name: f"{float(row[name]):.6g}" for name in OF_AN_ITERATION}}
+
+
 KINDS = {each.__name__: each for each in (rows, windows, judge, determinism, laws, jittered, ablations, measured,
-                                          steady, solved_steps, seconds)}
+                                          steady, newton, solved_steps, seconds)}
 
 
 def joined(path, data, key):

@@ -103,6 +103,21 @@ class Taken(unittest.TestCase):
             self.assertEqual(everything.accepted_seconds("twist", wanted, {}), times["twist"]["seconds"])
             self.assertIsNone(everything.accepted_seconds("knot", wanted, {}))
 
+    def test_newtons_curves_are_taken_with_the_iterations_from_which_their_numbers_come(self):
+        folder, scene = self.made / "fig17-smoke-cpu", ("three_cloths_on_sphere", "--scale", "smoke", "--steps", "1")
+        for name, words in (("start", ()), ("newton_any", ("--solver", "newton", "--iterations", "--profile",
+                                                           "--set", "newton_iterations=3")), ("vbd_cpu", ())):
+            subprocess.run([OGC, "run", *scene, *words, "--out", folder / name], check=True, capture_output=True)
+            self.change(folder / name / "run.json", commit=COMMIT, dirty=False)
+        self.assertEqual(set(self.take("newton")), {"fig17_newton_smoke.csv", "fig17_newton_iterations.csv"})
+        (row,) = rows_of(self.results / "machine/fig17_newton_smoke.csv")
+        curve = rows_of(self.results / "machine/fig17_newton_iterations.csv")
+        self.assertEqual({each["curve"] for each in curve}, {row["curve"]})
+        self.assertEqual(len(curve), int(row["iterations [1]"]) + 1)
+        # The row's number has three digits.
+        self.assertAlmostEqual(float(row["smallest_residual [1]"]), min(float(each["residual [1]"]) for each in curve),
+                               delta=1e-2 * float(row["smallest_residual [1]"]))
+
     def test_parts_of_a_table_add_up_if_they_are_of_the_same_sources(self):
         path = self.results / "machine/steady_smoke.csv"
         path.parent.mkdir()
