@@ -123,7 +123,7 @@ def row_of(name, runs):
             **{f"distance while it moves, {words} [m]": "" if counts else cell for words, cell in cells.items()},
             "touching threads within half a row still [1]": "" if not beside or kept is None else f"{kept:.6g}",
             "smallest contact distance [m]": f"{np.nanmin(run.column('smallest_contact_distance')):.6g}",
-            "mean [ms]": f"{np.mean(run.column('wall')):.6g}", "status": run.manifest["status"].splitlines()[0],
+            "status": run.manifest["status"].splitlines()[0],
             "audited states": run.manifest.get("audited_states", 0), "ended": run.manifest["ended"],
             **provenance(run)}
 
