@@ -29,6 +29,7 @@ Examples:
   experiments/evidence gpu --program bundle/ogc --time-limit 500 --pack packed --studies studies.json
   experiments/evidence gpu --cards 4 --time-limit 500 --pack packed --frames 0  # four cards side by side, tables alone
   experiments/evidence gpu --cards 4 --unpack packed --pack packed        # goes on, on another machine
+  CUDA_VISIBLE_DEVICES=0,0,0,0,0 experiments/evidence gpu --cards 5 fig15 fig16 judge  # on one card; no times are kept
   taskset -c 0-15 experiments/evidence gpu fig18_solvers windows_twist    # times of 16 processors of a larger machine
   experiments/evidence gpu judge twist fig20                              # these parts alone
 """
