@@ -73,7 +73,7 @@ CHEAP = ("rest_state", "closest_face", "closest_points", "block", "detect_vertex
 DEAR = ("plane", "volume_depth", "orientation", "sweep", "step")  # for the reference, whose answers take the time
 # Study -> whether it has scales.
 MEASURED = {"activation_load": True, "creep": True, "falling": False, "left_forces": False, "radius": True}
-MEASURED_ON_DEVICE = ("mat_volumes", "yarn_return")
+MEASURED_ON_DEVICE = ("mat_volumes",)
 SECONDS = "part_seconds.csv"  # of a machine's results: how long parts took there
 ON_DEVICE = "cuda: usable"  # what the program says of a machine with a device
 LARGEST = 2**20  # bytes of a packed file

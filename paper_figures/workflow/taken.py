@@ -25,15 +25,13 @@ import sys
 import tempfile
 from pathlib import Path
 
-from paper_figures.figures import fig17_three_cloths_on_sphere as fig17
 from paper_figures.figures.table1 import paper
-from paper_figures.workflow import accept, captions, commands, contents, everything, parts, varied
+from paper_figures.workflow import accept, captions, commands, contents, everything, parts, varied, yarn_cases
 from paper_figures.workflow import steady as repetitions
 from paper_figures.workflow.contents import COLUMNS, PROVENANCE, merge, rows_of
 from paper_figures.workflow.evidence import RESULTS, SCENES
 from paper_figures.workflow.jobs import FINISHED, KEPT, RunFailure
 from paper_figures.workflow.kept import AcceptError, file_of, run_files
-from ogc_testbed.runs import Run
 
 SHORT = 10  # digits of a commit in a table
 DRAWN = "drawn"  # in the words about a picture: the file that the script drew
@@ -272,6 +270,19 @@ def measured(runs):
         raise Missing("measured: no study is there")
 
 
+def yarn(runs):
+    """Yields the table and the picture of whether knits return, from the cases that are there."""
+    name, scale = "yarn_return", runs.wanted.scale
+    folder = runs.of(name)
+    there = runs.there([folder / case.name / "run.json" for case in yarn_cases.cases(scale)], "yarn")
+    subprocess.run([sys.executable, "-m", f"paper_figures.figures.measured.{name}", folder, "--scale", scale,
+                    "--backend", runs.wanted.backend, "--made"], check=True, stdout=subprocess.DEVNULL)
+    words = {"figure": name, "redo": f"{runs.redo} {name}", **origin_of([manifest_of(path) for path in there])}
+    for path in (folder / f"{name}_{scale}{suffix}" for suffix in (".csv", ".png")):
+        suffix, data = file_of(path)
+        yield path.stem + suffix, data, {**words, DRAWN: path}
+
+
 def seconds(runs):
     """Yields how long each finished part took, all its calls and the jobs of its chains together."""
     path, about = runs.folder / everything.TIMES, program_of(runs)
@@ -310,6 +321,9 @@ def solved_steps(runs):
 
 def newton(runs):
     """Yields Newton's curves of Fig. 17, a row for each and their iterations, which the figure draws (--newton)."""
+    # The figure needs NumPy, which the other kinds do without.
+    from paper_figures.figures import fig17_three_cloths_on_sphere as fig17
+    from ogc_testbed.runs import Run
     folder, scale = runs.of("fig17"), runs.wanted.scale
     found = [(label, run) for label, run in fig17.made(folder, runs.wanted.backends, scale)
              if label.startswith("Newton") and run.status == "finished"]
@@ -329,7 +343,7 @@ def iterations_of(label, run):
 
 
 KINDS = {each.__name__: each for each in (rows, windows, judge, determinism, laws, jittered, ablations, measured,
-                                          steady, newton, solved_steps, seconds)}
+                                          yarn, steady, newton, solved_steps, seconds)}
 
 
 def joined(path, data, key):

@@ -8,7 +8,7 @@ times by repetition: each is a command of `experiments/evidence`. Needs only Pyt
   fig17_share      that of the figure with the time of each stage, and without, in a process that is warm
   fig17_membrane   the figure's step with the other membrane; fig17_membrane_newton by Newton's method
   fig02_neighbours, fig02_wide   Fig. 2 at r of one edge and of ten, with k_c and the neighbours left out varied
-  yarn_starts      Fig. 16's return from ten starts
+  yarn_return      Fig. 16's return, with a chain for each of thirty cases, ten starts among them
 
 Each part of Fig. 17 ends with its table. Expected seconds are of one H200, or of two cores where the name ends in
 `newton`, estimated from runs of the same length until a call has measured them.
@@ -39,7 +39,7 @@ EXPECTED = {"steady_cloth_on_sphere": 15, "steady_twist": 60, "steady_knot": 220
             "steady_robot_shirt_volumes_st_venant": 40, "steady_mat_twist_planes": 220,
             "steady_mat_twist_planes_poisson": 220, "steady_mat_twist_planes_thicker": 220, "steady_yarn_stretch": 45,
             "steady_yarn_twist": 70, "fig17_printed": 900, "fig17_share": 30, "fig17_membrane": 350,
-            "fig17_membrane_newton": 3600, "fig02_neighbours": 240, "fig02_wide": 600, "yarn_starts": 1500}
+            "fig17_membrane_newton": 3600, "fig02_neighbours": 240, "fig02_wide": 600, "yarn_return": 4500}
 
 
 @dataclass(frozen=True)
@@ -257,4 +257,4 @@ def parts_of(where, wanted):
     fig02 = {"fig02_neighbours": half_turn.neighbours, "fig02_wide": half_turn.wide_softer}
     return {**found, **{name: Part(folder(FIG02), one_by_one(jobs(scale, backend)), frames=2)
                         for name, jobs in fig02.items()},
-            "yarn_starts": Part(folder("yarn_starts"), yarn_cases.from_starts(scale, backend), frames=0, last=2)}
+            "yarn_return": Part(folder("yarn_return"), yarn_cases.chains(scale, backend), frames=0, last=2)}

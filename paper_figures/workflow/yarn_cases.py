@@ -77,20 +77,13 @@ def cases(scale):
     yield from (Case(stiffness=stiffness) for stiffness in (1, 10, 100))
     yield from (Case(t, fine=fine) for fine in (False, True) for t in turns)
     yield from (Case(most, fine=True, swings=True, seed=seed) for seed in (1, 2))
-    yield from starts(scale)
+    yield from (Case(most, fine=True, seed=seed) for seed in range(1, STARTS))
     yield from (Case(most, fine=fine, swings=True) for fine in (False, True))
     yield Case(most, pace=0.25)
     yield Case(most, fine=True, friction=False)
     yield from (Case(t, stiffness=stiffness, fine=True) for stiffness in (10, 100) for t in (turns[0], most))
 
 
-def starts(scale):
-    """Yields the cases of Fig. 16's turns solved well that begin with moved vertices; with the one that is not moved
-    there are STARTS."""
-    yield from (Case(TURNS[scale][-1], fine=True, seed=seed) for seed in range(1, STARTS))
-
-
-def from_starts(scale, backend):
-    """Returns the jobs of all starts, and of the cloth beside which they hang: a chain for each."""
-    chosen = (Case(), Case(TURNS[scale][-1], fine=True), *starts(scale))
-    return tuple(tuple(case.jobs(scale, backend)) for case in chosen)
+def chains(scale, backend):
+    """Returns the jobs of all cases: a chain for each."""
+    return tuple(tuple(case.jobs(scale, backend)) for case in cases(scale))

@@ -146,6 +146,8 @@ class Taken(unittest.TestCase):
             self.take("windows")
         with self.assertRaisesRegex(taken.Missing, "judge: .*seed_1"):
             self.take("judge")
+        with self.assertRaisesRegex(taken.Missing, "yarn: .*hanging/run.json is missing"):
+            self.take("yarn")
         self.assertFalse((self.results / "machine").exists())
 
     def test_what_was_taken_before_goes_with_its_row(self):

@@ -5,6 +5,7 @@ Usage: varied.py SOURCE_DIR OGC. The standard library is enough.
 """
 
 import csv
+import dataclasses
 import gzip
 import json
 import statistics
@@ -172,13 +173,14 @@ class Plans(unittest.TestCase):
             self.assertLessEqual(set(book), set(varied.EXPECTED))
             self.assertFalse(set(book) & set(parts.book(parts.Wanted(scale="paper", backend=backend))))
 
-    def test_ten_starts_and_the_cloth_beside_them(self):
-        chains = yarn_cases.from_starts("paper", "cuda")
-        self.assertEqual(len(chains), 1 + yarn_cases.STARTS)
-        names = [chain[-1].name for chain in chains]
-        self.assertEqual(len(set(names)), len(names))
-        there = {case.name for case in yarn_cases.cases("paper")}
-        self.assertLessEqual(set(names), there)
+    def test_ten_starts_are_among_the_cases_of_yarn_and_no_two_cases_share_a_run(self):
+        chains = yarn_cases.chains("paper", "cuda")
+        runs = [job.name for chain in chains for job in chain]
+        self.assertEqual(len(set(runs)), len(runs))
+        most = yarn_cases.Case(yarn_cases.TURNS["paper"][-1], fine=True)
+        starts = [case for case in yarn_cases.cases("paper") if dataclasses.replace(case, seed=0) == most]
+        self.assertEqual(len(starts), yarn_cases.STARTS)
+        self.assertLessEqual({case.name for case in starts}, {chain[-1].name for chain in chains})
 
     def test_runs_of_the_steps_are_of_the_printed_share(self):
         for job in varied.printed("paper", "cuda")[1:-1]:
