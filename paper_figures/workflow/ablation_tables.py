@@ -23,7 +23,7 @@ SHOWN = {
     "ablation_policy": ("guarantee_kept", "detections_a_step", "largest_lag", "last_elastic_energy"),
     "ablation_redetection": ("detections_a_step", "largest_share_cut", "largest_momentum_lost_guess",
                              "last_kinetic_energy"),
-    "ablation_truncation": ("detections_a_step", "median_step", "last_elastic_energy"),
+    "ablation_truncation": ("detections_a_step", "last_elastic_energy"),
     "ablation_colours": ("detections_a_step", "last_elastic_energy", "last_kinetic_energy"),
     "ablation_iterations": ("detections_a_step", "last_elastic_energy", "last_kinetic_energy"),
     "ablation_activation": ("detections_a_step", "smallest_distance", "largest_lag"),

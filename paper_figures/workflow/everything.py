@@ -1,7 +1,7 @@
 """Makes all evidence of one program, in parts with a limit of time: `experiments/evidence` calls it.
 
 On a device (`gpu`): the runs of all figures and of Table 1 at the paper's size, what the judge counts, the laws of
-motion, jittered starts, the ablations, the measured studies of the mat and of yarn; windows on the processors come
+motion, jittered starts, the ablations, the measured study of the mat, yarn's return; windows on the processors come
 last. On processors (`cores`): the same at scale small on the CPU, the ablations at smoke, and what needs no device:
 drawings and the other measured studies. Left out are other people's programs (experiments/peers/run), sanitizers and
 fuzz, which need builds of their own, and tables about rejected ideas.

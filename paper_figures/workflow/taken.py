@@ -337,7 +337,7 @@ def newton(runs):
 
 
 def iterations_of(label, run):
-    """Yields the rows of a curve, without the columns that one step of one solver leaves alone or that are times."""
+    """Yields the rows of a curve: the columns OF_AN_ITERATION, without times, which other work beside lengthens."""
     for row in rows_of(run.folder / "iterations.csv"):
         yield {"curve": label, **{name: f"{float(row[name]):.6g}" for name in OF_AN_ITERATION}}
 

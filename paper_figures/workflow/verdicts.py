@@ -10,8 +10,8 @@ Of a setting or a count of a mesh, which whoever sets the run up decides, so tha
 Of both:
   not comparable  the claim is about another machine or another program; ours is given, and the claim that is comparable
     is named. A claim `against` another program is comparable only by the rule of ratios.py
-  not yet run     no accepted run is of the kind that the claim needs; or the number lies outside of the band, and a
-    choice of ours is not varied yet (`not_varied` of the claim), or it is a time of one run where repeats count
+  not yet run     no accepted run is of the kind that the claim needs; or the number lies outside of the band, and no
+    run made a choice of ours (`choices`, or in words `not_varied`), or it is a time of one run where repeats count
 
 `python3 -m paper_figures.workflow.verdicts` prints all, `--write` keeps them in results/verdicts.csv, `--runs FOLDER`
 judges run folders instead.
@@ -41,6 +41,7 @@ VERDICTS = ("reproduced", "refuted", *UNDECIDED)
 AS_SET = ("as printed", "not as printed", *UNDECIDED)
 STATES = ("smoke", "small")
 REPEATS = "It waits for quiet repeats of its run, as the longest step of one run may be the machine's."
+UNMADE = "It is not called refuted before runs made all choices."
 STUDY = "ablation_"  # begins the names of the files of our own studies' claims
 # Relative rounding of a number stored in single precision.
 SINGLE = 2.0**-24
@@ -160,13 +161,16 @@ def judge(claim, evidence):
     varied = [(choice["says"], _measured_with(choice, claim, evidence, wanted)) for choice in claim.get("choices", [])
               if "membrane" not in choice or measured.membrane not in ("", choice["membrane"])]
     otherwise = _other_choices(claim, varied)
+    outside = f"Our run never comes to what is claimed ({measured.source})." if math.isnan(measured.value) \
+        else f"Our number, {measured.value:.3g}, lies outside of the band ({measured.source})."
     if "not_varied" in claim:
-        words = f"Our number, {measured.value:.3g}, lies outside of the band ({measured.source})."
         wait = f"It is not called refuted before this is varied: {claim['not_varied']}."
-        return Judgement(claim, "not yet run", None, _said(words, *otherwise, wait))
+        return Judgement(claim, "not yet run", None, _said(outside, *otherwise, wait))
     if _of_one_run(claim, evidence, wanted):
         words = f"In one run it is {measured.value:.3g}, outside of the band ({measured.source})."
         return Judgement(claim, "not yet run", None, _said(REPEATS, words, *otherwise))
+    if claim["kind"] == RESULT and any(value is None for _, value in varied):
+        return Judgement(claim, "not yet run", None, _said(outside, membrane, *otherwise, UNMADE))
     return Judgement(claim, no, measured, _said(*note, *otherwise), bool(known))
 
 
@@ -310,7 +314,7 @@ def unjudged(judgements):
     is not varied; and claims that name it although they are judged."""
     judged = {j.claim["scene"] for j in judgements if j.measured or "is not judged" in j.note}
     silent = [j.claim["id"] for j in judgements if j.verdict == "not yet run" and j.claim["scene"] in judged
-              and not {"waits_for", "not_varied"} & set(j.claim) and REPEATS not in j.note]
+              and not {"waits_for", "not_varied"} & set(j.claim) and REPEATS not in j.note and UNMADE not in j.note]
     stale = [j.claim["id"] for j in judgements if j.verdict != "not yet run"
              and {"waits_for", "not_varied"} & set(j.claim)]
     return silent, stale

@@ -23,7 +23,7 @@ TITLES = {
     "ablation_redetection": "γ_e trades detections for convergence; one round of the guess loses momentum",
     "ablation_truncation": "Truncation at an update or after an iteration, single precision or double: all alike",
     "ablation_colours": "Which colours hardly matters; no colours at all (Jacobi) does",
-    "ablation_iterations": "Smaller steps use as many sweeps better than more iterations do where cloth falls",
+    "ablation_iterations": "Where cloth falls, as many sweeps do more in smaller steps than in more iterations",
     "ablation_activation": "At equal stiffness IPC's logarithm keeps layers farther apart than OGC's activation",
     "ablation_small_radius": "A contact radius as small as IPC's needs many more detections",
     "ablation_membrane": "St. Venant–Kirchhoff cloth collapses in a twist; stable Neo-Hookean cloth hardly does",

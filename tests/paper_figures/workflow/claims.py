@@ -249,7 +249,8 @@ class Judging(unittest.TestCase):
             for missing in ({"where": {"kind": "x"}}, {"column": "older than it"}):
                 more = [{"says": "κ = z", **missing}]
                 self.assertEqual(judged([8, 9], more=more),
-                                 ("refuted", f"{judged([8, 9])[1]} No run made this choice: κ = z."))
+                                 ("not yet run", "Our number, 4, lies outside of the band (fig99_paper.csv). "
+                                  f"{judged([8, 9])[1]} No run made this choice: κ = z. {verdicts.UNMADE}"))
                 self.assertEqual(judged([3, 5], more=more), ("reproduced", ""))
             self.assertEqual(judged([3, 5]), ("reproduced", ""))
             self.assertEqual(judged([8, 9], [measure]), judged([8, 9]),
@@ -574,7 +575,8 @@ class OneSceneOfTwoFigures(unittest.TestCase):
         narrow = {**about, "measure": about["measure"][1], "band": [1, 1.001]}
         self.make("1_old", "st_venant_kirchhoff", 1)
         note = verdicts.judge(narrow, Evidence(self.folder)).note
-        self.assertRegex(note, "^The membrane is St. Venant–Kirchhoff. .*made this choice: stable Neo-Hookean.$")
+        self.assertRegex(note, "The membrane is St. Venant–Kirchhoff. .*made this choice: stable Neo-Hookean. "
+                               f"{verdicts.UNMADE}$")
         self.make("2_new", "stable_neo_hookean", 2)
         judged = verdicts.judge(narrow, Evidence(self.folder))
         self.assertEqual(judged.measured.source, "2_new/run.json")

@@ -114,9 +114,9 @@ class Taken(unittest.TestCase):
         curve = rows_of(self.results / "machine/fig17_newton_iterations.csv")
         self.assertEqual({each["curve"] for each in curve}, {row["curve"]})
         self.assertEqual(len(curve), int(row["iterations [1]"]) + 1)
-        # The row's number has three digits.
+        # The row's number has three digits, so that rounding moves it by half a hundredth at most; the curve has six.
         self.assertAlmostEqual(float(row["smallest_residual [1]"]), min(float(each["residual [1]"]) for each in curve),
-                               delta=1e-2 * float(row["smallest_residual [1]"]))
+                               delta=5.1e-3 * float(row["smallest_residual [1]"]))
 
     def test_parts_of_a_table_add_up_if_they_are_of_the_same_sources(self):
         path = self.results / "machine/steady_smoke.csv"
