@@ -8,8 +8,7 @@ import re
 
 from paper_figures.workflow.evidence import RESULTS, opened
 
-FILES = {"smoke": "two_cores/ablations_smoke.csv.gz", "small": "h200/ablations_small.csv.gz",
-         "paper": "h200/ablations_paper.csv.gz"}  # the largest size last
+FILES = {"smoke": "two_cores/ablations_smoke.csv.gz", "paper": "h200/ablations_paper.csv.gz"}  # the largest size last
 # Titles and factors by metric. A column without a number in a study is left out.
 COLUMNS = {"guarantee_kept": ("kept [runs]", 1), "detections_a_step": ("detections a step", 1),
            "contacts_a_step": ("contacts a step", 1), "median_step": ("step [ms]", 1),

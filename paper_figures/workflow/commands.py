@@ -337,7 +337,7 @@ def cpu_windows(row, steps, scale, data=""):
 # Fig. 19: the mat with both kinds of bounds, with friction and without (like GIPC's measurements); windows on the CPU
 # and single steps from states of the run with planes, whose ends do not lag.
 MAT_BOUNDS = {"ball": (MAT, ()), "planes": (MAT_PLANES, PLANES)}  # row of Table 1, options
-GIPC_STEPS = {"smoke": 216, "small": 576, "paper": 2303}  # at the paper's size the number of GIPC's measured steps
+GIPC_STEPS = {"smoke": 216, "small": 576, "paper": 2303}  # at the paper's size not fewer than of GIPC
 MAT_WINDOWS = (0, 25, 50, 75)  # of the run's steps [%]: t = 0, 4, 8 and 12 s
 MAT_WINDOW_STEPS = {"smoke": 4, "small": 20, "paper": 20}
 MAT_ITERATIONS = {"smoke": (20, 80), "small": (20, 40, 80, 160), "paper": (20, 40, 80, 160, 320)}

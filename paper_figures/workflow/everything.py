@@ -246,10 +246,12 @@ def jittered(wanted):
 
 
 def studies(wanted, listed):
-    """Returns a part for each study of the ablations. `listed`: its commands by name, scene and scale."""
-    return {name: commands_of(name, [ablated("runs", scene, words, wanted.backend)
-                                     for scene, words in scenes[wanted.scale][wanted.backend].items()], wanted)
-            for name, scenes in listed.items()}
+    """Returns a part for each study of the ablations. `listed`: its commands by name, scene and scale. A study of a
+    solver that knows processors alone has no part for a device."""
+    asked = {name: scenes[wanted.scale][wanted.backend] for name, scenes in listed.items()}
+    return {name: commands_of(name, [ablated("runs", *scene, wanted.backend) for scene in scenes.items()], wanted)
+            for name, scenes in asked.items()
+            if wanted.backend == "cpu" or not any("--solver" in words for words in scenes.values())}
 
 
 def list_of_studies():

@@ -33,7 +33,7 @@ PAPER_BOUNDS = "ball"
 SURFACE, VOLUME = "surface", "volume"  # kinds of contact of a body
 NOT_RUN = "not run"  # the status of a table's row about a run that its figure lacks
 TABLES = ("fig*.csv", "table*_*.csv", "ablations*.csv", "ablations*.csv.gz", "radius*.csv", "sphere_off*.csv",
-          "yarn_return*.csv", "cpu_windows_*.csv", "steady_*.csv", "peers_cipc_*.csv")
+          "yarn_return*.csv", "cpu_windows_*.csv", "steady_*.csv", "peers_cipc_*.csv", "peers_gipc_*.csv")
 WINDOWS = "cpu_windows"  # the table of steps on the CPU from states of whole runs
 MEMBRANES = {"stable_neo_hookean": "stable Neo-Hookean", "st_venant_kirchhoff": "St. Venant–Kirchhoff"}
 

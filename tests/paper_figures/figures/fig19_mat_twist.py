@@ -68,15 +68,14 @@ class Smoke(unittest.TestCase):
             self.skipTest(made.stderr)
         self.assertEqual((made.returncode, movie.is_file()), (0, True), made.stderr)
 
-    def test_gipc_stands_beside_as_many_steps_as_were_measured_of_it_or_nowhere(self):
+    def test_gipc_stands_beside_the_same_first_steps_of_ours_or_nowhere(self):
         self.assertIsNone(fig19.gipc_times("smoke"))
         self.assertEqual(self.of(solver="gipc"), [])
-        theirs = fig19.gipc_times("paper")
-        self.assertEqual(len(theirs), commands.GIPC_STEPS["paper"])
-        self.assertAlmostEqual(np.mean(theirs), 180.5, delta=0.05)
+        self.assertLessEqual(len(fig19.gipc_times("paper")), commands.GIPC_STEPS["paper"])
         ours = self.runs["planes/free"].column("wall")
-        for steps, ratio in ((len(ours), 7 * len(ours) / np.sum(ours)), (len(ours) - 1, "")):
+        for steps in (len(ours) - 1, len(ours), len(ours) + 1):
             _, planes, gipc = fig19.without_friction(self.runs, np.full(steps, 7.0))
+            ratio = 7 * steps / np.sum(ours[:steps]) if steps <= len(ours) else ""
             self.assertEqual(planes["GIPC's time over ours [1]"], ratio)
             self.assertEqual((gipc["device"], gipc["mean [ms]"], gipc["steps [1]"]), (fig19.GIPC_DEVICE, 7, steps))
 
@@ -94,7 +93,7 @@ class Smoke(unittest.TestCase):
         found = [claim.get("measure", {}) for claim in claims]
         each = [spec for specs in found for spec in (specs if isinstance(specs, list) else [specs])]
         read = [spec for spec in each if spec.get("table") == "fig19"]
-        self.assertEqual(len(read), 2)
+        self.assertEqual(len(read), 1)
         for measure in read:
             self.assertIn(measure["column"], self.rows[0])
             for key in ("over", "under", "where"):

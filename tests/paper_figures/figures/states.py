@@ -1,6 +1,6 @@
 """What tables say of a state: a strip that lies on itself is one knot whose free part is its turn, one that is straight
-is none; the pile's energy is that of the rows; columns of Fig. 21's distances are those of the vertices; and what a
-figure shows of a packed run is packed.
+is none; the pile's energy is that of the rows; times beside GIPC's are of the same steps; columns of Fig. 21's
+distances are those of the vertices; and what a figure shows of a packed run is packed.
 
 Usage: states.py SOURCE_DIR OGC. Exit status 77: skipped, NumPy or h5py is missing.
 """
@@ -20,7 +20,7 @@ try:
     import numpy as np
 
     from paper_figures.figures import fig10_fifty_layers, fig21_activation_drop
-    from paper_figures.figures.measured import knot, pile
+    from paper_figures.figures.measured import gipc, knot, pile
     from paper_figures.workflow import parts
     from plots.scene_figure import NEAREST
     from ogc_testbed.runs import RunError
@@ -112,6 +112,34 @@ class Pile(unittest.TestCase):
             rows = pile.rows_of(run)
         self.assertEqual([row["step [1]"] for row in rows], [2, 4, 6, 8, 10, 12, 14, 16])
         self.assertEqual((rows[-1]["time [s]"], rows[-1]["kinetic energy [J]"]), ("8", "1.875"))
+
+
+class Gipc(unittest.TestCase):
+    THEIRS = [{"wall [ms]": str(wall), "newton_iterations [1]": "4"} for wall in (30, 50)]
+
+    def run_of(self, *wall, friction=0):
+        columns = {"wall": np.array(wall, float), "iterations": np.full(len(wall), 20.0)}
+        scene = {"name": "mat_twist", "bodies": [{"material": {"friction": {"value": friction}}}]}
+        return SimpleNamespace(column=columns.__getitem__, setting={"bounds": "planes"}.__getitem__, folder="mine",
+                               manifest={"scale": "paper", "commit": "c" * 40, "scene": scene})
+
+    def table(self, *runs):
+        made_by = {"solver": "vbd", "backend": "cuda", "device": "card"}
+        with mock.patch.object(gipc, "provenance", lambda _: dict(made_by)):
+            return gipc.table(self.THEIRS, "46594e0", runs)
+
+    def test_our_times_beside_gipcs_are_of_as_many_steps(self):
+        theirs, ours = self.table(self.run_of(1, 3, 100))
+        self.assertEqual((theirs["program"], theirs["version"], theirs["mean [ms]"], theirs["worst [ms]"]),
+                         ("GIPC", "46594e0", "40", "50"))
+        self.assertEqual((ours["steps"], ours["mean [ms]"], ours["worst [ms]"]), (2, "2", "3"))
+        self.assertEqual(theirs["device"], ours["device"])
+
+    def test_a_shorter_run_and_one_with_friction_are_refused(self):
+        for run, said in ((self.run_of(1), "has 1 steps, GIPC's 2"),
+                          (self.run_of(1, 3, friction=0.2), "has friction")):
+            with self.assertRaisesRegex(RunError, said):
+                self.table(run)
 
 
 class Apart(unittest.TestCase):

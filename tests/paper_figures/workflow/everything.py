@@ -307,6 +307,13 @@ class Plans(unittest.TestCase):
         self.assertLessEqual({"illustrations", *everything.MEASURED}, set(self.plan("cores", "small", "cpu")))
         self.assertNotIn("illustrations", self.plan("gpu", "paper", "cuda"))
 
+    def test_a_device_makes_no_study_of_a_solver_that_knows_processors_alone(self):
+        of_reference = {"ablation_y": {scale: {backend: {"twist": ["ablate", "twist", "--solver", "reference_vbd"]}
+                                               for backend in ("cpu", "cuda")} for scale in ("smoke", "small", "paper")}}
+        for where, scale, backend, there in (("gpu", "paper", "cuda", False), ("cores", "small", "cpu", True)):
+            with mock.patch.dict(STUDIES, of_reference):
+                self.assertEqual("ablation_y" in self.plan(where, scale, backend), there, where)
+
     def test_the_ablations_are_at_smoke_on_two_cores(self):
         for where, scale, backend, folder in (("gpu", "paper", "cuda", "ablation_x-paper-cuda"),
                                               ("cores", "small", "cpu", "ablation_x-smoke-cpu")):

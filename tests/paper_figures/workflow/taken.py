@@ -141,6 +141,10 @@ class Taken(unittest.TestCase):
             data = taken.joined(path, taken.gzip.compress((head + new).encode()), taken.JOINED["ablations"])
         self.assertEqual(taken.gzip.decompress(data).decode(), head + kept + new)
 
+    def test_a_devices_table_waits_for_no_study_of_a_solver_that_knows_processors_alone(self):
+        here, there = taken.studies_at("paper", "cpu"), taken.studies_at("paper", "cuda")
+        self.assertEqual(set(here) - set(there), {"ablation_colours", "ablation_truncation"})
+
     def test_a_table_without_one_of_its_parts_is_left_as_it_was(self):
         with self.assertRaisesRegex(taken.Missing, "windows: .*run.json is missing"):
             self.take("windows")
