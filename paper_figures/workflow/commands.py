@@ -66,7 +66,8 @@ def three_cloths(scale, backends, start_iterations=None):
     """Returns the runs of Fig. 17: the run up to the step before, each step solved to convergence (γ_e = 0); then that
     step by VBD in single precision, and by VBD and Newton in double. With γ_e = 0 also with a hundredth of ε_v, which
     the paper may have printed in cm/s, and other steps, because the paper does not name the one that it draws; Newton
-    also with other bounds than balls. `start_iterations`: of each step before, if the scene's own take too long."""
+    also with other bounds than balls, and with the printed γ_e at the other steps. `start_iterations`: of each step
+    before, if the scene's own take too long."""
     step, iterations = THREE_CLOTHS_STEP[scale], THREE_CLOTHS_ITERATIONS[scale]
     base = (THREE_CLOTHS, "--scale", scale, "--audit", "end")
     before = ("--set", f"iterations={start_iterations or iterations['vbd']}")
@@ -93,7 +94,7 @@ def three_cloths(scale, backends, start_iterations=None):
               *(Job(f"newton{suffix}", (*solve, *newton, *more), state) for suffix, more in at_step),
               *(Job(f"newton{suffix}_at_{other}", (*again, *newton, *more, "--steps", other), begin)
                 for other, begin in others
-                for suffix, more in (("_any", ANY), ("_any_pairs", (*ANY, *PAIRS)), *narrow))]
+                for suffix, more in (("", ()), ("_any", ANY), ("_any_pairs", (*ANY, *PAIRS)), *narrow))]
     return [start, *single], double
 
 

@@ -345,7 +345,11 @@ def said_by(program):
     """Returns what the program says of itself. Throws PlanError if there is none."""
     if not shutil.which(program):
         raise PlanError(f"no program at '{program}': build it first, or name it with --program")
-    return subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
+    # Runs that share a device name it several times, which CUDA takes for none.
+    named = os.environ.get("CUDA_VISIBLE_DEVICES")
+    once = {} if named is None else {"CUDA_VISIBLE_DEVICES": ",".join(dict.fromkeys(named.split(",")))}
+    return subprocess.run([program, "--version"], capture_output=True, text=True, check=True,
+                          env={**os.environ, **once}).stdout
 
 
 def check_program(said):

@@ -307,9 +307,18 @@ class Plans(unittest.TestCase):
         self.assertLessEqual({"illustrations", *everything.MEASURED}, set(self.plan("cores", "small", "cpu")))
         self.assertNotIn("illustrations", self.plan("gpu", "paper", "cuda"))
 
+    def test_a_program_is_asked_about_a_device_that_is_named_several_times_once(self):
+        with tempfile.TemporaryDirectory() as folder:
+            asked = Path(folder) / "ogc"
+            asked.write_text('#!/bin/sh\necho "devices $CUDA_VISIBLE_DEVICES"\n')
+            asked.chmod(0o755)
+            for named, said in (("0,0,0", "0"), ("1,0,1", "1,0"), ("", "")):
+                with mock.patch.dict(everything.os.environ, {"CUDA_VISIBLE_DEVICES": named}):
+                    self.assertEqual(everything.said_by(str(asked)), f"devices {said}\n")
+
     def test_a_device_makes_no_study_of_a_solver_that_knows_processors_alone(self):
-        of_reference = {"ablation_y": {scale: {backend: {"twist": ["ablate", "twist", "--solver", "reference_vbd"]}
-                                               for backend in ("cpu", "cuda")} for scale in ("smoke", "small", "paper")}}
+        asked = {backend: {"twist": ["ablate", "twist", "--solver", "reference_vbd"]} for backend in ("cpu", "cuda")}
+        of_reference = {"ablation_y": dict.fromkeys(("smoke", "small", "paper"), asked)}
         for where, scale, backend, there in (("gpu", "paper", "cuda", False), ("cores", "small", "cpu", True)):
             with mock.patch.dict(STUDIES, of_reference):
                 self.assertEqual("ablation_y" in self.plan(where, scale, backend), there, where)
