@@ -29,7 +29,7 @@ def number(cell):
 
 
 DRAWN = {  # machine/picture -> what draws the rows of the table of this name
-    "h200/quality_paper": quality_at_paper, "h200/fig16_rest_small": yarn_rest.draw,
+    "h200/quality_paper": quality_at_paper, "two_cores/fig16_rest_small": yarn_rest.draw,
     "h200/yarn_return_paper": yarn_return.draw,
     "two_cores/activation_load_small": activation_load.draw,
     "h200/growth_paper": lambda rows, out: growth.draw(numbers(rows), out),

@@ -61,7 +61,7 @@ class FromTables(unittest.TestCase):
 
     def test_all_can_be_drawn(self):
         with tempfile.TemporaryDirectory() as folder, mock.patch("builtins.print"):
-            from_tables.main(folder, ["h200/fig16_rest_small", "two_cores/falling"])
+            from_tables.main(folder, ["two_cores/fig16_rest_small", "two_cores/falling"])
             self.assertEqual({path.name for path in Path(folder).rglob("*.png")},
                              {"fig16_rest_small.png", "falling.png"})
         for name, draw in from_tables.DRAWN.items():
