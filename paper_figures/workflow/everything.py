@@ -246,12 +246,17 @@ def jittered(wanted):
 
 
 def studies(wanted, listed):
-    """Returns a part for each study of the ablations. `listed`: its commands by name, scene and scale. A study of a
-    solver that knows processors alone has no part for a device."""
-    asked = {name: scenes[wanted.scale][wanted.backend] for name, scenes in listed.items()}
+    """Returns a part for each study of the ablations. `listed`: its commands by name, scene and scale."""
     return {name: commands_of(name, [ablated("runs", *scene, wanted.backend) for scene in scenes.items()], wanted)
-            for name, scenes in asked.items()
-            if wanted.backend == "cpu" or not any("--solver" in words for words in scenes.values())}
+            for name, scenes in studies_of(listed, wanted.scale, wanted.backend).items()}
+
+
+def studies_of(listed, scale, backend):
+    """Returns study -> scene -> words of `ogc ablate` of a kind of machine: a solver that knows processors alone is not
+    asked on a device."""
+    asked = {name: scenes[scale][backend] for name, scenes in listed.items()}
+    return {name: scenes for name, scenes in asked.items()
+            if backend == "cpu" or not any("--solver" in words for words in scenes.values())}
 
 
 def list_of_studies():
@@ -345,7 +350,7 @@ def said_by(program):
     """Returns what the program says of itself. Throws PlanError if there is none."""
     if not shutil.which(program):
         raise PlanError(f"no program at '{program}': build it first, or name it with --program")
-    # Runs that share a device name it several times, which CUDA takes for none.
+    # Runs that share a device name it several times. CUDA finds no device in such a list.
     named = os.environ.get("CUDA_VISIBLE_DEVICES")
     once = {} if named is None else {"CUDA_VISIBLE_DEVICES": ",".join(dict.fromkeys(named.split(",")))}
     return subprocess.run([program, "--version"], capture_output=True, text=True, check=True,

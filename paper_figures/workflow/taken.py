@@ -213,22 +213,13 @@ def jittered(runs):
            {"figure": "jittered", "redo": f"{runs.redo} jittered", **origin_of(manifests)})
 
 
-def studies_at(scale, backend):
-    """Returns study -> names of the scenes that it has at this scale. A study of a solver that knows processors alone
-    is not of a device's evidence."""
-    from paper_figures.figures.ablations import study
-
-    loaded = {path.stem: study.load(path.stem) for path in sorted(study.HERE.glob("*.yaml"))}
-    return {name: study.scenes_at(body, scale) for name, body in loaded.items()
-            if backend == "cpu" or "solver" not in body}
-
-
 def ablations(runs):
     """Yields the table of all studies."""
     scale = "smoke" if runs.wanted.scale == "small" and runs.wanted.backend == "cpu" else runs.wanted.scale
     small = Runs(runs.folder, scale, runs.wanted.backend, runs.partly)
+    asked = everything.studies_of(everything.list_of_studies(), scale, runs.wanted.backend)
     wanted = {(name, scene): small.of(name) / "runs" / scene / "runs" / "ablation_medians.csv"
-              for name, scenes in studies_at(scale, runs.wanted.backend).items() for scene in scenes}
+              for name, scenes in asked.items() for scene in scenes}
     small.there(list(wanted.values()), "ablations")
     text, manifests = [], []
     with tempfile.TemporaryDirectory() as scratch:

@@ -17,7 +17,7 @@ from plots import style
 MOST = 3  # panels in a row
 WIDE = 20  # quotient of the largest and the smallest number from which an axis is logarithmic
 TITLES = {
-    "ablation_overhead": "Bounds add two fifths to a step where layers land, and a tenth elsewhere",
+    "ablation_overhead": "With our rounds of guess bounds add two fifths to a step where layers land, else a tenth",
     "ablation_query_radius": "A query radius of r alone needs more detections; beyond our cap nothing changes",
     "ablation_policy": "Without bounds cloth goes through cloth; planes never lag, balls do",
     "ablation_redetection": "γ_e trades detections for convergence; one round of the guess loses momentum",
@@ -104,7 +104,7 @@ def draw(study, out):
     plt = style.use()
     runs = largest_runs(study)
     rows = [(scene, size, points, shown(study, points)) for (scene, size), points in runs.items()]
-    heights = [0.55 + 0.24 * len(points) for _, _, points, _ in rows]
+    heights = [0.75 + 0.24 * len(points) for _, _, points, _ in rows]
     names = max(len(in_words(point)) for _, _, points, _ in rows for point in points)
     left, wide, high = 0.3 + 0.068 * names, 11.5, sum(heights) + 0.95
     with plt.rc_context({"figure.constrained_layout.use": False}):
@@ -114,9 +114,9 @@ def draw(study, out):
         each = (wide - left - 0.15) / MOST
         for column, metric in enumerate(metrics):
             axes = figure.add_axes(((left + column * each) / wide, (top - height + 0.3) / high, (each - 0.25) / wide,
-                                    (height - 0.55) / high))
+                                    (height - 0.75) / high))
             draw_panel(axes, metric, points, column == 0)
-            where = f"{scene.replace('_', ' ')}, {size}: " if column == 0 else ""
+            where = f"{scene.replace('_', ' ')}, {size}\n" if column == 0 else ""
             axes.set_title(where + COLUMNS[metric][0])
         top -= height
     title = TITLES[study]

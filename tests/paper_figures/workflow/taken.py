@@ -114,7 +114,7 @@ class Taken(unittest.TestCase):
         curve = rows_of(self.results / "machine/fig17_newton_iterations.csv")
         self.assertEqual({each["curve"] for each in curve}, {row["curve"]})
         self.assertEqual(len(curve), int(row["iterations [1]"]) + 1)
-        # The row's number has three digits, so that rounding moves it by half a hundredth at most; the curve has six.
+        # The row has three digits, so that rounding moves its number by at most 5e-3 of it. The curve has six digits.
         self.assertAlmostEqual(float(row["smallest_residual [1]"]), min(float(each["residual [1]"]) for each in curve),
                                delta=5.1e-3 * float(row["smallest_residual [1]"]))
 
@@ -142,7 +142,8 @@ class Taken(unittest.TestCase):
         self.assertEqual(taken.gzip.decompress(data).decode(), head + kept + new)
 
     def test_a_devices_table_waits_for_no_study_of_a_solver_that_knows_processors_alone(self):
-        here, there = taken.studies_at("paper", "cpu"), taken.studies_at("paper", "cuda")
+        listed = taken.everything.list_of_studies()
+        here, there = (taken.everything.studies_of(listed, "paper", backend) for backend in ("cpu", "cuda"))
         self.assertEqual(set(here) - set(there), {"ablation_colours", "ablation_truncation"})
 
     def test_a_table_without_one_of_its_parts_is_left_as_it_was(self):
